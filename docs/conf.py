@@ -1,8 +1,11 @@
 """The site's build: `make -C docs html`, without a request to another machine."""
 
 import re
+from pathlib import Path
 
 import sie
+from sie.live.answer import saved_answers
+from sie.live.page import saved
 
 project = "plane-contact"
 author = "the plane-contact authors"
@@ -89,5 +92,13 @@ def _as_restructured_text(*event):
     lines[:] = out
 
 
+def _save_live_page(app, failure):
+    """The page of `sie live` with its answers inside, beside the site's own pages."""
+    if failure is None and app.builder.name == "html":
+        text = saved(saved_answers())
+        (Path(app.outdir) / "live.html").write_text(text, encoding="utf-8")
+
+
 def setup(app):
+    app.connect("build-finished", _save_live_page)
     app.connect("autodoc-process-docstring", _as_restructured_text, priority=100)

@@ -19,8 +19,8 @@ Point = tuple[float, float, float, float]
 
 
 def random_path(kind: str, rng: np.random.Generator) -> list[Point]:
-    """Three to seven turning points of a path of this kind, one of `KINDS`."""
-    return [(*map(float, row),) for row in KINDS[kind](rng)]  # type: ignore[misc]
+    """Three to seven turning points of a path of this kind, one of `KINDS` or `MARCHED`."""
+    return [(*map(float, row),) for row in (KINDS | MARCHED)[kind](rng)]  # type: ignore[misc]
 
 
 def _rows(*columns: float | NDArray[np.float64]) -> NDArray[np.float64]:
@@ -91,6 +91,18 @@ def _rolling(rng: np.random.Generator) -> NDArray[np.float64]:
     return _rows(1.0 + t * rng.uniform(-0.1, 0.1), t * Q, 0.0, t * rng.uniform(-0.06, 0.06))
 
 
+def _held(rng: np.random.Generator) -> NDArray[np.float64]:
+    """Q held while σ cycles, fully reversed."""
+    Q, t = rng.uniform(0.2, 0.5), np.array([0.0, 1.0, -1.0, 1.0])
+    return _rows(1.0, rng.choice([-1.0, 1.0]) * Q, t * rng.uniform(0.2, 0.9) * (1.0 - Q), 0.0)
+
+
+def _under_tension(rng: np.random.Generator) -> NDArray[np.float64]:
+    """σ held while Q cycles, fully reversed."""
+    t, sigma = np.array([0.0, 1.0, -1.0, 1.0]), rng.uniform(0.1, 0.4)
+    return _rows(1.0, t * rng.uniform(0.3, 0.6), rng.choice([-1.0, 1.0]) * sigma, 0.0)
+
+
 KINDS: dict[str, Callable[[np.random.Generator], NDArray[np.float64]]] = {
     "constant P": _one_load,
     "oblique": _oblique,
@@ -101,4 +113,9 @@ KINDS: dict[str, Callable[[np.random.Generator], NDArray[np.float64]]] = {
     "in phase, mean Q": _mean,
     "out of phase": _out_of_phase,
     "moment": _rolling,
+}
+# Slip turns at one edge alone: layers do not answer these.
+MARCHED: dict[str, Callable[[np.random.Generator], NDArray[np.float64]]] = {
+    "mean Q, σ cycles": _held,
+    "mean σ, Q cycles": _under_tension,
 }

@@ -20,6 +20,20 @@ Array = NDArray[np.floating[Any]]
 
 MOST = 200
 
+# 1 - c/b of the flat punch by (β, f): the root of sqrt(1 - β²) = c^θ λ/π, λ by Gauss and double
+# exponential rules and inverse iteration in mpmath, 40 digits
+SLIP_WIDTHS = {
+    (0.3, 0.3): 0.35421258761338148174,
+    (0.5, 10.0): 5.1092024078689408638e-3,
+    (0.2, 0.9): 1.0313681741733389429e-4,
+    (0.03, 0.15): 1.3637928921890105363e-6,
+    (0.2, 10.0): 2.2316848698699787780e-9,
+    (0.15, 3.0): 5.4253521895273463134e-11,
+    (0.001, 0.01): 1.8188129391499430993e-13,
+    (0.1, 2.0): 7.8512691804240188278e-15,
+    (0.05, 0.65): 1.5696170669776995222e-15,
+}
+
 
 class GridContact(NamedTuple):
     """The state under the last load: midpoints, p and q there, and which cells stick."""

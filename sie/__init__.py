@@ -30,6 +30,9 @@ Units are free: any consistent set works, and nothing depends on scale.
 131.935
 """
 
+from typing import Any
+
+from . import higher_layers
 from . import interrupt as interrupt
 from .cauchy.equation import CauchyEquation
 from .certificate.trace_noise import TraceReport
@@ -48,6 +51,7 @@ from .profiles.shapes import Flat, Parabola, Power, RoundedFlat, Wedge
 from .smoothing_search import least_smoothing
 from .solution import Solution, solve
 from .steady_cycle import SteadyCycle, steady_cycle
+from .stress.fatigue import CriticalPlane
 from .stress.fretting import Cycle
 from .stress.half_plane import Stress
 from .stress.yield_limit import Peak, YieldPoint
@@ -63,6 +67,7 @@ __all__ = [
     "ZERO",
     "CauchyEquation",
     "ContactError",
+    "CriticalPlane",
     "Cycle",
     "Density",
     "Elastic",
@@ -101,3 +106,10 @@ __all__ = [
     "superposed",
     "sweep",
 ]
+
+
+def __getattr__(name: str) -> Any:
+    """`sie.plots`, whose import needs Matplotlib, when it is asked for."""
+    if name == "plots":
+        return higher_layers.module("plots")
+    raise AttributeError(f"module 'sie' has no attribute {name!r}")

@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import arguments
 from .problem.scene import Scene
 from .profiles.shapes import Parabola, RoundedFlat
+from .progress_bar import counted
 from .solution import Solution, solve
 from .stress.half_plane import Stress, Tractions
 from .stress.yield_limit import YieldPoint, peak_tension
@@ -75,7 +76,7 @@ def elastic_limits(
 ) -> ElasticLimits:
     """The chart of Fig. 6; one normal problem for each ratio."""
     found: list[list[YieldPoint]] = []
-    for ratio in ratios:
+    for ratio in counted("a/b", ratios, len(ratios)):
         base = punch(ratio, 0.0, poisson)
         found.append([_sliding(base, f).elastic_limit() for f in frictions])
     limit = np.array([[point.ratio for point in row] for row in found])

@@ -1,22 +1,21 @@
 """The command line.
 
     sie solve scene.toml            solve a scene, and print, draw or write the answer
-        [--want WHAT ...] [--plot FILE] [--csv FILE] [--history FILE] [--json [FILE]]
-        [--field FILE] [--grid NXxNY] [--points N] [--tol T]
+        [--want WHAT ...] [--plot FILE] [--csv FILE] [--json [FILE]]
+        [--field FILE] [--grid NXxNY] [--points N] [--tol T] [--quiet] [--log LEVEL]
     sie compare scene.toml fem.csv  a mesh result against the exact one: error norms, shift
-        [--tol T] [--plot FILE] [--json [FILE]]
+        [--deck FILE] [--surface Y] [--body SIDE] [--tol T] [--plot FILE] [--json [FILE]]
     sie plan scene.toml             what would be computed, what would be skipped, and why
         [--want WHAT ...]
+    sie live [scene.toml]           a page with sliders, served on this machine
+        [--port N] [--no-browser]
     sie example [NAME]              a commented scene file; without NAME, the list of them
+    sie schema                      the JSON Schema of scene files, for editors
+    sie completion bash             a script by which the shell completes commands (needs shtab)
 
 `python -m sie` is the same. In place of a file, - is standard input (the scene) or standard output
-(--csv, --history, --json). No file that a scene or a command reads is written to. Exit codes:
-
-    0      solved
-    1      solved, but the certificate is not met, or the mesh result differs by more than --tol
-    2      refused, with one sentence on standard error and no file touched
-    130    interrupted
-    141    nobody reads the output any more; the files are written
+(--csv, --json). No file that a scene or a command reads is written to. The exit codes
+are those of `command_parser.EXIT_CODES`.
 """
 
 from __future__ import annotations
@@ -28,25 +27,38 @@ import pathlib
 import sys
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
+from importlib.util import find_spec
 from itertools import combinations
 from types import ModuleType
+from typing import Any
 
 from . import __version__, files, interrupt
 from .command_parser import STANDARD, TOL, parse
 from .errors import ContactError
-from .history import PathSolution, follow
+from .history import follow
 from .interrupt import INTERRUPTED
 from .io import export, scene_file
 from .io.answers import wanted
-from .io.mesh_comparison import Comparison, compare, read_mesh
+from .io.cycle_answer import cycle_of, start_of_cycle
+from .io.mesh_comparison import compare
+from .io.mesh_difference import Comparison
+from .io.mesh_result import read_mesh
 from .io.report import summary
 from .io.scene_file import SceneFile
 from .io.stress_grid import SUFFIXES, Grid, file_bytes
 from .messages import with_short_words
 from .plan import plan
-from .problem.request import GRID
+from .problem.request import GRID, refuse_unknown_poisson
 from .solution import Solution, solve
-from .streams import discard_output, print_error, print_text
+from .stages import LOG
+from .streams import (
+    broken_to_terminal,
+    discard_output,
+    logged,
+    print_error,
+    print_text,
+    terminal_width,
+)
 
 CERTIFIED, NOT_CERTIFIED, REFUSED, UNREAD = 0, 1, 2, 141
 
@@ -76,7 +88,8 @@ def main(argv: Sequence[str] | None = None) -> int:
 def _run(argv: Sequence[str]) -> int:
     try:
         arguments = parse(argv)
-        status = COMMANDS[arguments.command](arguments)
+        with logged(getattr(arguments, "log", None)):
+            status = COMMANDS[arguments.command](arguments)
     except SystemExit as done:  # --help and --version
         status = int(done.code or 0)
     if sys.stdout is not None:
@@ -96,20 +109,20 @@ def _solve(arguments: argparse.Namespace) -> int:
             "give --field FILE too, with one of the suffixes .csv, .npz, .vti"
         )
     file = _scene(arguments)
-    if "history" in outputs and not file.load_path:
-        raise ValueError(
-            "--history writes the turning points of a load path, and the scene has none: "
-            "give [load] path, or --csv in place of --history"
-        )
     _refuse_overwriting(arguments, outputs, file)
+    _refuse_open_path(file)
+    if "yield" in file.want or "field" in outputs:
+        refuse_unknown_poisson(file.scene)
     solution = _solution(file, arguments.tol)
+    cycle = cycle_of(solution, file) if "cycle" in file.want else None
     contents = {
-        path: _content(kind, path, solution, file, arguments) for kind, path in outputs.items()
+        path: _content(kind, path, solution, file, arguments, cycle=cycle)
+        for kind, path in outputs.items()
     }
     shown = contents.pop(pathlib.Path(STANDARD), None)
-    text = shown.decode() if shown is not None else _report(solution, file, contents)
+    text = shown.decode() if shown is not None else _report(solution, file, contents, cycle)
     certified = "check" not in file.want or solution.check().ok
-    _give(contents, text)
+    _give(contents, "" if arguments.quiet and shown is None else text)
     if not certified:
         print_error(
             f"the certificate is not met to {solution.tol:.0e}: "
@@ -141,7 +154,7 @@ def _compare(arguments: argparse.Namespace) -> int:
     outputs = _outputs(arguments)
     file = _scene(arguments)
     _refuse_overwriting(arguments, outputs, file)
-    mesh = read_mesh(arguments.mesh)
+    mesh = read_mesh(arguments.mesh, arguments.deck, arguments.surface, arguments.body or "")
     solution = _solution(file, TOL)
     comparison = compare(solution, mesh, arguments.tol)
     contents = {
@@ -149,7 +162,8 @@ def _compare(arguments: argparse.Namespace) -> int:
     }
     shown = contents.pop(pathlib.Path(STANDARD), None)
     paragraphs = [str(comparison), *(f"wrote {path}" for path in contents)]
-    _give(contents, "\n\n".join(paragraphs) + "\n" if shown is None else shown.decode())
+    report = "" if arguments.quiet else "\n\n".join(paragraphs) + "\n"
+    _give(contents, report if shown is None else shown.decode())
     return CERTIFIED if comparison.ok else NOT_CERTIFIED
 
 
@@ -166,8 +180,30 @@ def _compared(
 
 def _plan(arguments: argparse.Namespace) -> int:
     file = _scene(arguments)
+    _refuse_open_path(file)
     _solution(file, TOL)  # computes nothing, but refuses a scene that is not covered
-    print_text(f"{plan(file.scene, file.want)}\n")
+    print_text(f"{broken_to_terminal(str(plan(file.scene, file.want)))}\n")
+    return CERTIFIED
+
+
+def _live(arguments: argparse.Namespace) -> int:
+    """Serve the page until Ctrl-C."""
+    file = _scene(arguments) if arguments.scene is not None else None
+    if file is not None and file.load_path:
+        raise ValueError("the scene has a load path, which no slider shows: leave [load] path out")
+    if find_spec("bokeh") is None:
+        raise ValueError('the live page is drawn by Bokeh: pip install "plane-contact[live]"')
+    # They take a second, and only this command needs them.
+    import webbrowser  # noqa: PLC0415
+
+    from .live.server import serve  # noqa: PLC0415
+
+    def announce(address: str) -> None:
+        print_text(f"{address}  (Ctrl-C ends it)\n")
+        if not arguments.no_browser:
+            webbrowser.open(address)
+
+    serve(file.scene if file is not None else None, arguments.port, announce)
     return CERTIFIED
 
 
@@ -182,8 +218,30 @@ def _example(arguments: argparse.Namespace) -> int:
     return CERTIFIED
 
 
-OUTPUTS = ("plot", "csv", "history", "json", "field")
-COMMANDS = {"solve": _solve, "compare": _compare, "plan": _plan, "example": _example}
+def _schema(_arguments: argparse.Namespace) -> int:
+    from .io.scene_schema import schema_text  # noqa: PLC0415
+
+    print_text(schema_text())
+    return CERTIFIED
+
+
+def _completion(arguments: argparse.Namespace) -> int:
+    from .shell_completion import script  # noqa: PLC0415
+
+    print_text(script(arguments.shell))
+    return CERTIFIED
+
+
+OUTPUTS = ("plot", "csv", "json", "field")
+COMMANDS = {
+    "solve": _solve,
+    "compare": _compare,
+    "plan": _plan,
+    "live": _live,
+    "example": _example,
+    "schema": _schema,
+    "completion": _completion,
+}
 
 
 # -- checks of the requests ----------------------------------------------------------------------
@@ -211,6 +269,7 @@ def _scene(arguments: argparse.Namespace) -> SceneFile:
         if standard
         else scene_file.read(arguments.scene)
     )
+    LOG.info("read %s: %r", arguments.scene, file.scene)
     return replace(file, want=want or wanted(file))
 
 
@@ -260,6 +319,8 @@ def _refuse_overwriting(
     read: dict[int | pathlib.Path, str] = {scene: "the scene file"}
     if getattr(arguments, "mesh", None) is not None:
         read[pathlib.Path(arguments.mesh)] = "the mesh result"
+        deck = arguments.deck or pathlib.Path(arguments.mesh).with_suffix(".inp")
+        read[pathlib.Path(deck)] = "the input deck"
     read |= dict.fromkeys(file.reads, "a trace that the scene reads")
     written = {f"--{kind} {path}": _place(path) for kind, path in outputs.items()} | {
         "standard output": 1
@@ -268,6 +329,12 @@ def _refuse_overwriting(
         for name, target in written.items():
             if os.path.isfile(place) and files.same(target, place):
                 raise ValueError(f"{name} would overwrite {what}: give another name")
+
+
+def _refuse_open_path(file: SceneFile) -> None:
+    """ValueError if a cycle is wanted of a path that does not close."""
+    if "cycle" in file.want:
+        start_of_cycle(file.load_path)
 
 
 def _check_picture(path: pathlib.Path) -> None:
@@ -297,6 +364,8 @@ def _content(
     solution: Solution,
     file: SceneFile,
     arguments: argparse.Namespace,
+    *,
+    cycle: dict[str, Any] | None,
 ) -> bytes:
     if kind == "field":
         units, (x1, x2) = file.units, solution.edges
@@ -309,11 +378,8 @@ def _content(
         return file_bytes(Grid(solution, *(arguments.grid or GRID)), path.suffix[1:].lower(), head)
     if kind == "csv":
         return export.csv_text(solution, file, arguments.points).encode()
-    if kind == "history":
-        assert isinstance(solution, PathSolution)
-        return export.history_text(solution.history, file, arguments.points).encode()
     if kind == "json":
-        return export.json_text(solution, file, arguments.points).encode()
+        return export.json_text(solution, file, arguments.points, cycle).encode()
     return _picture(solution, file, path.suffix[1:].lower())
 
 
@@ -328,8 +394,16 @@ def _picture(solution: Solution, file: SceneFile, suffix: str) -> bytes:
     return _style().picture_bytes(picture(solution, file.units, file.title), suffix)
 
 
-def _report(solution: Solution, file: SceneFile, written: Iterable[pathlib.Path]) -> str:
-    paragraphs = [summary(solution, file), "\n".join(f"wrote {path}" for path in written)]
+def _report(
+    solution: Solution,
+    file: SceneFile,
+    written: Iterable[pathlib.Path],
+    cycle: dict[str, Any] | None,
+) -> str:
+    paragraphs = [
+        summary(solution, file, cycle, terminal_width()),
+        "\n".join(f"wrote {path}" for path in written),
+    ]
     return "\n\n".join(p for p in paragraphs if p) + "\n"
 
 
@@ -337,6 +411,8 @@ def _give(contents: dict[pathlib.Path, bytes], text: str) -> None:
     """Write the files and print the text: both, or neither."""
     with files.writing(contents):
         print_text(text)
+    for path, data in contents.items():
+        LOG.info("wrote %s: %d bytes", path, len(data))
 
 
 def _sentence(problem: Exception) -> str:

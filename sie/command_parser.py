@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import argparse
+import math
 import os
 from collections.abc import Sequence
 from typing import Any, NoReturn
 
 from . import __version__
+from .io.mesh_result import BODIES
 from .messages import nearest
 from .problem.request import GRID, POINTS, UNASKED, WANTS
 from .streams import print_text
@@ -16,14 +18,33 @@ COMMANDS = {
     "solve": "solve a scene and print, draw or write the answer",
     "compare": "a mesh result against the exact one: error norms, best shift, a picture",
     "plan": "what would be computed, what would be skipped, and why",
+    "live": "serve a page with sliders on this machine: the contact of a scene, or of an example",
     "example": "print a commented scene file to start from",
+    "schema": "print the JSON Schema of scene files, by which an editor completes their keys",
+    "completion": "print a script by which a shell completes commands, options and files",
 }
 OPTIONS = (
-    "--want", "--plot", "--csv", "--history", "--json", "--field", "--grid", "--points", "--tol",
-    "--help", "--version",
+    "--want", "--plot", "--csv", "--json", "--field", "--grid", "--points", "--tol",
+    "--deck", "--surface", "--body", "--port", "--no-browser", "--quiet", "--log", "--help",
+    "--version",
 )  # fmt: skip
+# The files that a command reads, in the order of the command line.
+FILES = {
+    "solve": ("scene",),
+    "plan": ("scene",),
+    "compare": ("scene", "mesh"),
+    "live": ("scene",),
+}
+LEVELS = ("info", "debug")
+EXIT_CODES = """exit codes:
+  0    solved
+  1    solved, but the certificate is not met, or the mesh result differs by
+       more than --tol
+  2    refused, with one sentence on standard error and no file written
+  130  interrupted
+  141  nobody reads the output any more; the files are written"""
 STANDARD = "-"
-MOST_POINTS = 10**6
+MOST_POINTS, MOST_PORTS = 10**6, 65535
 TOL, MESH_TOL = 1e-13, 1e-2
 
 
@@ -45,49 +66,75 @@ def parse(argv: Sequence[str]) -> argparse.Namespace:
             f"did you mean {near}?" if near else f"say what to do with it, like sie solve {argv[0]}"
         )
         raise ValueError(f'there is no command "{argv[0]}": {remedy}')
-    arguments, unknown = _parser().parse_known_args(argv)
+    arguments, unknown = parser().parse_known_args(argv)
+    _order_files(arguments, argv, unknown)
     if unknown:
         near = nearest(unknown[0], OPTIONS)
         remedy = f"did you mean {near}?" if near else f"`sie {arguments.command} --help` explains"
         raise ValueError(f'"{unknown[0]}" is not understood: {remedy}')
-    words = getattr(arguments, "want", None) or []
-    if len(words) > 1 and arguments.scene is None and _names_a_scene(words[-1]):
-        arguments.scene = words.pop()  # --want takes all words that follow it, a scene too
     return arguments
 
 
-def _names_a_scene(word: str) -> bool:
-    return word not in WANTS and (
-        word == STANDARD or word.lower().endswith(".toml") or os.path.isfile(word)
-    )
+def _order_files(arguments: argparse.Namespace, argv: Sequence[str], unknown: list[str]) -> None:
+    """Give the command its files, those too that --want or --json took or that stand apart."""
+    names = FILES.get(arguments.command, ())
+    given = [getattr(arguments, name) for name in names]
+    files = [file for file in given if file is not None]
+    while unknown and len(files) < len(names) and not unknown[0].startswith("-"):
+        files.append(unknown.pop(0))
+    words, output = getattr(arguments, "want", None) or [], getattr(arguments, "json", None) or ""
+    if len(files) < len(names) and len(words) > 1 and _names_a_file(words[-1]):
+        files.append(words.pop())
+    if len(files) < len(names) and _names_a_file(output) and not output.endswith(".json"):
+        files.append(output)
+        arguments.json = STANDARD
+    for name, file in zip(names, sorted(files, key=list(argv).index), strict=False):
+        setattr(arguments, name, file)
 
 
-def _parser() -> argparse.ArgumentParser:
-    parser = _Parser(
-        prog="sie",
-        description="Plane elastic contact: edges, pressure, gap and stress, "
-        "with a certificate of their accuracy.",
-        allow_abbrev=False,
-    )
+def _names_a_file(word: str) -> bool:
+    toml = word == STANDARD or word.lower().endswith(".toml")
+    return word not in WANTS and (toml or os.path.isfile(word))
+
+
+def parser() -> argparse.ArgumentParser:
+    """The parser of all commands."""
+    common: dict[str, Any] = {
+        "allow_abbrev": False,
+        "epilog": EXIT_CODES,
+        "formatter_class": argparse.RawDescriptionHelpFormatter,
+    }
+    about = "Plane elastic contact: edges, pressure, gap and stress, and how exact they are."
+    parser = _Parser(prog="sie", description=about, **common)
     parser.add_argument("--version", action="version", version=f"sie {__version__}")
     metavar = "{" + ",".join(COMMANDS) + "}"
     subparsers = parser.add_subparsers(dest="command", required=True, metavar=metavar)
     commands = {
-        name: subparsers.add_parser(name, help=about, allow_abbrev=False)
+        name: subparsers.add_parser(name, help=about, description=about, **common)
         for name, about in COMMANDS.items()
     }
-    for name in ("solve", "compare", "plan"):
+    for name in FILES:
         commands[name].add_argument(
             "scene", nargs="?", metavar="scene.toml", help="the scene file; - is standard input"
         )
+        about = "say on standard error what is read, computed and written: info or debug"
+        commands[name].add_argument("--log", metavar="LEVEL", choices=LEVELS, help=about)
     for name in ("solve", "plan"):
         about = f"what to answer: {', '.join(WANTS)} ({', '.join(UNASKED)})"
         commands[name].add_argument("--want", nargs="+", metavar="WHAT", help=about)
     _add_outputs_of_solve(commands["solve"])
     _add_mesh_and_outputs(commands["compare"])
+    for name in ("solve", "compare"):
+        about = "print no report, only what goes to standard output by -"
+        commands[name].add_argument("--quiet", action="store_true", help=about)
+    about = "the port of the page (a free one)"
+    commands["live"].add_argument("--port", metavar="N", type=_port, default=0, help=about)
+    about = "print the page's address, and open no browser"
+    commands["live"].add_argument("--no-browser", action="store_true", help=about)
     commands["example"].add_argument(
         "name", nargs="?", metavar="NAME", help="the kind of profile; without it, the list"
     )
+    commands["completion"].add_argument("shell", metavar="SHELL", help="bash, zsh or tcsh")
     return parser
 
 
@@ -98,8 +145,7 @@ def _add_outputs_of_solve(parser: argparse.ArgumentParser) -> None:
     plot = "draw pressure, gap and shear, or with --want stress its contours: .png ..."
     everything = "write all that is wanted; without FILE, print it"
     add("--plot", "FILE", f"{plot} (needs Matplotlib)")
-    add("--csv", "FILE", "write x, pressure, gap, shear, slip")
-    add("--history", "FILE", "write the same at every turning point of a load path")
+    add("--csv", "FILE", "write x, pressure, gap, shear, slip, at every point of a load path")
     add("--json", "FILE", everything, nargs="?", const=STANDARD)
     add("--field", "FILE", "write the stress on a grid: .csv, .npz or .vti (ParaView)")
     add("--grid", "NXxNY", f"points of that grid ({GRID[0]}x{GRID[1]})", type=_grid)
@@ -112,13 +158,33 @@ def _add_mesh_and_outputs(parser: argparse.ArgumentParser) -> None:
     def add(option: str, metavar: str, about: str, **given: Any) -> None:
         parser.add_argument(option, metavar=metavar, help=about, **given)
 
-    quantities = "p, q, sxx, syy, sxy, szz or mises, named in the first line"
-    add("mesh", "fem.csv", f"columns x, depth y, and {quantities}", nargs="?")
+    formats = "CalculiX .frd and .dat, Abaqus .rpt, what meshio reads, or a table of text"
+    add("mesh", "fem.csv", f"a mesh result: {formats} with x and p, q, sxx, ...", nargs="?")
+    add("--deck", "FILE", "the input deck (.inp) with the coordinates that a .dat or .rpt lacks")
+    add("--surface", "Y", "the height of the surface in the file (found)", type=_height)
+    about = "the body that is compared, below or above it (below)"
+    add("--body", "SIDE", about, type=_side)
     about = "l2 error, relative, that is let pass (%(default)s)"
     add("--tol", "T", about, type=float, default=MESH_TOL)
     add("--plot", "FILE", "draw both and their difference (needs Matplotlib)")
     norms = "write the norms; without FILE, print them"
     add("--json", "FILE", norms, nargs="?", const=STANDARD)
+
+
+def _height(text: str) -> float:
+    try:
+        height = float(text)
+    except ValueError:
+        height = math.nan
+    if not math.isfinite(height):
+        raise argparse.ArgumentTypeError(f"{text} is not a height: give y of the surface")
+    return height
+
+
+def _side(text: str) -> str:
+    if text not in BODIES:
+        raise argparse.ArgumentTypeError(f"{text} is not a side: give {' or '.join(BODIES)}")
+    return text
 
 
 def _grid(text: str) -> tuple[int, int]:
@@ -141,3 +207,9 @@ def _points(text: str) -> int:
     if not 2 <= points <= MOST_POINTS:
         raise argparse.ArgumentTypeError(f"{text} is not a whole number from 2 to {MOST_POINTS}")
     return points
+
+
+def _port(text: str) -> int:
+    if not text.isdigit() or int(text) > MOST_PORTS:
+        raise argparse.ArgumentTypeError(f"{text} is not a port from 0 to {MOST_PORTS}")
+    return int(text)

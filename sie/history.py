@@ -13,7 +13,7 @@ each point to the next all loads change in proportion to time. What is exact, an
                                        P changing
     one end alone passes an earlier    step by step, by the shear at the start of each
     one, or slip turns at one edge     (`friction.marching`); at constant P also a stick zone that
-                                       travels
+                                       travels; several stick zones, all of which recede
 
 `friction.memory` computes the layers that a step changes, `friction.partial_slip` the slip of a
 single step, `friction.path_slip` the state at one point, and `patches.path_energy` the energy.
@@ -34,6 +34,7 @@ from typing import Any, overload
 import numpy as np
 from numpy.typing import NDArray
 
+from . import higher_layers
 from .certificate.result import ShearCertificate
 from .certificate.shear_check import marched_certificate
 from .contact.inequalities import slope_rises
@@ -42,11 +43,12 @@ from .errors import ContactError, LoadError
 from .friction.dissipation import Dissipation
 from .friction.known_zones import KnownZones
 from .friction.load_steps import Followable, turning_points
+from .friction.loads import Loads
 from .friction.marching import march
 from .friction.path_slip import MarchedSlip, PathSlip, held, step_shift
 from .friction.slip_state import NoSlip, Slip
 from .friction.states import OneSignedSlip
-from .friction.turning_point import Loads, TurningPoint
+from .friction.turning_point import TurningPoint
 from .numerics.interval import EPS, Interval
 from .patches.answer import SeveralPatches
 from .patches.dissipation import PatchDissipation, Untouched
@@ -57,6 +59,7 @@ from .problem.load_path import Path
 from .problem.path_scene import unsheared
 from .problem.request import ECONOMY
 from .problem.scene import Scene
+from .progress_bar import counted
 from .solution import Solution, solve
 from .traction.of_slope import SlopeDensity
 
@@ -353,6 +356,30 @@ class History(Sequence[Solution]):
         )
         return Plan(tuple(Step(f"step {k}", True, reason) for k, reason in enumerate(how)))
 
+    def plot(self, ax: Any = None, units: Any = None) -> Any:
+        """The loop of Q over the shift that slip allows, on axes of Matplotlib.
+
+        Parameters
+        ----------
+        ax : matplotlib.axes.Axes, optional
+            Where to draw; axes of their own, which a notebook shows, if not given.
+        units : mapping of str to str, optional
+            Labels, as of `Solution.plot`.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+            The axes that were drawn on.
+
+        Raises
+        ------
+        ValueError
+            If the path has no loop, or for other axes or units.
+        ImportError
+            If Matplotlib is not installed.
+        """
+        return higher_layers.module("plots.one_axes").of_history(self, ax, units)
+
     def rows(self) -> list[dict[str, Any]]:
         """The points of the path for files.
 
@@ -364,7 +391,7 @@ class History(Sequence[Solution]):
         """
         turned = "tilt" if self.path.tilt else "moment"
         rows = []
-        for state, point in zip(self.turning_points, self, strict=True):
+        for state, point in counted("turning points", zip(self.turning_points, self), len(self)):
             P, Q, sigma, turn = state.loads
             row: dict[str, Any] = {"normal_load": P, "tangential_load": Q, "bulk_stress": sigma}
             if self.path.tilt or self.path.moment:

@@ -1,11 +1,14 @@
-"""Words of messages: the nearest known name, a list of choices, text of a readable length."""
+"""Words of messages and reports: the nearest known name, a list of choices, readable lines."""
 
 from __future__ import annotations
 
 import difflib
 import re
+import textwrap
 from collections.abc import Iterable
 
+WIDE = 80  # columns of a report
+NAMES = 16  # columns of the names in it
 LONGEST = 60  # characters of a value that a message shows
 LONGEST_WORD = 255
 
@@ -43,3 +46,21 @@ def shortened(text: str) -> str:
 def with_short_words(sentence: object) -> str:
     """The sentence with its longest words cut: a key or a formula may be as long as a file."""
     return re.sub(rf"\S{{{LONGEST_WORD + 1},}}", lambda word: shortened(word[0]), str(sentence))
+
+
+def named_rows(*rows: tuple[str, str]) -> str:
+    """Texts beside their names, broken into lines of at most WIDE columns.
+
+    >>> print(named_rows(("tilt", "0"), ("", "not given")))
+    tilt            0
+                    not given
+    """
+    indent = " " * NAMES
+    paragraphs = (
+        textwrap.fill(
+            text, WIDE, initial_indent=f"{name:<{NAMES}}", subsequent_indent=indent,
+            break_long_words=False, break_on_hyphens=False,
+        )
+        for name, text in rows
+    )  # fmt: skip
+    return "\n".join(paragraphs)

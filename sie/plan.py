@@ -13,7 +13,7 @@ from .patches.answer import asks_for_patches
 from .problem.request import ECONOMY, sheared, wanted
 from .problem.scene import Scene, refuse_no_scene
 
-BODY = ("stress", "yield", "tension")  # what is asked of the stress in the body
+BODY = ("stress", "yield", "tension", "cycle")  # what is asked of the stress in the body
 
 # The stages of `Solution` that answer what is asked for ...
 STAGES: dict[str, tuple[str, ...]] = {
@@ -96,7 +96,7 @@ def plan(
         The question.
     want : str or iterable of str, optional
         What is asked for: "edges", "pressure", "gap", "shear", "check", "stress", "yield",
-        "tension", or attributes of the solution such as "stick", "slip" and "half_width".
+        "tension", "cycle", or attributes of the solution such as "stick", "slip" and "half_width".
     economy : collection of str, optional
         The savings that are allowed, as in `solve`.
 
@@ -231,9 +231,10 @@ def _resolution(scene: Scene, economy: Collection[str]) -> Step:
 
 def _edges(scene: Scene, economy: Collection[str]) -> str:
     if asks_for_patches(scene.profile):
+        how = "patches from a grid, their edges by Newton, verified by bounds"
         if scene.half_width is not None:
-            return "refused: a half-width is not that of several patches, give normal_load"
-        return "load given: patches from a grid, their edges by Newton, verified by bounds"
+            return f"half-width given: its load by bracketed Newton; {how}"
+        return f"load given: {how}"
     given = "half-width" if scene.half_width is not None else "load"
     if upright_law(scene, economy) is not None and scene.moment is None:
         return f"{given} given: smooth edges, in closed form"
@@ -247,7 +248,7 @@ def _edges(scene: Scene, economy: Collection[str]) -> str:
 
 def _symmetry(scene: Scene, economy: Collection[str]) -> Step:
     if asks_for_patches(scene.profile):
-        return Step("symmetry", False, "the edges of all patches are unknown")
+        return Step("symmetry", False, "not used for patches: the edges of all are unknown")
     tilted = scene.tilt != 0.0
     if scene.profile.axis is None or tilted or scene.epsilon or "symmetry" not in economy:
         reasons = (
@@ -267,6 +268,8 @@ def _symmetry(scene: Scene, economy: Collection[str]) -> Step:
 
 def _flat_pieces(scene: Scene, economy: Collection[str]) -> Step:
     name, flat = "flat pieces", int(scene.profile.pieces.is_zero.sum())
+    if asks_for_patches(scene.profile):
+        return Step(name, False, "not told apart: values of h' on all pieces are summed")
     if flat and scene.tilt == 0.0 and "zero panels" not in economy:
         return Step(name, True, f"{flat} integrated although zero: economy is switched off")
     if flat and scene.tilt == 0.0:
@@ -372,10 +375,11 @@ def _corrective(scene: Scene, economy: Collection[str]) -> Step:
         return Step(
             name, False, "|Q| = f P, full sliding: q is f times the pressure, no second solve"
         )
+    if asks_for_patches(scene.profile):
+        how = "the patches under P - |Q|/f are the stick zones: found as those under P"
+        return Step(name, True, how)
     zero = scene.profile.pieces.has_zero and scene.tau == 0.0
-    never = "; never inside the flat base, which nothing corrects" if zero else ""
-    return Step(
-        name,
-        True,
-        f"the normal solver once more, under P - |Q|/f{never}; nothing where slip goes both ways",
-    )
+    flat = "; none if nothing but the flat base sticks" if zero else ""
+    how = f"the contact under P - |Q|/f is the stick zone: found as that under P{flat}"
+    both = "; not where slip goes both ways" if scene.tau != 0.0 else ""
+    return Step(name, True, how + both)

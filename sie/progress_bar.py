@@ -1,36 +1,57 @@
-"""A progress bar on standard error."""
+"""A progress bar, by tqdm where that is installed, on work that takes more than a second.
+
+It is drawn on standard error where that is a terminal, and in a notebook, and wiped at the end.
+"""
 
 from __future__ import annotations
 
 import sys
-import time
+from collections.abc import Iterable, Iterator
+from importlib.util import find_spec
+from typing import Any, Protocol, TypeVar
 
-PATIENCE = 1.0  # seconds of work before a progress bar appears
-REDRAWN, BAR = 0.2, 24  # seconds between two pictures of the bar; its length in columns
+PATIENCE = 1.0  # seconds of work before a bar appears
+T = TypeVar("T")
 
 
-class Progress:
-    """A bar on standard error, if that is a terminal and the work is long."""
+class Bar(Protocol):
+    """What is told how much work is done."""
 
-    def __init__(self, total: int, wanted: bool) -> None:
-        self.total, self.done, self.start, self.drawn = total, 0, time.monotonic(), 0.0
-        self.seen = wanted and sys.stderr is not None and sys.stderr.isatty()
+    def update(self, n: int) -> Any:
+        """Count further points as done."""
 
-    def advance(self, points: int) -> None:
-        """Counts further points as done, and draws the bar if it is due."""
-        self.done += points
-        now = time.monotonic()
-        elapsed = now - self.start
-        if not self.seen or elapsed < PATIENCE or now - self.drawn < REDRAWN:
-            return
-        self.drawn = now
-        full = BAR * self.done // self.total
-        left = elapsed / self.done * (self.total - self.done)
-        bar = f"{'#' * full}{'-' * (BAR - full)}"
-        told = f"\rsweep |{bar}| {self.done}/{self.total}, {left:.0f} s left "
-        print(told, end="", file=sys.stderr, flush=True)
+    def close(self) -> Any:
+        """Wipe the bar."""
 
-    def clear(self) -> None:
-        """Wipes the bar, if it was drawn."""
-        if self.drawn:
-            print("\r" + " " * (BAR + 50) + "\r", end="", file=sys.stderr, flush=True)
+
+class _NoBar:
+    def update(self, n: int) -> None: ...
+
+    def close(self) -> None: ...
+
+
+def bar(name: str, total: int, wanted: bool = True) -> Bar:
+    """A bar for so many points."""
+    notebook = "ipykernel" in sys.modules
+    seen = notebook or (sys.stderr is not None and sys.stderr.isatty())
+    if not (wanted and seen and find_spec("tqdm")):
+        return _NoBar()
+    if notebook and find_spec("ipywidgets"):
+        from tqdm.notebook import tqdm  # noqa: PLC0415 -- an extra
+    else:
+        from tqdm import tqdm  # noqa: PLC0415
+    # tqdm's own thread would be there when a pool forks its workers.
+    threadless = type("tqdm", (tqdm,), {"monitor_interval": 0})
+    made: Bar = threadless(desc=name, total=total, delay=PATIENCE, leave=False)
+    return made
+
+
+def counted(name: str, items: Iterable[T], total: int) -> Iterator[T]:
+    """The items one after the other, with a bar."""
+    shown = bar(name, total)
+    try:
+        for item in items:
+            yield item
+            shown.update(1)
+    finally:
+        shown.close()

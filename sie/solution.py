@@ -5,19 +5,20 @@ Each result is computed when it is read first, and `vars(solution)` shows the co
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 from dataclasses import replace
-from functools import cached_property, partial
+from functools import partial
 from typing import Any, cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import arguments
+from . import arguments, higher_layers
 from .cauchy.density import JacobiDensity
 from .certificate.coupled_check import coupled_certificate
 from .certificate.coupled_shear_check import sheared_certificate
 from .certificate.full_stick_check import full_stick_certificate
+from .certificate.patch_shear_check import shear_certificate as shear_on_patches
 from .certificate.pressure_check import certificate
 from .certificate.result import RETREAT, Certificate, ShearCertificate
 from .certificate.shear_check import goodman_certificate, shear_certificate
@@ -50,10 +51,11 @@ from .patches.full import FullContact
 from .patches.result import PatchCertificate, worst_of
 from .problem.coverage import refuse_uncovered
 from .problem.material import Elastic
-from .problem.request import ECONOMY, sheared
+from .problem.request import ECONOMY, refuse_unknown_poisson, sheared
 from .problem.scene import Scene
 from .profiles.placed_traces import explained
 from .profiles.slope import Slope
+from .stages import stage as cached_property  # its first reading is logged
 from .stress.half_plane import Stress, Tractions
 from .stress.yield_limit import Criterion, Peak, YieldPoint, elastic_limit, peak_tension
 from .traction.base import ZERO, Density, on_line
@@ -139,12 +141,13 @@ class Solution:
             return several_patches(self.scene)
         except ContactError as error:
             told = one_patch if isinstance(one_patch, LoadError) and not error.reached else error
+            told = error if self.scene.half_width is not None else told
             raise explained(told, self.scene.profile) from None
 
     @property
     def _may_be_in_patches(self) -> bool:
         scene = self.scene
-        return scene.normal_load is not None and not scene.epsilon and not scene.profile.convex
+        return not scene.epsilon and not scene.profile.convex
 
     @property
     def as_one_patch(self) -> Normal:
@@ -411,11 +414,19 @@ class Solution:
             return coupled_certificate(state, self.scene, self.tol)
         others = self.tangential.contacts if self.sheared else ()
         if others or self._several is not None:
-            return worst_of([c.certificate(self.tol) for c in (self.in_patches, *others)])
+            each = [c.certificate(self.tol) for c in (self.in_patches, *others)]
+            return replace(worst_of(each), shear=self._shear_of_patches(each))
         found = certificate(self.slope_density, self._slope, self.tol)
         if not self.sheared:
             return found
         return replace(found, shear=self._shear_certificate)
+
+    def _shear_of_patches(self, found: Sequence[PatchCertificate]) -> ShearCertificate | None:
+        """The certificate of the shear; `found` are those of the pressures that it is made of."""
+        if not self.sheared:
+            return None
+        p = self.in_patches.pressure
+        return shear_on_patches(self.tangential, p, self._loads, self._slope, found)
 
     @property
     def _shear_certificate(self) -> ShearCertificate:
@@ -474,7 +485,11 @@ class Solution:
 
     @property
     def half_width(self) -> float:
-        """Half-width of the contact, length."""
+        """Half-width of the contact, length.
+
+        Of several patches it is half the distance of the outermost two edges; per period half of
+        the shortest interval that has all patches of a period, and half the period in full contact.
+        """
         return self.normal.edges.contact.r
 
     @property
@@ -732,6 +747,7 @@ class Solution:
         >>> round(found.y / found.half_width, 2)
         0.7
         """
+        refuse_unknown_poisson(self.scene)
         return elastic_limit(self.tractions, self.normal_load, criterion)
 
     def peak_tension(self) -> Peak:
@@ -838,6 +854,41 @@ class Solution:
         if self.scene.bonded or self.scene.coupled or several is not None:
             return ()
         return trace_reports(self.scene, self.as_one_patch.edges, self.slope_density)
+
+    def plot(self, ax: Any = None, what: str = "pressure", units: Any = None) -> Any:
+        """One panel of the picture of the contact, on axes of Matplotlib.
+
+        Parameters
+        ----------
+        ax : matplotlib.axes.Axes, optional
+            Where to draw; axes of their own, which a notebook shows, if not given.
+        what : {"pressure", "gap", "shear", "slip", "stress"}, optional
+            The quantity; "stress" draws contours of √J2 in the body.
+        units : mapping of str to str, optional
+            Labels of "length", "force" and "stress"; mm, N/mm and MPa if not given.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+            The axes that were drawn on.
+
+        Raises
+        ------
+        ValueError
+            For another name, axes or units, and for the shear of a contact without one.
+        ImportError
+            If Matplotlib is not installed.
+
+        Examples
+        --------
+        >>> import sie
+        >>> scene = sie.Scene(profile=sie.Parabola(1.0), modulus=1.0, normal_load=1.0)
+        >>> axes = sie.solve(scene).plot(what="gap")    # doctest: +SKIP
+        """
+        return higher_layers.module("plots.one_axes").of_solution(self, ax, what, units)
+
+    def _repr_html_(self) -> str:
+        return higher_layers.module("io.html_report").html(self)
 
     def with_(self, **changes: Any) -> Solution:
         """The solution of a changed scene, which keeps the stages that cannot have changed.

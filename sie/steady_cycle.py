@@ -27,6 +27,7 @@ from . import arguments
 from .errors import ContactError
 from .friction.changing_contact import ChangingContact
 from .friction.load_steps import steady_points
+from .friction.loads import Loads
 from .friction.path_slip import step_slip
 from .friction.slip_state import Slip
 from .history import History
@@ -295,6 +296,25 @@ class SteadyState:
     tractions: Tractions
     index: int
     steady: SteadyCycle
+
+    @property
+    def normal_load(self) -> float:
+        """Normal load P, force per length."""
+        return self._loads.P
+
+    @property
+    def tangential_load(self) -> float:
+        """Tangential load Q, force per length."""
+        return self._loads.Q
+
+    @property
+    def _loads(self) -> Loads:
+        return self.steady.history.turning_points[self.index].loads
+
+    @property
+    def stick(self) -> tuple[tuple[float, float], ...]:
+        """The stick zone, which at both turning points is the permanent one, lengths."""
+        return self.steady.stick
 
     @property
     def pressure(self) -> Density:

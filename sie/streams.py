@@ -3,16 +3,29 @@
 from __future__ import annotations
 
 import contextlib
+import logging
 import os
+import re
+import shutil
 import sys
+import textwrap
+from collections.abc import Iterator
+from typing import TextIO
+
+from .messages import WIDE
+from .stages import LOG
 
 # Characters that are printed at once: if standard output is not buffered, Python does not report an
 # error that occurs in the midst of one piece.
 PIECE = 4096
-# For a terminal without block elements.
+# For a terminal without block elements and Greek letters.
 PLAIN = {
     ord(fancy): plain
-    for fancy, plain in zip("▁▂▃▄▅▆▇█│└─↑∫", (*"..::--##|+-^", "int "), strict=True)
+    for fancy, plain in zip(
+        "▁▂▃▄▅▆▇█│└─↑∫σβλμµν²×−≤≥",
+        (*"..::--##|+-^", "int ", *"sbluun2x-", "<=", ">="),
+        strict=True,
+    )
 }
 
 
@@ -20,21 +33,75 @@ def print_text(text: str) -> None:
     """Print the text, in plain characters where the encoding has no others. Raises OSError."""
     if sys.stdout is None:
         raise OSError("standard output is closed: send it to a file, or to the null device")
-    encoding = getattr(sys.stdout, "encoding", None) or "utf-8"
-    try:
-        text.encode(encoding)
-    except UnicodeEncodeError:
-        text = text.translate(PLAIN).encode(encoding, "replace").decode(encoding)
+    text = _encodable(text, sys.stdout)
     for start in range(0, len(text), PIECE):
         print(text[start : start + PIECE], end="")
     sys.stdout.flush()
+
+
+def _encodable(text: str, stream: TextIO) -> str:
+    """The text, in plain characters if the stream has no others."""
+    encoding = getattr(stream, "encoding", None) or "utf-8"
+    try:
+        text.encode(encoding)
+    except UnicodeEncodeError:
+        plain = "".join(map(_plain, text.splitlines(keepends=True)))
+        return plain.encode(encoding, "replace").decode(encoding)
+    return text
+
+
+def _plain(line: str) -> str:
+    """The line in plain characters; the next wide gap makes up for what is longer."""
+    plain = line.translate(PLAIN)
+    more = len(plain) - len(line)
+    gap = rf"(?<=\S) {{{more + 1},}}"
+    return re.sub(gap, lambda spaces: spaces[0][more:], plain, count=1) if more else plain
+
+
+def terminal_width() -> int:
+    """The columns of the terminal; those of a report where output goes elsewhere."""
+    return shutil.get_terminal_size((WIDE, 24)).columns if _on_terminal() else WIDE
+
+
+def broken_to_terminal(table: str) -> str:
+    """The table with its last column broken to the terminal; unbroken where output goes elsewhere.
+
+    Its columns are at least two blanks apart.
+    """
+    if not _on_terminal():
+        return table
+    return "\n".join(
+        textwrap.fill(line, terminal_width(), subsequent_indent=" " * (line.rfind("  ") + 2))
+        for line in table.splitlines()
+    )
+
+
+def _on_terminal() -> bool:
+    return sys.stdout is not None and sys.stdout.isatty()
 
 
 def print_error(sentence: str) -> None:
     """Print a sentence on standard error, if that is open."""
     if sys.stderr is not None:
         with contextlib.suppress(OSError):
-            print("sie:", sentence, file=sys.stderr, flush=True)
+            print("sie:", _encodable(sentence, sys.stderr), file=sys.stderr, flush=True)
+
+
+@contextlib.contextmanager
+def logged(level: str | None) -> Iterator[None]:
+    """Send the log to standard error in the block, from a level on; nothing without a level."""
+    if level is None or sys.stderr is None:
+        yield
+        return
+    handler, before = logging.StreamHandler(sys.stderr), LOG.level
+    handler.setFormatter(logging.Formatter("sie: %(relativeCreated)d ms: %(message)s"))
+    LOG.addHandler(handler)
+    LOG.setLevel(level.upper())
+    try:
+        yield
+    finally:
+        LOG.removeHandler(handler)
+        LOG.setLevel(before)
 
 
 def discard_output() -> None:

@@ -28,9 +28,10 @@ import numpy as np
 from . import arguments
 from .errors import ContactError
 from .problem.scene import Scene
-from .progress_bar import Progress
+from .progress_bar import Bar, bar
 from .solution import Solution, solve
 from .sweep_result import Answer, labelled
+from .unit_labels import labels
 from .workers import outcomes
 
 Point = dict[str, Any]
@@ -97,6 +98,7 @@ def sweep(
     tol: float = 1e-13,
     chunk: int | None = None,
     progress: bool = True,
+    units: Mapping[str, str] | None = None,
 ) -> Any:
     """The wanted quantities of every scene of a grid of parameters.
 
@@ -119,14 +121,17 @@ def sweep(
     chunk : int, optional
         Points in a chunk.
     progress : bool, optional
-        Whether a bar is drawn on standard error, if that is a terminal and the work takes more than
-        a second.
+        Whether a bar is drawn, on a terminal or in a notebook, if tqdm is installed (the extra
+        `cli`) and the work takes more than a second.
+    units : mapping of str to str, optional
+        Labels of "length", "force" and "stress" for the attributes of the result; mm, N/mm and MPa
+        if they are not given. Nothing is converted.
 
     Returns
     -------
     xarray.Dataset or dict of ndarray
-        A Dataset where xarray is installed. Beside the values there is "reason", which says why a
-        point has none.
+        A Dataset where xarray is installed, with `long_name` and `units` of what the package names.
+        Beside the values there is "reason", which says why a point has none.
 
     Raises
     ------
@@ -143,22 +148,22 @@ def sweep(
     >>> [round(float(b), 6) for b in found["half_width"]]
     [0.56419, 1.128379]
     """
-    axes = _axes(scene, over)
+    axes, named = _axes(scene, over), labels(units)
     wanted = _wanted(want)
     points = list(_points(axes))
     size = _chunk_size(chunk, len(points), executor)
     chunks = [points[i : i + size] for i in range(0, len(points), size)]
-    run = _Run(Work(scene, wanted, tol), chunks, Progress(len(points), progress))
+    run = _Run(Work(scene, wanted, tol), chunks, bar("sweep", len(points), progress))
     try:
         if executor is None:
             run.here()
         else:
             run.through(executor)
     except KeyboardInterrupt:
-        raise Interrupted(labelled(axes, wanted, run.answers())) from None
+        raise Interrupted(labelled(axes, wanted, run.answers(), named)) from None
     finally:
-        run.bar.clear()
-    return labelled(axes, wanted, run.answers())
+        run.bar.close()
+    return labelled(axes, wanted, run.answers(), named)
 
 
 # -- the grid --------------------------------------------------------------------------------------
@@ -251,7 +256,7 @@ class _Run:
 
     work: Work
     chunks: list[list[Point]]
-    bar: Progress
+    bar: Bar
     found: dict[int, list[Answer]] = field(default_factory=dict)
 
     def here(self) -> None:
@@ -259,7 +264,7 @@ class _Run:
         for k, chunk in enumerate(self.chunks):
             self.found[k] = []
             last = _answer_into(self.found[k], self.work, chunk, last)
-            self.bar.advance(len(chunk))
+            self.bar.update(len(chunk))
 
     def through(self, executor: Executor) -> None:
         left: dict[int, Future[list[Answer]]] = {}
@@ -268,7 +273,7 @@ class _Run:
             with closing(outcomes(task, chunks, executor, left)) as done:
                 for k, future in done:
                     self._keep(k, future)
-                    self.bar.advance(len(self.chunks[k]))
+                    self.bar.update(len(self.chunks[k]))
         finally:
             for k, future in left.items():
                 self._keep(k, future)

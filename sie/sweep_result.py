@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Mapping
 from contextlib import suppress
 from typing import Any
 
 import numpy as np
+
+from .unit_labels import PARAMETERS, QUANTITIES, UNITS, attributes
 
 Answer = tuple[dict[str, Any], str]  # values by name, and why there are none ("" if there are)
 
@@ -18,8 +21,13 @@ PARTS = {
 }
 
 
-def labelled(axes: dict[str, list[Any]], wanted: dict[str, Any], answers: list[Answer]) -> Any:
-    """The answers over the axes, an xarray Dataset where xarray is installed."""
+def labelled(
+    axes: dict[str, list[Any]],
+    wanted: dict[str, Any],
+    answers: list[Answer],
+    units: Mapping[str, str] = UNITS,
+) -> Any:
+    """The answers over the axes, an xarray Dataset with units where xarray is installed."""
     answers = _of_one_rank(answers)
     shape = tuple(map(len, axes.values()))
     shapes: dict[str, tuple[int, ...]] = {}
@@ -53,11 +61,21 @@ def labelled(axes: dict[str, list[Any]], wanted: dict[str, Any], answers: list[A
     except ImportError:
         return {**coordinates, **data, "reason": reasons}
     dims = tuple(axes)
+    named = {name: of for name, of in wanted.items() if isinstance(of, str)}
+    named |= {part: part for of in {*named.values()} for part in PARTS.get(of, ())}
     variables = {
-        name: ((*dims, *(f"{name}_{i}" for i in range(a.ndim - len(dims)))), a)
+        name: (
+            (*dims, *(f"{name}_{i}" for i in range(a.ndim - len(dims)))),
+            a,
+            attributes(QUANTITIES, named.get(name, ""), units),
+        )
         for name, a in data.items()
     }
-    return xarray.Dataset({**variables, "reason": (dims, reasons)}, coords=coordinates)
+    along = {
+        name: (name, values, attributes(PARAMETERS, name, units))
+        for name, values in coordinates.items()
+    }
+    return xarray.Dataset({**variables, "reason": (dims, reasons)}, coords=along)
 
 
 def _of_one_rank(answers: list[Answer]) -> list[Answer]:

@@ -72,6 +72,14 @@ def test_every_script_of_the_gallery_draws_a_labelled_picture(script, monkeypatc
     assert axes and all(ax.get_xlabel() and ax.get_ylabel() for ax in axes)
 
 
+def test_the_class_sheet_runs_and_answers_its_third_question():
+    pytest.importorskip("marimo", reason="the class sheet needs the extra `teach`")
+    pytest.importorskip("matplotlib").use("Agg")
+    sheet = runpy.run_path(str(ROOT / "docs" / "class_sheet.py"))["app"]
+    _, names = sheet.run()
+    assert names["by_misfit"] == pytest.approx(names["tilted"].centre, abs=1e-12)
+
+
 def test_the_version_is_written_in_one_module():
     project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
     assert "version" in project["project"]["dynamic"]

@@ -26,12 +26,15 @@ LAYERS = (
         "interrupt",
         "inheritance",
         "errors",
+        "stages",
         "messages",
         "files",
         "streams",
         "arguments",
         "workers",
+        "higher_layers",
         "progress_bar",
+        "unit_labels",
         "sweep_result",
     ),
     ("numerics",),
@@ -44,10 +47,10 @@ LAYERS = (
     ("plan", "kept_stages"),
     ("solution",),
     ("smoothing_search", "history"),
-    ("sweep", "charts", "steady_cycle"),
+    ("sweep", "charts", "steady_cycle", "teaching"),
     ("io",),
-    ("plots",),
-    ("command_parser", "cli", "__main__"),
+    ("plots", "live"),
+    ("command_parser", "shell_completion", "cli", "__main__"),
 )
 
 
@@ -127,6 +130,17 @@ def test_no_module_of_the_solver_imports_itself_by_way_of_others():
         below.setdefault(module, set()).add(target)
     graph = graphlib.TopologicalSorter(below)
     graph.prepare()
+
+
+def test_the_modules_that_methods_hand_their_work_to_exist():
+    named = [
+        node.args[0].value
+        for path in modules("sie")
+        if "higher_layers.module(" in (text := path.read_text(encoding="utf-8"))
+        for node in ast.walk(ast.parse(text))
+        if isinstance(node, ast.Call) and ast.unparse(node.func) == "higher_layers.module"
+    ]
+    assert named and {f"sie.{name}" for name in named} <= KNOWN
 
 
 def deepest_chain():

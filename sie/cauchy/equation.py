@@ -157,9 +157,14 @@ class CauchyEquation:
                     "measure x in larger units"
                 )
         for before, after in pairwise(out):
+            if before[1] == after[0]:
+                raise ValueError(
+                    f"the intervals {before} and {after} touch: give them as one, "
+                    f"({before[0]:g}, {after[1]:g}), on which φ is one function, or leave a gap"
+                )
             if not before[1] < after[0]:
                 raise ValueError(
-                    f"the intervals {before} and {after} overlap, touch or descend: give them "
+                    f"the intervals {before} and {after} overlap or descend: give them "
                     "apart, from left to right"
                 )
         return out

@@ -29,6 +29,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie.errors import ContactError
+from sie.numerics import chebyshev
 
 from .attempt import DECAYED, Attempt
 from .density import JacobiDensity
@@ -52,14 +53,18 @@ LARGEST_GUESS = 1000  # the first size as estimated from g alone
 # After IDLE enlargements without progress an error below SETTLED is noise of g or k.
 IDLE = 3
 SETTLED = 1e-6
+# Points where g is compared with its series, and the least difference, over the largest g, that is
+# called rough.
+SCANNED, ROUGH = 2049, 1e-11
 # Once ENOUGH_SEEN unknowns and FEWEST_SEEN attempts are reached, the errors from FIRST_SEEN
 # unknowns on show whether they fall like a power of n between KINK, as those of kinks and of weak
-# singularities do, and whether a system HOPELESS times larger than the largest would be enough.
+# singularities do. It is given up where the largest size would miss the tolerance by HOPELESS, and
+# MARGIN times what it would reach is offered.
 FIRST_SEEN = 60
 ENOUGH_SEEN = 800
 FEWEST_SEEN = 5
 KINK = (0.5, 4.0)
-HOPELESS = 4.0
+HOPELESS, MARGIN = 32.0, 4.0
 # A right-hand side that is inconsistent by more than this fraction is refused.
 INCONSISTENT = 1e-9
 
@@ -82,13 +87,16 @@ def solve(problem: Problem, tol: float) -> JacobiDensity:
         else:
             idle += 1
         seen.append((sum(sizes), tried.progress))
-        hopeless = problem.k is not None and kernel is None and _never_settles(seen, tol)
+        reachable = _reachable(seen, _largest(problem))
+        hopeless = reachable > HOPELESS * tol
         sizes = _enlarged(sizes, more)
         if sum(sizes) > _largest(problem) or (idle >= IDLE and best.progress < SETTLED) or hopeless:
             reached = best.answer()
+            # A system's sizes are few: what lies between them cannot be promised.
+            offered = MARGIN * reachable if hopeless and problem.is_transform else best.progress
             raise ContactError(
                 f"the density did not settle to tol = {tol:.1e}: with n = {reached.n} nodes its "
-                f"estimated error is {reached.error:.1e}; " + _reason(problem, best),
+                f"estimated error is {reached.error:.1e}; " + _reason(problem, offered),
                 density=reached,
             )
 
@@ -102,27 +110,25 @@ def _largest(problem: Problem) -> int:
     return LARGEST_RULE if weight.is_real else LARGEST_COMPLEX_RULE
 
 
-def _never_settles(seen: list[tuple[int, float]], tol: float) -> bool:
-    """Whether the errors of a kernel without a series fall too slowly for any affordable n.
+def _reachable(seen: list[tuple[int, float]], largest: int) -> float:
+    """The error that the largest size would leave if errors fall like a power of n; otherwise 0.
 
-    They fall like a power of n where k has a kink or is singular, from the first sizes on. For a
-    kernel that is only narrow they are constant until n resolves it, and then fall faster than any
-    power.
+    They do where g or k has a kink or is singular, from the first sizes on. For a function that is
+    only narrow they are constant until n resolves it, and then fall faster than any power.
     """
     n, progress = np.array([(n, error) for n, error in seen if n >= FIRST_SEEN]).reshape(-1, 2).T
     if len(n) < FEWEST_SEEN or n[-1] < ENOUGH_SEEN:
-        return False
+        return 0.0
     order = -float(np.polyfit(np.log(n), np.log(progress), 1)[0])
-    return (
-        KINK[0] <= order <= KINK[1]
-        and n[-1] * (progress.min() / tol) ** (1.0 / order) > HOPELESS * LARGEST
-    )
+    if not KINK[0] <= order <= KINK[1]:
+        return 0.0
+    return float(progress.min() * (n[-1] / largest) ** order)
 
 
-def _reason(problem: Problem, best: Attempt) -> str:
+def _reason(problem: Problem, progress: float) -> str:
     """The reason why a density may not settle, and the remedy."""
     # Coefficients have to decay to this part of tol; it is printed to two digits.
-    enough = 1.1 * best.progress / DECAYED
+    enough = 1.1 * progress / DECAYED
     remedy = f"raise tol to {enough:.1e}" if enough < 1.0 else "smooth them"
     for weight in problem.weights:
         left = abs(
@@ -134,7 +140,30 @@ def _reason(problem: Problem, best: Attempt) -> str:
                 f"the exponent at a singular end is -1 but for {left:.1e}, so that next to all of "
                 f"φ stands at that end: {remedy}, or make that end bounded and the other singular"
             )
-    return f"g or k is noisy or not smooth: {remedy}"
+    place = _roughest(problem)
+    if place is None:
+        return f"g or k is noisy or not smooth: {remedy}"
+    return (
+        f"g is noisy or not smooth near x = {place:.6g}: {remedy}, or smooth it there; a contact's "
+        "slope h' may have breaks there, which are exact (sie.FromFunction, sie.Piecewise)"
+    )
+
+
+def _roughest(problem: Problem) -> float | None:
+    """Where g is farthest from a half of its Chebyshev series; None if that is near everywhere."""
+    if not callable(problem.g):
+        return None
+    s = chebyshev.points(SCANNED)
+    place, worst = None, 0.0
+    for interval in problem.maps:
+        x = interval.x1 + 0.5 * (interval.x2 - interval.x1) * (1.0 + s)
+        values = np.real(np.broadcast_to(problem.g(x), x.shape))
+        coefficients = chebyshev.transform(values)
+        coefficients[SCANNED // 2 :] = 0.0
+        missed = np.abs(values - chebyshev.evaluate(coefficients, s))
+        if missed.max() > max(worst, ROUGH * np.abs(values).max()):
+            place, worst = float(x[missed.argmax()]), float(missed.max())
+    return place
 
 
 def _first_sizes(problem: Problem, tol: float) -> tuple[int, ...]:

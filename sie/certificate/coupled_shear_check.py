@@ -32,6 +32,7 @@ Array = NDArray[np.float64]
 PROMISED, OF_SHEAR = 1e-10, 1e-9  # of the largest pressure, and of the largest shear in (12)
 NODES, RATIO = 14, 4.0
 NEAREST = 1e-10  # panels next to a mark: the first, in parts of the way to the next
+DISTINCT = 1e3  # roundings of x: the first of these panels at least
 NARROW = 1e-12  # half-widths: marks that are nearer are one
 LOOKS = 5  # points between two marks at which the equations are measured
 FEW = 24  # points at most
@@ -119,14 +120,16 @@ def _gaps(state: ShearedContact, scene: Scene) -> Array:
 
 def _rule(marks: tuple[float, ...]) -> tuple[Array, Array]:
     """Nodes and weights on panels that shrink towards every mark."""
-    levels = math.ceil(math.log(1.0 / NEAREST) / math.log(RATIO))
-    near = np.append(0.0, RATIO ** -np.arange(levels, -0.5, -1.0))
     y, _, w = with_weight(NODES, 0.0, 0.0)
-    part = (near[:-1, None] + np.diff(near)[:, None] * y).ravel()
-    mass = (np.diff(near)[:, None] * w).ravel()
     x, weight = [], []
     for lo, hi in itertools.pairwise(marks):
         half = 0.5 * (hi - lo)
+        # No node may be rounded to a mark, where p may be infinite
+        nearest = max(NEAREST, DISTINCT * EPS * max(abs(lo), abs(hi)) / half)
+        levels = math.ceil(math.log(1.0 / nearest) / math.log(RATIO))
+        near = np.append(0.0, RATIO ** -np.arange(levels, -0.5, -1.0))
+        part = (near[:-1, None] + np.diff(near)[:, None] * y).ravel()
+        mass = (np.diff(near)[:, None] * w).ravel()
         x += [lo + half * part, hi - half * part[::-1]]
         weight += [half * mass, half * mass[::-1]]
     return np.concatenate(x), np.concatenate(weight)

@@ -151,16 +151,21 @@ def opposing(state: Slip, slip: Array, x: Array) -> float:
 
 
 def points(held: tuple[float, float], terms: list[Term]) -> Array:
-    """The places of measurement: over a zone that sticks, half-way between nodes.
+    """The places of measurement over a zone that sticks."""
+    nodes = np.unique(np.concatenate([term.rule.x for term in terms]))
+    return places_between(held, nodes, len(terms), POINTS)
 
-    Of many terms these are the farthest apart in the neighbourhood.
+
+def places_between(held: tuple[float, float], nodes: Array, rules: int, number: int) -> Array:
+    """Places in a zone, half-way between the ascending nodes of some rules.
+
+    Of many rules these are the farthest apart in the neighbourhood.
     """
-    lo, hi = held
-    nodes, near = np.unique(np.concatenate([term.rule.x for term in terms])), len(terms) - 1
-    at = 0.5 * (lo + hi) + 0.5 * (hi - lo) * np.cos(np.pi * (np.arange(POINTS) + 0.5) / POINTS)
+    (lo, hi), near = held, rules - 1
+    at = 0.5 * (lo + hi) + 0.5 * (hi - lo) * np.cos(np.pi * (np.arange(number) + 0.5) / number)
     k = np.clip(np.searchsorted(nodes, at)[:, None] + np.arange(-near, near + 1), 1, len(nodes) - 1)
     widest = np.argmax(nodes[k] - nodes[k - 1], axis=1)
-    k = k[np.arange(POINTS), widest]
+    k = k[np.arange(number), widest]
     at = np.unique(0.5 * (nodes[k - 1] + nodes[k]))
     inside: Array = at[(at > lo) & (at < hi) & ~np.isin(at, nodes)]
     return inside
@@ -189,7 +194,8 @@ def marched_certificate(
     residual = of_change = 0.0
     for part, term, before in zip(parts, terms, lower, strict=True):
         pair = [term, before._replace(factor=-1.0)]
-        _, change, _, rounding = integrals(pair, points(part.kept, pair))
+        at = np.concatenate([points(zone, pair) for zone in part.kept_zones])
+        _, change, _, rounding = integrals(pair, at)
         missed = np.abs(change - (part.tau - part.before.tau)).max(initial=0.0)
         residual, of_change = max(residual, float(missed)), max(of_change, float(rounding.max()))
     contact, (x, _, weight, *_) = parts[-1].pressure.contact, terms[-1].rule

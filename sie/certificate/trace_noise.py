@@ -37,6 +37,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie.contact.known_contact import Edges
+from sie.messages import named_rows
 from sie.numerics.interval import EPS, Interval
 from sie.patches.noise import Answer, PatchErrors, changes
 from sie.problem.scene import Scene
@@ -161,7 +162,7 @@ class TraceReport:
         rows += [] if self.separated else [("", taken)]
         unsure = f"of {self.unsure_patches} patches an edge moves by more than half of their width"
         rows += [("", unsure)] if self.unsure_patches else []
-        return "\n".join(f"{name:<15} {text}" for name, text in rows)
+        return named_rows(*rows)
 
 
 def _listed(shown: Iterable[str], count: int, after: str = "") -> str:

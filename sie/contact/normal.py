@@ -320,9 +320,19 @@ def _searched(scene: Scene, slope: Slope, economy: Collection[str], start: float
             refuse_outside(moment, load, slope.domain, scene.profile.domain)
         search = _search(scene, slope, economy)
         edges = _of_moment(scene, search, axis) or tilt_of_moment(
-            edges_at, moment, search, scene.half_width is not None, start
+            edges_at,
+            moment,
+            search,
+            scene.half_width is not None,
+            start,
+            may_jump=_may_jump(scene),
         )
     return Normal(edges, axis is not None and edges.tilt == scene.epsilon == 0.0)
+
+
+def _may_jump(scene: Scene) -> bool:
+    """Whether the moment may jump with the tilt: where it does, several patches are sought."""
+    return scene.normal_load is not None and scene.epsilon == 0.0 and not scene.profile.convex
 
 
 def _search(scene: Scene, slope: Slope, economy: Collection[str]) -> Search:

@@ -31,9 +31,10 @@ from sie.problem.scene import Scene
 
 from .contact_growth import near_contact
 from .known_zones import KnownZones
+from .loads import Loads
 from .memory import SlippedLayer
 from .slip_state import Slip
-from .turning_point import Loads, TurningPoint
+from .turning_point import TurningPoint
 
 Array = NDArray[np.float64]
 

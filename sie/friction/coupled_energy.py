@@ -66,8 +66,7 @@ class Growth:
         self.state, self.search = state, state.search
         angle = math.asin(min(math.sqrt(state.Q / self.search.limit), 1.0))
         self.end = 1.0 - math.cbrt(1.0 - angle / (0.5 * math.pi))
-        normal = self.search.normal
-        self.first, self.last = np.array([-normal.b, -normal.b, normal.c, normal.b]), state.trial
+        self.first, self.last = self.search.first_edges, state.trial
         self._known: dict[float, tuple[Array, Array | None]] = {self.end: (self.last.edges, None)}
 
     @property

@@ -205,38 +205,41 @@ class FlatFunctions:
     # -- S -----------------------------------------------------------------------------------------
 
     def _S(self, t: Array, e: Array) -> Array:
-        return self._source(t, e) + self._acting_back(t, e) @ self._S_in_stick
+        s, (acting, back) = self._reach[0], self._acting
+        kernel = _between(t, e, s.t, s.rest)
+        S: Array = self._of_pressure(t) + kernel @ (acting + back @ self._S_in_stick)
+        return S
 
     @cached_property
     def _S_in_stick(self) -> Array:
-        at = self._stick
-        system = np.eye(len(at.t)) - self._acting_back(at.t, at.rest)
-        return np.asarray(np.linalg.solve(system, self._source(at.t, at.rest)), dtype=float)
+        s, stick, (acting, back) = self._reach[0], self._stick, self._acting
+        kernel = _between(stick.t, stick.rest, s.t, s.rest)
+        known = self._of_pressure(stick.t) + kernel @ acting
+        return np.asarray(np.linalg.solve(np.eye(len(known)) - kernel @ back, known), dtype=float)
 
-    def _source(self, t: Array, e: Array) -> Array:
-        """The part of S that friction alone causes."""
-        beta = self.beta
+    def _of_pressure(self, t: Array) -> Array:
+        """The parts of S due to A/χ in the left slip zone, and to Ψ outside."""
         beside = (1.0 / (t[:, None] + self._left_slip.t)) @ self._left_slip.weight
-        s = self._outside(1.0)
-        far = s.weight * self._potential_outside(s.t, s.rest)
-        sliding = (1.0 / (1.0 + t[:, None] * s.t)) @ far
-        s, reach = self._reach
-        J = self._due_to(self._pressure, 1.0 / (1.0 + s.t[:, None] * self._pressure.t))
-        acting = _between(t, e, s.t, s.rest) @ (reach * 2.0 * self.friction * J)
-        source: Array = (2.0 / math.pi) * self.cosine * beside
-        source += 2.0 * beta * self.friction / (math.pi * (1.0 - beta**2)) * sliding
-        source += beta * acting
-        return source
+        s, far = self._far
+        sliding = (1.0 / (1.0 + t[:, None] * s)) @ far
+        factor = self.beta * self.friction / (1.0 - self.beta**2)
+        both: Array = 2.0 / math.pi * (self.cosine * beside + factor * sliding)
+        return both
 
-    def _acting_back(self, t: Array, e: Array) -> Array:
-        """The matrix that takes S in stick to its part of S."""
-        s, reach = self._reach
-        stick = self._stick
+    @cached_property
+    def _far(self) -> tuple[Array, Array]:
+        """Places outside, and Ψ there with its weights."""
+        s = self._outside(1.0)
+        return s.t, s.weight * self._potential_outside(s.t, s.rest)
+
+    @cached_property
+    def _acting(self) -> tuple[Array, Array]:
+        """β J/χ outside with its weights: what friction causes, and the matrix for S in stick."""
+        (s, reach), stick = self._reach, self._stick
+        J = self._due_to(self._pressure, 1.0 / (1.0 + s.t[:, None] * self._pressure.t))
         r = stick.weight * self.weight(*stick[:3]) / math.pi
-        back: Array = _between(t, e, s.t, s.rest) @ (
-            reach[:, None] * (_between(s.t, s.rest, stick.t, stick.rest) * r)
-        )
-        return back
+        back = reach[:, None] * (_between(s.t, s.rest, stick.t, stick.rest) * r)
+        return self.beta * reach * 2.0 * self.friction * J, back
 
     @cached_property
     def _reach(self) -> tuple[Points, Array]:
@@ -368,14 +371,17 @@ def _poles(t: Array, e: Array, remainder: Array, a: Array) -> Array:
 
 def _inverse(t: Array, e: Array, s: Array, rest: Array) -> Array:
     """1/(1 - t² s²), given 1 - t and 1 - s."""
-    ts = t[:, None] * s
-    values: Array = 1.0 / ((e[:, None] + rest - e[:, None] * rest) * (1.0 + ts))
-    return values
+    values = e[:, None] * (1.0 - rest)
+    values += rest
+    values *= 1.0 + t[:, None] * s
+    return np.divide(1.0, values, out=values)
 
 
 def _between(t: Array, e: Array, s: Array, rest: Array) -> Array:
     """1/(1 - t s) - 1/(1 + t s)."""
-    values: Array = 2.0 * t[:, None] * s * _inverse(t, e, s, rest)
+    values = _inverse(t, e, s, rest)
+    values *= 2.0 * s
+    values *= t[:, None]
     return values
 
 

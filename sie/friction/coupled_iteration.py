@@ -6,20 +6,24 @@ is shortened until the edges keep their order and the conditions are missed by l
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from typing import Generic, NamedTuple, Protocol, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
+from sie.numerics.interval import EPS
+
 Array = NDArray[np.float64]
 
 SETTLED = 1e-12  # of the conditions, each over its size
 STALLED = 1e-9  # such is the rounding of the conditions where zones are narrow
-DIFFERENCE = 1e-6  # of a zone, for the derivatives
-MOST_STEPS = 40
+# For the derivatives, of a zone at least, and where it is so many roundings of the edges wide
+DIFFERENCE, ROUNDINGS = 1e-6, 16.0
+MOST_STEPS, IDLE = 40, 6  # and how many at most may not halve what is missed
 KEPT = 0.2  # of each zone: what a step leaves of it at least
-SHORTEST = 1e-4  # part of a step
+SHORTER, SHORTEST = 0.3, 1e-6  # parts of a step
 GAINED, RENEWED = 0.1, 0.3  # of the error: what a step has to gain, and above what is renewed
 
 
@@ -31,6 +35,16 @@ class Missing(Protocol):
 
     @property
     def missed(self) -> Array: ...
+
+
+class Steps(Protocol):
+    """How far edges may move, and where a step takes them."""
+
+    def room(self, edges: Array) -> Array:
+        """How far each edge may move; not positive where edges are not allowed."""
+
+    def ahead(self, edges: Array, step: Array) -> Array:
+        """The edges after a step, which may be bent."""
 
 
 T = TypeVar("T", bound=Missing)
@@ -46,23 +60,25 @@ class Root(NamedTuple, Generic[T]):
 def iterated(
     trial: Callable[[Array], T],
     edges: Array,
-    room: Callable[[Array], Array],
+    steps: Steps,
     slopes: Array | None = None,
     settled: float = SETTLED,
 ) -> Root[T] | None:
     """The trial that meets the conditions, None where none is reached.
 
-    `room` is how far each edge may move; it is not positive where edges are not allowed. `slopes`
-    may be those of a state close by.
+    `slopes` may be those of a state close by.
     """
-    if not (room(edges) > 0.0).all():
+    if not (steps.room(edges) > 0.0).all():
         return None
-    now = trial(edges)
+    now, errors = trial(edges), [math.inf] * IDLE
     for _ in range(MOST_STEPS):
+        errors.append(_error(now))
+        if errors[-1] > 0.5 * errors[-IDLE]:
+            break
         fresh = slopes is None
-        used = _slopes(trial, now, room) if slopes is None else slopes.copy()
+        used = _slopes(trial, now, steps) if slopes is None else slopes.copy()
         step = np.asarray(-np.linalg.solve(used, now.missed), dtype=float)
-        moved = _moved(trial, now, step, room)
+        moved = _moved(trial, now, step, steps)
         if moved is None:
             if fresh:
                 break
@@ -78,7 +94,7 @@ def iterated(
             # One step more: where q is much less than f p, Q is told by the last digits
             last = now.edges - np.asarray(np.linalg.solve(used, now.missed), dtype=float)
             return Root(
-                min(now, trial(last), key=_error) if (room(last) > 0.0).all() else now, used
+                min(now, trial(last), key=_error) if (steps.room(last) > 0.0).all() else now, used
             )
     return Root(now, slopes) if _error(now) < STALLED else None
 
@@ -87,11 +103,11 @@ def _error(one: Missing) -> float:
     return float(np.abs(one.missed).max())
 
 
-def _slopes(
-    trial: Callable[[Array], Missing], now: Missing, room: Callable[[Array], Array]
-) -> Array:
+def _slopes(trial: Callable[[Array], Missing], now: Missing, steps: Steps) -> Array:
     """∂(what is missed)/∂(edges)."""
-    slopes, step = np.empty((4, 4)), DIFFERENCE * room(now.edges)
+    slopes, near = np.empty((4, 4)), steps.room(now.edges)
+    # Of a narrow zone a difference as short as rounding of the edges tells nothing
+    step = near * np.maximum(DIFFERENCE, np.sqrt(ROUNDINGS * EPS * np.ptp(now.edges) / near))
     for k in range(4):
         other = now.edges
         other[k] += step[k]
@@ -99,16 +115,14 @@ def _slopes(
     return slopes
 
 
-def _moved(
-    trial: Callable[[Array], T], now: T, step: Array, room: Callable[[Array], Array]
-) -> T | None:
-    """The trial after as much of the step as is allowed and gains."""
+def _moved(trial: Callable[[Array], T], now: T, step: Array, steps: Steps) -> T | None:
+    """The trial after as large a part of a step as is allowed and gains."""
     part = 1.0 if np.isfinite(step).all() else 0.0
     while part >= SHORTEST:
-        new = now.edges + part * step
-        if (np.diff(new) > KEPT * np.diff(now.edges)).all() and (room(new) > 0.0).all():
+        new = steps.ahead(now.edges, part * step)
+        if (np.diff(new) > KEPT * np.diff(now.edges)).all() and (steps.room(new) > 0.0).all():
             found = trial(new)
             if _error(found) < max((1.0 - GAINED * part) * _error(now), SETTLED):
                 return found
-        part *= 0.5
+        part *= SHORTER
     return None

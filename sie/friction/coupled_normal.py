@@ -33,9 +33,13 @@ from .coupled_profile import GrowthPanel
 Array = NDArray[np.float64]
 
 WIDER = 1.0 + 64.0 * EPS  # than the frictionless contact: as far as P' is known
+NEARLY, NEWTONS = 1e-6, 2  # of P, and Newton's steps that leave its rounding of that
 TINIEST = 1e-30  # of the frictionless contact: no load is so light beside it
 # Points where the symmetry of a profile is measured, and to what part of its largest slope.
 LOOKS, EVEN = 64, 1e-10
+AXIS_ROUNDING = (
+    256.0 * EPS
+)  # half-widths: such is the rounding of the frictionless contact's centre
 
 
 def _axis(scene: Scene, bound: Edges) -> float:
@@ -53,7 +57,10 @@ def _axis(scene: Scene, bound: Edges) -> float:
             "symmetric profiles are solved, as others tilt the stick zone while the load grows; "
             "set friction = 0, or give dundurs = 0 to neglect β"
         )
-    return contact.m
+    breaks = profile.pieces.breaks
+    nearest = float(breaks[np.argmin(np.abs(breaks - contact.m))])
+    # The axis of a symmetric trace is one of its points, or half-way between two
+    return nearest if abs(nearest - contact.m) <= AXIS_ROUNDING * contact.r else contact.m
 
 
 def _growth(
@@ -156,7 +163,7 @@ def _width(
         return farthest, load(farthest), 0.0
     P, most = scene.normal_load, load(farthest * WIDER)
     if most >= P:
-        return _root(load, P, farthest * WIDER), P, 0.0
+        return _root(growth, load, P, farthest * WIDER), P, 0.0
     if sharp:
         return farthest, P, P - load(farthest)
     raise LoadError(
@@ -165,7 +172,9 @@ def _width(
     )
 
 
-def _root(load: Callable[[float], float], P: float, farthest: float) -> float:
+def _root(
+    growth: tuple[GrowthPanel, ...], load: Callable[[float], float], P: float, farthest: float
+) -> float:
     """The distance from the first place of contact at which ∫P' = P, to relative accuracy."""
     hi = farthest
     while load(0.5 * hi) > P and hi > TINIEST * farthest:
@@ -174,9 +183,17 @@ def _root(load: Callable[[float], float], P: float, farthest: float) -> float:
     ends = load(lo) / P - 1.0, load(hi) / P - 1.0
     if ends[1] <= 0.0:
         return hi
-    return false_position(
-        lambda a: load(a) / P - 1.0, lo, hi, ends, lambda a, b, missed: abs(missed) <= 2.0 * EPS
+    root = false_position(
+        lambda a: load(a) / P - 1.0, lo, hi, ends, lambda a, b, missed: abs(missed) <= NEARLY
     )
+    for _ in range(NEWTONS):
+        panel = next(p for p in growth if root <= p.hi or p is growth[-1])
+        rate = float(panel(np.array([root - panel.lo]))[0])
+        missed = P - load(root)
+        if not abs(missed) < rate * (hi - lo):
+            break
+        root += missed / rate
+    return root
 
 
 def _refuse_falling(growth: tuple[GrowthPanel, ...], ahead: float, axis: float) -> None:

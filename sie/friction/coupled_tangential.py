@@ -13,14 +13,15 @@ stick zone x0 ± l sqrt(1 - Q/(f P)) where the slip gradient of full sliding les
 
     G = f E*/2 h' + β (1 + f²) p_s - γ,
 
-passes zero; there f p - q solves the equation of a Hertzian contact, l² = 2 f P/(π G').
+passes zero; there f p - q solves the equation of a Hertzian contact, l² = 2 f P/(π G'). Where that
+is too far off, the load is followed from another one (`coupled_load_path`).
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import NamedTuple
 
@@ -31,7 +32,6 @@ from sie.contact.edge_integrals import edge_integrals
 from sie.contact.known_contact import Edges
 from sie.errors import ContactError
 from sie.numerics.interval import EPS, Interval
-from sie.numerics.root_finding import false_position
 from sie.problem.coverage import refuse_corners, refused_load
 from sie.problem.scene import Scene
 from sie.profiles.resolution import refined
@@ -43,6 +43,7 @@ from sie.traction.piece_quadrature import SlidingGeometry
 from .coupled_contact import CoupledContact
 from .coupled_gradient import SlipGradient, Tabulated, tabulated
 from .coupled_iteration import SETTLED, Root, iterated
+from .coupled_load_path import ROUGHLY, LoadPath
 from .coupled_slip_rate import SlipRate
 from .coupled_zones import Rule, StickProblem, Zones, stick_rule
 
@@ -54,9 +55,12 @@ NEARLY = 1e-9  # of the half-width, from the ends of what the zones may be
 DEEP, FEW, APART, DEEPEST, RATIO = 1e-12, 8, 1e-9, 1e-17, 3.0
 NOWHERE = np.zeros(0)
 WINDOW = 1.02  # times the widest contact: where the slope is resolved
-FIRST = (0.99, 0.9, 0.5, 0.1)  # parts of f P from which the load is followed
-STRIDE, SHORTEST = 0.25, 1e-3  # of the angle whose sine squared is Q/(f P); and in parts of it
-NAMED = 1e-4  # of the angle, or of the slip: the error of the least load that is named
+FIRST = (0.5, 0.99, 0.9, 0.1)  # parts of f P from which the load is followed
+AT_EDGE = 1e-4  # half-widths
+SLIVER = 1e-2  # of it: where the last point to stick is so near, there are zones only next to f P
+# Half-widths: nearer edges pass a corner of the profile; others keep such a part of the distance
+AT_CORNER, NEARER = 1e-4, 0.03
+FOLDS = 1.5  # by which a step may change a logarithm
 
 
 def sliding_pressure(
@@ -89,6 +93,8 @@ class Trial(NamedTuple):
 @dataclass(frozen=True, eq=False)
 class TangentialSearch:
     """The search for the four edges, on the profile with its axis at 0.
+
+    `iterated` moves them as far as `room` and `ahead` allow.
 
     normal          the state under P alone
     slope           h' on the profile
@@ -174,7 +180,8 @@ class TangentialSearch:
         a1, a2 = 0.5 + self.theta, 0.5 - self.theta
         P, G = self.normal.load, self.normal.half_modulus
         sliding = sliding_pressure(self.resolved_slope, contact, G, -self.theta, P)
-        rule = stick_rule(zones, (a1, a2), np.append(self.gamma.cuts, cuts), nearest)
+        beyond = self._to_kink(zones)
+        rule = stick_rule(zones, (a1, a2), np.append(self.gamma.cuts, cuts), min(nearest, beyond))
         problem = StickProblem(zones, beta, f, rule, self.gradient_of_rest(sliding, rule))
         found, width = problem.answer, 2.0 * contact.r
         size, remaining = self.limit / self.normal.b, self.limit - Q
@@ -188,6 +195,13 @@ class TangentialSearch:
         )
         return Trial(zones, sliding, problem, np.array(missed))
 
+    def _to_kink(self, zones: Zones) -> float:
+        """How near to an end of the stick zone γ_d is not smooth in a slip zone."""
+        marks = np.array(self.normal.marks[:-1])
+        places = np.concatenate((-marks, [0.0], marks))
+        left, right = zones.e1 - places, places - zones.e2
+        return float(np.concatenate((left[left > 0.0], right[right > 0.0], [math.inf])).min())
+
     def second_moment(self, contact: Interval) -> float:
         """∫p x dx about its centre that the slope alone causes in a contact that slides."""
         k = edge_integrals(self.resolved_slope, contact, None, False, -self.theta)
@@ -196,8 +210,13 @@ class TangentialSearch:
 
     def gradient_of_rest(self, sliding: SlidingDensity, rule: Rule) -> Array:
         """γ_d at the places of a rule."""
-        f, beta = self.friction, self.beta
-        return self.gamma(rule.x) - f * self.H(rule.x) - beta * (1.0 + f * f) * sliding(rule.x)
+        f, beta, (x1, x2) = self.friction, self.beta, sliding.interval
+        # Next to a narrow slip zone the singular ends vary over fewer doubles than x tells apart
+        to_left, to_right = rule.left + (rule.ends[0] - x1), rule.right + (x2 - rule.ends[1])
+        ends = 0.5 * (sliding.k1 * to_right + sliding.k2 * to_left)
+        ends *= to_right ** (self.theta - 0.5) * to_left ** (-self.theta - 0.5)
+        p = replace(sliding, k1=0.0, k2=0.0)(rule.x) + ends
+        return self.gamma(rule.x) - f * self.H(rule.x) - beta * (1.0 + f * f) * p
 
     # -- the search --------------------------------------------------------------------------------
 
@@ -206,25 +225,29 @@ class TangentialSearch:
 
         Raises ContactError where none has these zones, or slip would oppose Q in them.
         """
-        answer = self._newton(self._start(Q), Q)
+        answer = self._newton(self.start(Q), Q)
         if answer is not None and self.least_slip(answer) >= 0.0:
             return answer
-        least, spreads = math.inf, self._last_stick[0] == self._looked_at[0]
-        if spreads:  # surfaces beside the contact of P alone are the last to slip
-            least = self.limit
-        for part in FIRST:
-            load = part * self.limit
-            if spreads or Q < least <= load:  # from there one arrives where one has been
+        least, opposed = math.inf, self._spreads
+        for load in () if opposed else tuple(part * self.limit for part in FIRST):
+            if Q < least <= load:  # from there one arrives where one has been
                 continue
-            first = self._newton(self._start(load), load)
-            if first is not None and self.least_slip(first) < 0.0:
-                least, spreads = min(least, self.limit), True
-            elif first is not None:
-                now, load, spreads = self._followed(first, load, Q)
-                if load == Q:
+            first = self._newton(self.start(load), load, ROUGHLY)
+            if first is not None and self.least_slip(first) >= 0.0:
+                now, end, opposed = LoadPath(self).followed(first, load, Q)
+                if end == Q:
                     return now
-                least = min(least, load)
-        raise refused_load(self.beta * self.friction, (Q, least, self.limit), spreads)
+                least = min(least, end)
+                # Where e1 ends at the edge of the contact of P alone, what it reached sticks below
+                opposed = opposed or now.zones.e1 - self._bounds[0] < AT_EDGE * self.normal.b
+                if opposed:
+                    break
+            elif first is not None:
+                opposed = True
+        beside = self._last_stick[0] - self._bounds[0] < SLIVER * self.normal.b
+        if opposed or (least == math.inf and beside):
+            least, opposed = min(least, self.limit), True
+        raise refused_load(self.beta * self.friction, (Q, least, self.limit), opposed)
 
     def least_slip(self, trial: Trial) -> float:
         """The least slip that Q + dQ adds along Q in a slip zone, over the largest."""
@@ -240,29 +263,43 @@ class TangentialSearch:
         return -self.normal.b, self.normal.c
 
     @property
+    def first_edges(self) -> Array:
+        """The edges as Q tends to 0, with no slip on the left."""
+        (lo, hi), b = self._bounds, self.normal.b
+        return np.array([-b, lo, hi, b])
+
+    @property
     def _looked_at(self) -> Array:
         """Places that the stick zone may reach in a contact that slides."""
         lo, hi = self._bounds
-        x: Array = np.linspace(lo, min(hi, self.widest[1]), 203)[1:-1]
+        x: Array = lo + (min(hi, self.widest[1]) - lo) * np.linspace(0.0, 1.0, 203)[1:-1] ** 2
         return x
+
+    @property
+    def _spreads(self) -> bool:
+        """Whether surfaces beside the contact of P alone are the last to slip."""
+        return bool(self._last_stick[0] == self._looked_at[0])
 
     @cached_property
     def _last_stick(self) -> tuple[float, float]:
-        """x0 and l, in a contact that slides."""
+        """x0 and l, in a contact that slides: x0 has slipped least."""
         f, beta, b = self.friction, self.beta, self.normal.b
         contact = Interval(*self.widest)
         G, P = self.normal.half_modulus, self.normal.load
         sliding = sliding_pressure(self.resolved_slope, contact, G, -self.theta, P)
         x = self._looked_at
         slips = f * self.H(x) + beta * (1.0 + f * f) * sliding(x) - self.gamma(x)
-        k = int(np.argmax(slips > 0.0)) if (slips > 0.0).any() else len(x) - 1
-        k = max(k, 1)
+        k = int(np.argmin(np.cumsum(slips[1:] + slips[:-1]))) + 1
+        if slips[:2].sum() > 0.0 and k == 1:
+            return float(x[0]), b
+        k = k if slips[k] > 0.0 else min(k + 1, len(x) - 1)
         rise = (slips[k] - slips[k - 1]) / (x[k] - x[k - 1])
-        x0 = x[k] - slips[k] / rise if rise > 0.0 else x[k]
-        half = math.sqrt(2.0 * self.limit / (math.pi * rise)) if rise > 0.0 else b
-        return float(min(max(x0, x[0]), x[-1])), half
+        if rise <= 0.0:
+            return float(x[k]), b
+        x0 = float(np.clip(x[k] - slips[k] / rise, x[0], x[-1]))
+        return x0, math.sqrt(2.0 * self.limit / (math.pi * rise))
 
-    def _start(self, Q: float) -> Array:
+    def start(self, Q: float) -> Array:
         """Four edges next to those under Q."""
         (lo, hi), (x0, half) = self._bounds, self._last_stick
         part = Q / self.limit
@@ -279,8 +316,8 @@ class TangentialSearch:
         )
         return np.array([x1, e1, e2, x2])
 
-    def _newton(self, edges: Array, Q: float) -> Trial | None:
-        root = self.next_to(edges, Q)
+    def _newton(self, edges: Array, Q: float, settled: float = SETTLED) -> Trial | None:
+        root = self.next_to(edges, Q, settled=settled)
         return root.trial if root else None
 
     def next_to(
@@ -290,11 +327,31 @@ class TangentialSearch:
         try:
             # Edges that are tried may lie so near to each other that nothing is finite
             with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
-                return iterated(lambda at: self.trial(at, Q), edges, self._room, slopes, settled)
+                return iterated(lambda at: self.trial(at, Q), edges, self, slopes, settled)
         except (ArithmeticError, np.linalg.LinAlgError, ContactError):
             return None
 
-    def _room(self, edges: Array) -> Array:
+    def ahead(self, edges: Array, step: Array) -> Array:
+        """The edges after a step; the stick zone moves in the logarithm of the room to its bounds.
+
+        Next to Q = 0 a step is many times as long as that.
+        """
+        new, bounds = edges + step, np.array(self._bounds)
+        gaps = edges[1:3] - bounds
+        new[1:3] = bounds + gaps * np.exp(np.clip(step[1:3] / gaps, -FOLDS, FOLDS))
+        # The conditions have powers and logarithms of the distance from a corner of the profile
+        for corner in self._corners:
+            before = edges - corner
+            crosses = (before * (new - corner) < 0.0) & (np.abs(before) > AT_CORNER * self.normal.b)
+            new[crosses] = corner + NEARER * before[crosses]
+        return new
+
+    @cached_property
+    def _corners(self) -> tuple[float, ...]:
+        """Places where the slope jumps."""
+        return tuple(place for place, _ in self.slope.rises)
+
+    def room(self, edges: Array) -> Array:
         """How far each edge may move either way, to the next edge or bound; not positive beyond."""
         lo, hi = self._bounds
         least, most = self.resolved_slope.domain
@@ -308,48 +365,6 @@ class TangentialSearch:
                 min(right, most - x2),
             ]
         )
-
-    def _followed(self, now: Trial, load: float, Q: float) -> tuple[Trial, float, bool]:
-        """The state under Q, in steps of the load from that of another.
-
-        If a step finds none, it is the last one that was found, with the least load that has one,
-        and whether slip would oppose Q below it.
-        """
-        angle, end = (math.asin(math.sqrt(q / self.limit)) for q in (load, Q))
-        stride, change = math.copysign(STRIDE, end - angle), np.zeros(4)
-        while abs(stride) > SHORTEST * min(angle, 1.0):
-            # Small loads are alike: as far as the angle halves
-            stride = math.copysign(min(abs(stride), 0.5 * max(angle, end)), stride)
-            last = abs(end - angle) <= abs(stride)
-            to = end if last else angle + stride
-            aim = Q if last else self.limit * math.sin(to) ** 2
-            found = self._newton(now.edges + change * (to - angle), aim)
-            found = found or self._newton(now.edges, aim)
-            if found is None:
-                stride = 0.5 * (to - angle)
-                continue
-            if self.least_slip(found) < 0.0:
-                return now, self._least_load((to, found), (angle, now)), True
-            change = (found.edges - now.edges) / (to - angle)
-            now, angle, load = found, to, aim
-            if last:
-                break
-        return now, load, False
-
-    def _least_load(self, opposing: tuple[float, Trial], along: tuple[float, Trial]) -> float:
-        """The load under which the least slip passes zero, between those of two states."""
-        (a, one), (b, other) = opposing, along
-
-        def least(angle: float) -> float:
-            edges = one.edges + (other.edges - one.edges) * ((angle - a) / (b - a))
-            found = self._newton(edges, self.limit * math.sin(angle) ** 2)
-            return -1.0 if found is None else self.least_slip(found)
-
-        ends = self.least_slip(one), self.least_slip(other)
-        angle = false_position(
-            least, a, b, ends, lambda a, b, missed: b - a < NAMED * b or abs(missed) < NAMED
-        )
-        return self.limit * math.sin(angle) ** 2
 
 
 def tangential_search(

@@ -72,9 +72,10 @@ class Zones(NamedTuple):
 class Rule(NamedTuple):
     """Places in the stick zone, their distances from its ends, and weights.
 
-    The weights are those of (x - e1)^-a1 (e2 - x)^-a2 dx.
+    The weights are those of (x - e1)^-a1 (e2 - x)^-a2 dx; `ends` are e1 and e2.
     """
 
+    ends: tuple[float, float]
     x: Array
     left: Array
     right: Array
@@ -114,7 +115,7 @@ def stick_rule(zones: Zones, exponents: tuple[float, float], cuts: Array, neares
     )
     x = np.where(left < right, zones.e1 + left, zones.e2 - right)
     weight = np.append(mass, others[::-1]) * left ** -exponents[0] * right ** -exponents[1]
-    return Rule(x, left, right, weight)
+    return Rule((zones.e1, zones.e2), x, left, right, weight)
 
 
 class Map:
@@ -347,13 +348,16 @@ class StickProblem:
             parts = (slice(i, i + step) for i in range(0, len(x), step))
             return np.concatenate([self._differences(x[part], g[part]) for part in parts])
         apart = self._apart(x)
-        panels = self.rule.x.reshape(-1, NODES)
-        close = np.abs(apart) < np.repeat(CLOSE * np.ptp(panels, axis=1), NODES)
+        # By the distance from the nearer end of the stick zone nodes next to it differ
+        at_left = self.rule.left < self.rule.right
+        nodes = np.where(at_left, self.rule.left, -self.rule.right)
+        widths = np.ptp(nodes.reshape(-1, NODES), axis=1)
+        close = np.abs(apart) < np.repeat(CLOSE * widths, NODES)
         quotients = (self.of_rule[1] - g[:, None]) / np.where(close, 1.0, apart)
         for i, j in zip(*np.nonzero(close), strict=True):
             # So close, rounding counts: the value is interpolated from the others of the panel
             panel = slice(j - j % NODES, j - j % NODES + NODES)
-            quotients[i, j] = quotients[i, panel] @ _from_others(self.rule.x[panel], j % NODES)
+            quotients[i, j] = quotients[i, panel] @ _from_others(nodes[panel], j % NODES)
         values: Array = quotients @ self.rule.weight
         return values
 

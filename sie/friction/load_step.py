@@ -29,10 +29,11 @@ import numpy as np
 from sie.errors import ContactError
 from sie.numerics.interval import Interval
 
+from .loads import Loads
 from .memory import BALANCED, LoadMemory, SlipEvent, in_proportion
 from .slip_state import Slip
 from .step_conditions import SLACK, TESTED, inside, opens
-from .turning_point import Loads, TurningPoint
+from .turning_point import TurningPoint
 
 
 class Contacts(Protocol):
@@ -170,10 +171,9 @@ class Step:
         if not self.sticks:
             return None
         if pull and not all(in_proportion(p, r) for r, p in self.parts):
-            raise ContactError(
+            raise NotLayered(
                 "the contact grows and sticks while Q, bulk stress and tilt do not change in "
-                "proportion to P and tilt: its new layers carry more than a multiple of the "
-                "pressure, which is not covered; keep σ and the tilt constant while P rises"
+                "proportion to P and tilt"
             )
         return self._reached(self.memory.raised(rise, (pull / rise).real), ())
 

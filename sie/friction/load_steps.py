@@ -15,8 +15,9 @@ from sie.problem.load_path import Path
 from sie.problem.scene import Scene
 
 from .load_step import Contacts, NotLayered, Step
+from .loads import Loads
 from .memory import Layer, LoadMemory, in_proportion, simple
-from .turning_point import Loads, TurningPoint
+from .turning_point import TurningPoint
 
 Result = TypeVar("Result")
 

@@ -31,6 +31,8 @@ class Held:
     stick       the stick zone
     signs       the signs of slip to the left and the right of it, 0 where nothing slipped
     marks       places where q is not smooth
+    gaps        zones between several stick zones that slipped, and the signs
+    left        what q lacks of ±f p at places in the contact, given ±f, without cancellation
     """
 
     Q: float
@@ -40,6 +42,19 @@ class Held:
     stick: Interval
     signs: tuple[float, float]
     marks: tuple[float, ...]
+    gaps: tuple[tuple[float, float, float], ...] = ()
+    left: Callable[[float, Array], Array] | None = None
+
+    def lacking(self, bound: float, x: Array) -> Array:
+        """What q lacks of ±f p at places (1-d), given ±f; 0 beyond the contact."""
+        lack, contact = np.zeros(x.shape), self.pressure.contact
+        inside = (x >= contact.x1) & (x <= contact.x2)
+        at = x[inside]
+        if self.left is not None:
+            lack[inside] = self.left(bound, at)
+        else:
+            lack[inside] = bound * self.pressure(at) - self.shear(at)
+        return lack
 
 
 @dataclass(frozen=True, eq=False)
@@ -114,14 +129,22 @@ class MarchedStep(ABC):
 
     @property
     def kept(self) -> tuple[float, float]:
-        """The zone that stuck all along the step."""
+        """What stuck all along the step, from the first such place to the last."""
         return max(self.reach[0], self.stick.x1), min(self.reach[1], self.stick.x2)
+
+    @property
+    def kept_zones(self) -> tuple[tuple[float, float], ...]:
+        """The zones that stuck all along the step."""
+        (left, right), gaps = self.kept, self.gaps
+        cuts = [left, *(end for gap in gaps for end in gap[:2]), right]
+        return tuple(zip(cuts[::2], cuts[1::2], strict=True))
 
     @cached_property
     def marks(self) -> tuple[float, ...]:
         """Places where q is not smooth."""
         x1, x2 = self.stick.x1, self.stick.x2
-        inner = {x for x in (*self._places, *self.reach) if x1 < x < x2}
+        ends = (end for gap in self.gaps for end in gap[:2])
+        inner = {x for x in (*self._places, *self.reach, *ends) if x1 < x < x2}
         return tuple(sorted(inner | {x1, x2, *self.pressure.breaks}))
 
     @property
@@ -143,9 +166,35 @@ class MarchedStep(ABC):
     @cached_property
     def held(self) -> Held:
         """What the next step starts from."""
-        return Held(self.Q, self.tau, self.pressure, self.shear, self.stick, self.signs, self.marks)
+        return Held(
+            *(self.Q, self.tau, self.pressure, self.shear, self.stick, self.signs, self.marks),
+            self.gaps,
+        )
+
+    @property
+    def gaps(self) -> tuple[tuple[float, float, float], ...]:
+        """Zones between several stick zones that slipped, and the signs."""
+        return ()
+
+    @property
+    def sticks(self) -> tuple[tuple[float, float], ...]:
+        """The stick zones."""
+        cuts = (self.stick.x1, *(end for gap in self.gaps for end in gap[:2]), self.stick.x2)
+        return tuple(zip(cuts[::2], cuts[1::2], strict=True))
+
+    @property
+    def slipped(self) -> tuple[tuple[float, float, float], ...]:
+        """The zones of slip from left to right, and the signs."""
+        (x1, x2), (left, right) = self.pressure.interval, self.signs
+        whole = (x1, self.stick.x1, left), *self.gaps, (self.stick.x2, x2, right)
+        return tuple(zone for zone in whole if zone[1] > zone[0])
 
     # -- integrals ---------------------------------------------------------------------------------
+
+    @property
+    def work(self) -> float:
+        """The energy that slip dissipated."""
+        return self.integrals.work
 
     @cached_property
     def integrals(self) -> IntegralsOfSlip:

@@ -8,28 +8,39 @@ constant pressure they do so with slip s to the left and right where
 
 An end whose slip has another sign now begins anew at the edge of contact. An end at which the sum
 comes to 0 on the way, as ρ shrinks, advances from there on (`travelling_zone`). While the pressure
-changes all signs are tried. `trial_step` tests what this rests on; docs/derivations/marching.md has
+changes all signs are tried. Where a second zone of slip opens inside the stick zone, several zones
+stick (`several_sticks`). `trial_step` tests what this rests on; docs/derivations/marching.md has
 the equations.
 """
 
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
+from contextlib import suppress
 from dataclasses import replace
 from itertools import product
 
 from sie.errors import ContactError
 from sie.numerics.root_finding import false_position
 
+from .growing_contact import Course, LoadChange, course
+from .growing_edge import EdgeSticks, edge_sticks
+from .loads import Loads
 from .marched_step import Held, MarchedStep
 from .memory import LoadMemory
 from .receding_step import Receded
+from .several_sticks import SeveralSticks, in_several_zones
+from .slip_onset import Onset, onsets
+from .step_conditions import TESTED
+from .stuck_contact import BothStick, both_stick
 from .travelling_zone import Travelled, travelled
 from .trial_step import EXCEEDED, ISLAND, GoesOn, Marchable, Signs, Trial, excess
-from .turning_point import Loads, TurningPoint
+from .turning_point import TurningPoint
 
 MOST_PARTS = 200  # of a step, in which a stick zone travels by ρ
 SETTLED = 1e-13  # of the half-width: so well the end of a zone that stops is known
+AT_ONCE = 1e-9  # of a step: slip that begins so soon has begun before
 STOPPED = 1e-9  # of it: an end so near to where it would stop does
 
 
@@ -39,9 +50,28 @@ def march(contacts: Marchable, held: Held, start: Loads, loads: Loads) -> Turnin
     Raises ContactError where the step is not covered.
     """
     trial = Trial(contacts, held, start, loads)
-    parts = at_constant_pressure(trial) if trial.constant else (while_pressure_changes(trial),)
+    parts = _parts(trial)
     level = LoadMemory(contacts.level(loads))
     return TurningPoint(loads, level, straight=False, marched=parts)
+
+
+def _parts(trial: Trial) -> tuple[MarchedStep, ...]:
+    """The parts of a step, with one stick zone or else with several."""
+    if trial.held.gaps:
+        return (_in_several_zones(trial),)
+    try:
+        return at_constant_pressure(trial) if trial.constant else while_pressure_changes(trial)
+    except ContactError as problem:
+        with suppress(ContactError):
+            return (_in_several_zones(trial),)
+        raise problem
+
+
+def _in_several_zones(trial: Trial) -> SeveralSticks:
+    found = in_several_zones(trial)
+    if trial.constant:
+        return found
+    return replace(found, change=LoadChange(trial.contacts, trial.start, trial.end))
 
 
 def at_constant_pressure(trial: Trial) -> tuple[MarchedStep, ...]:
@@ -74,16 +104,58 @@ def at_constant_pressure(trial: Trial) -> tuple[MarchedStep, ...]:
     return tuple(parts)
 
 
-def while_pressure_changes(trial: Trial) -> Receded:
-    """The state at the end of a step, with the signs of slip that pass all tests."""
+def while_pressure_changes(trial: Trial) -> tuple[MarchedStep, ...]:
+    """The parts of a step, each with slip, or none, at each edge until that changes."""
+    change = LoadChange(trial.contacts, trial.start, trial.end)
+    parts: list[MarchedStep] = []
+    ways, share, edges = onsets(trial.held, change, trial.friction), 0.0, None
+    while share < 1.0:
+        trial = replace(trial, start=change.loads(share))
+        if any(not all(way.signs) for way in ways) and (edges is None or share >= edges.hi):
+            edges = course(change, share)
+        part, until, then = _passed(trial, edges or change, share, ways)
+        if until - share <= AT_ONCE:  # the rates say that the edge sticks, but for rounding
+            ways = tuple(Onset(then.signs, way.goes_on) for way in ways)
+        else:
+            parts.append(part)
+            trial, ways = replace(trial, held=part.held), (then,)
+        share = until
+        if len(parts) > MOST_PARTS:
+            raise ContactError(f"slip starts and stops at the edges more than {MOST_PARTS} times")
+    return tuple(parts)
+
+
+def _passed(
+    trial: Trial, change: LoadChange, share: float, ways: Iterable[Onset]
+) -> tuple[MarchedStep, float, Onset]:
+    """The part of a step from a share on that passes all tests, its end, and what slips then."""
     problems = []
-    for signs in product((1.0, -1.0), repeat=2):
-        goes_on = signs[0] == trial.held.signs[0], signs[1] == trial.held.signs[1]
+    for way in ways:
+        now = trial.with_signs(*way)
         try:
-            return trial.with_signs((signs[0], signs[1]), goes_on).passed(1.0)
+            if all(way.signs):
+                return replace(now.passed(1.0), change=change, begun=share), 1.0, way
+            assert isinstance(change, Course)
+            part = _growing(now, change, share)
+            return part, part.share, part.then
         except ContactError as problem:
             problems.append(problem)
-    raise max(problems, key=lambda problem: float(problem.reached["share"]))
+    raise max(problems, key=lambda problem: float(problem.reached.get("share", 0.0)))
+
+
+def _growing(trial: Trial, edges: Course, share: float) -> EdgeSticks | BothStick:
+    """The part of a step in which an edge grows and sticks, or both do."""
+    part: EdgeSticks | BothStick
+    if any(trial.signs):
+        goes_on = trial.goes_on[0 if trial.signs[0] else 1]
+        part = edge_sticks(trial.held, edges, trial.signs, goes_on, share)
+    else:
+        part = both_stick(trial.held, edges, share)
+    for tested in TESTED if part.share - share > AT_ONCE else ():
+        now = part.until(share + tested * (part.share - share))
+        if excess(now, part.stick)[1] > EXCEEDED:
+            raise trial.refusal(ISLAND, (now.share - share) / (1.0 - share))
+    return part
 
 
 def _ways(trial: Trial) -> tuple[Signs, GoesOn] | None:

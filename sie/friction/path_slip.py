@@ -17,10 +17,11 @@ from sie.traction.combination import superposed
 
 from . import changing_contact
 from .changing_contact import ChangingContact
+from .loads import Loads
 from .marched_step import Held, MarchedStep
 from .panel_shear import PanelShear
 from .slip_state import Slip
-from .turning_point import Loads, TurningPoint
+from .turning_point import TurningPoint
 
 Array = NDArray[np.float64]
 
@@ -241,14 +242,11 @@ class MarchedSlip(PathSlip):
 
     @property
     def stick(self) -> tuple[tuple[float, float], ...]:  # type: ignore[override]
-        stick = self.marched[-1].stick
-        return ((stick.x1, stick.x2),)
+        return self.marched[-1].sticks
 
     @property
     def slipped(self) -> tuple[tuple[float, float, float], ...]:
-        last = self.marched[-1]
-        (x1, x2), (c1, c2), (left, right) = last.pressure.interval, self.stick[0], last.signs
-        return tuple(z for z in ((x1, c1, left), (c2, x2, right)) if z[1] > z[0])
+        return self.marched[-1].slipped
 
     @property
     def levels(self) -> tuple[float, ...]:

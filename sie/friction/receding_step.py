@@ -13,41 +13,41 @@ The derivation is in docs/derivations/marching.md.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import product
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from sie.errors import ContactError
 from sie.numerics import chebyshev
-from sie.numerics.interval import EPS, Interval
+from sie.numerics.graded_rule import graded, on_panels
+from sie.numerics.halving import integral
+from sie.numerics.interval import Interval
+from sie.numerics.root_finding import false_position
 from sie.traction.of_slope import SlopeDensity
 
 from .coupled_traction import Panels, resolved_panels
+from .growing_contact import LoadChange
 from .marched_step import FrozenEdge, Held, MarchedStep, places
 from .panel_shear import SAME
-from .slip_zones import Drive, SlipZone, SlipZones, excess
+from .receding_equations import Equations
+from .slip_zones import Drive, SlipZone, SlipZones
 
 Array = NDArray[np.float64]
+Side = tuple[float, float, float]
 
-# Of a half-width, and of all that may slip: where the search begins, and how it goes on.
-HALVINGS, FIRST, TRIED = (
-    5,
-    0.2,
-    (0.98, 0.8, 0.6, 0.45, 0.3, 0.2, 0.1, 0.05, 0.02, 5e-3, 1e-3, 1e-4, 1e-6),
-)
-GUESSES = ((2, 5), (5, 30))  # how often for each zone, and how many halvings of its length
-DIFFERENCE, MOST_STEPS, LEAST_SHARE = 1e-6, 30, 1e-3  # of Newton's method
-SETTLED = 1e-11  # of the loads: what is missed where no step makes it smaller
-TINY = 1e-300
-NO_ZONE = "no stick zone inside the contact balances the loads"
-# of the drive: a mark that misses its equation by less is the end of the stick zone
-BALANCED = 1e-12
+TURNED = 1e-9  # of the fastest slip: what may seem to turn, which is rounding
 OF_SLIP = 1e-11  # of the steepest slip, to which its steepness is resolved
+
+
+_angle, ANGLE = (
+    part.ravel()
+    for part in on_panels(0.5 * math.pi * np.concatenate(([0.0], graded(5), [0.5, 1.0])))
+)
+SINE, COSINE = np.sin(_angle) ** 2, np.cos(_angle) ** 2  # of a zone: graded towards the stick zone
 
 
 class Ends(NamedTuple):
@@ -56,10 +56,12 @@ class Ends(NamedTuple):
     signs      the signs of slip beside them
     goes_on    whether it goes on from where it was, at constant pressure, and not from the edge of
                contact
+    near       a stick zone near by, to begin the search with
     """
 
     signs: tuple[float, float]
     goes_on: tuple[bool, bool] = (False, False)
+    near: Interval | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,10 +70,14 @@ class Receded(MarchedStep):
 
     found     the stick zone, and the zones in which q changed
     error     what the equations of the ends miss, over the loads
+    change    the change of loads in the whole step, None at constant pressure
+    begun     the share of the step at its start, which it ends
     """
 
     found: SlipZones
     error: float = 0.0
+    change: LoadChange | None = None
+    begun: float = 0.0
 
     @property
     def stick(self) -> Interval:
@@ -81,12 +87,25 @@ class Receded(MarchedStep):
     def reach(self) -> tuple[float, float]:
         return self.stick.x1, self.stick.x2
 
-    def under(self, pressure: SlopeDensity, loads: tuple[float, float]) -> Receded:
-        """The same under another pressure, Q and τ, with slip in the same directions."""
-        return receded(self.before, pressure, self.friction, loads, Ends(self.signs))
+    @cached_property
+    def work(self) -> float:
+        return super().work if self.change is None else moving_work(self, self.change)
 
-    def power(self, rates: tuple[float, float, float, float]) -> float:
-        """f ∫p |dΔg/dt| dx from dP/dt, dQ/dt, dτ/dt and E*/2 times that of the tilt.
+    def at(self, share: float, near: Receded | None = None) -> Receded:
+        """The state at another share of the step, with slip in the same directions."""
+        change = self.change
+        assert change is not None
+        p, loads, stick = change.pressure(share), change.shear(share), (near or self).stick
+        return receded(self.before, p, self.friction, loads, Ends(self.signs, near=stick))
+
+    def keeps_direction(self, change: LoadChange) -> bool:
+        """Whether slip goes on in the direction of its zone, up to both edges."""
+        rates = [s * g for (_, g), s in zip(self.slip_rates(change), self.signs, strict=True)]
+        room = TURNED * max(float(np.abs(g).max(initial=0.0)) for g in rates)
+        return all(float(g.min(initial=0.0)) >= -room for g in rates)
+
+    def slip_rates(self, change: LoadChange) -> list[tuple[SlipZone, Array]]:
+        """The zones of slip and dΔg/dt in them, the time as a share of the step.
 
         Slip in one direction s is the layer A = dP - s dQ/f, B = E*/2 dθ - s dτ/f of the stick zone
 
@@ -94,29 +113,32 @@ class Receded(MarchedStep):
 
         where it is opposite on the other side, dp acts twice there.
         """
-        contact, f, rho, total = self.pressure.contact, self.friction, self.stick.r, 0.0
-        dP, dQ, dtau, strain = rates
-        zones = self._whole_zones
+        contact, f, rho = self.pressure.contact, self.friction, self.stick.r
+        dP, dQ, dtau, *_ = change.rates
+        strain = float(change.rates.strain(np.array(contact.m), np.array(contact.r)))
+        zones, found = self._whole_zones, []
         for k, (zone, sign) in enumerate(zip(zones, self.signs, strict=True)):
             v = zone.from_stick / rho  # v - 1
             root = np.sqrt(v * (v + 2.0))
             load, turn = dP - sign * dQ / f, strain - sign * dtau / f
             rate = load / math.pi * np.log1p(v + root) + (1.0, -1.0)[k] * rho * turn * root
             if self.signs[0] != self.signs[1]:
-                far = zones[1 - k]
-                w = np.sqrt(far.from_edge * (2.0 * contact.r - far.from_edge))
-                at = (-1.0, 1.0)[1 - k] * (contact.r - far.from_edge)
-                dp = far.weight * (dP / math.pi - strain * at) / w
+                length = zones[1 - k].length
+                inner, from_edge = length * SINE, length * COSINE
+                at = (-1.0, 1.0)[1 - k] * (contact.r - from_edge)
+                # dp dξ with dξ/sqrt(from_edge) = 2 sqrt(inner) dψ
+                dp = (dP / math.pi - strain * at) / np.sqrt(2.0 * contact.r - from_edge)
+                dp *= 2.0 * np.sqrt(inner) * ANGLE
                 near = zone.from_stick / (zone.from_stick + 2.0 * rho)
-                beyond = far.from_stick / (far.from_stick + 2.0 * rho)
+                beyond = inner / (inner + 2.0 * rho)
                 rate -= 4.0 / math.pi * np.arctanh(np.sqrt(near[:, None] * beyond)) @ dp
-            total -= f * float(zone.force @ rate)
-        return f * total / self.pressure.half_modulus
+            found.append((zone, -sign * f * rate / self.pressure.half_modulus))
+        return found
 
     @property
     def _whole_zones(self) -> tuple[SlipZone, SlipZone]:
         """The zones of slip from the edges of contact, with the pressure."""
-        contact, marks = self.pressure.contact, np.array([*self._places, *self.marks])
+        contact, marks = self.pressure.contact, np.array(self.pressure.breaks)
         left, right = (
             FrozenEdge(edge, side, 2.0 * contact.r, self.pressure, marks).zone(side * (edge - end))
             for side, edge, end in zip(
@@ -131,7 +153,7 @@ class Receded(MarchedStep):
 
     def slip(self, x: Array) -> Array:
         out = np.zeros(x.shape)
-        for side, (end, panels, until) in self._opening.items():
+        for side, end, panels, until in self._opening:
             distance = side * (x - end)
             beside = (distance > 0.0) & (distance <= panels.hi[-1])
             d = distance[beside]
@@ -142,20 +164,24 @@ class Receded(MarchedStep):
             out[beside] = (until[k] + 0.5 * length * grown) / self.pressure.half_modulus
         return out
 
+    @property
+    def _beside(self) -> tuple[Side, ...]:
+        """The zones of slip: +1 to the right of a stick zone or -1, its end, and the far end."""
+        old, new = self.before.pressure.contact, self.pressure.contact
+        left, right = self.reach
+        return (-1.0, left, min(old.x1, new.x1)), (1.0, right, max(old.x2, new.x2))
+
     @cached_property
-    def _opening(self) -> dict[float, tuple[float, Panels, Array]]:
-        """The end of the stick zone, E*/2 dΔg, and its integrals, for each side.
+    def _opening(self) -> tuple[tuple[float, float, Panels, Array], ...]:
+        """The side and the end of the stick zone, E*/2 dΔg, and its integrals, for each zone.
 
         dΔg is on panels of the distance from the end, and has an integral up to each.
         """
-        old, new = self.before.pressure.contact, self.pressure.contact
-        ends = (min(old.x1, new.x1), max(old.x2, new.x2))
-        return {
-            side: self._on_one_side(side, end, edge)
-            for side, end, edge in zip((-1.0, 1.0), self.reach, ends, strict=True)
-        }
+        return tuple(self._on_one_side(*zone) for zone in self._beside)
 
-    def _on_one_side(self, side: float, end: float, edge: float) -> tuple[float, Panels, Array]:
+    def _on_one_side(
+        self, side: float, end: float, edge: float
+    ) -> tuple[float, float, Panels, Array]:
         length = side * (edge - end)
         d = np.unique(side * (np.array([*self._places, *self.marks]) - end))
         apart = np.diff(d, prepend=0.0) > SAME * length
@@ -170,7 +196,7 @@ class Receded(MarchedStep):
         panels = resolved_panels((steepness,), (*inner, length), 0.0, OF_SLIP)[0]
         sums = chebyshev.antiderivative(panels.series).T
         whole = 0.5 * (panels.hi - panels.lo) * chebyshev.evaluate(sums, np.ones(len(panels.lo)))
-        return end, panels, np.cumsum(whole) - whole
+        return side, end, panels, np.cumsum(whole) - whole
 
 
 def receded(
@@ -181,7 +207,7 @@ def receded(
     ends: Ends,
 ) -> Receded:
     """The state under a pressure and the loads Q and τ. Raises ContactError where there is none."""
-    (signs, goes_on), (Q, tau) = ends, loads
+    (signs, goes_on, near), (Q, tau) = ends, loads
     old, new = before.pressure.contact, pressure.contact
     left = before.stick.x1 if goes_on[0] else min(old.x1, new.x1)
     right = before.stick.x2 if goes_on[1] else max(old.x2, new.x2)
@@ -197,112 +223,67 @@ def receded(
     frames = beside(left, -1.0, signs[0]), beside(right, 1.0, signs[1])
     drive = Drive((Q - before.Q) / friction, math.pi * (tau - before.tau) / friction, *signs)
     equations = Equations(frames, outer, drive)
-    lengths = equations.at_marks(equations.solution())
+    guess = None if near is None else np.array([near.x1 - left, right - near.x2])
+    lengths = equations.at_marks(equations.solution(guess))
     zones = frames[0].zone(lengths[0]), frames[1].zone(lengths[1])
     found = SlipZones(outer.moved(lengths[0], -lengths[1]), *zones, drive)
     error = float(np.abs(equations.missed(lengths)).max())
     return Receded(before, pressure, friction, signs, Q, tau, found, error)
 
 
-@dataclass(frozen=True, eq=False)
-class Equations:
-    """The equations of the lengths of both zones, relative to the loads."""
+# -- energy while the pressure changes -------------------------------------------------------------
 
-    frames: tuple[FrozenEdge, FrozenEdge]
-    outer: Interval
-    drive: Drive
+# How well it is known when an end of the stick zone passes a mark, of a step and of a half-width,
+# and the share of a step before which it does not matter.
+SURE, EARLY = 1e-7, 1e-2
 
-    def missed(self, lengths: Sequence[float] | Array) -> Array:
-        """By what lengths fail them; infinite where they leave no stick zone."""
-        if not sum(lengths) < 2.0 * self.outer.r:
-            return np.full(2, np.inf)
-        zones = [frame.zone(length) for frame, length in zip(self.frames, lengths, strict=True)]
-        return np.array([self._missed(zones, k) for k in (0, 1)])
 
-    def _missed(self, zones: Sequence[SlipZone], k: int) -> float:
-        zone, other = zones[k], zones[1 - k]
-        size = abs(self.drive.load) + self.outer.r * abs(self.drive.strain)
-        return excess(zone, other, self.outer.r, self.drive, k) / size
+def moving_work(part: Receded, change: LoadChange) -> float:
+    """f ∫∫ p |dΔg| dx.
 
-    def solution(self) -> tuple[float, float]:
-        """The lengths. Raises ContactError where there are none, or Newton's method finds none."""
-        for sweeps, halvings in GUESSES:
-            lengths = self._by_newton(self._guess(sweeps, halvings))
-            if lengths is not None:
-                return float(lengths[0]), float(lengths[1])
-        raise ContactError(NO_ZONE)
+    The ends of the stick zone change their speed at marks, beyond which power is a series in the
+    root of time.
+    """
+    begun, known = part.begun, {1.0: part}
 
-    def _by_newton(self, lengths: Array) -> Array | None:
-        """The lengths, with differences for derivatives; None where it does not converge."""
-        missed = self.missed(lengths)
-        for _ in range(MOST_STEPS):
-            size = float(np.abs(missed).max())
-            matrix = self._derivatives(lengths, missed)
-            if size <= EPS:
-                break
-            if not (np.isfinite(matrix).all() and abs(np.linalg.det(matrix)) > 0.0):
-                break
-            step = np.asarray(np.linalg.solve(matrix, -missed), dtype=np.float64)
-            share = self._within(lengths, step)
-            while share > LEAST_SHARE:
-                tried = self.missed(lengths + share * step)
-                if np.abs(tried).max() < size:
-                    break
-                share *= 0.5
-            else:
-                break
-            lengths, missed = np.add(lengths, share * step), tried
-        # Where p falls a shorter zone may fulfil its equation too: it does not grow with its load.
-        # Where all beyond the end slipped before, the derivative is rounding of 0.
-        found = size <= SETTLED and (np.diag(matrix) * lengths > -DIFFERENCE).all()
-        return lengths if found else None
+    def state(share: float) -> Receded:
+        if share not in known:
+            nearest = min(known, key=lambda other: abs(other - share))
+            known[share] = part.at(share, known[nearest])
+        return known[share]
 
-    def _derivatives(self, lengths: Array, missed: Array) -> Array:
-        h = DIFFERENCE * lengths
-        columns = [self.missed(lengths + h * unit) - missed for unit in np.eye(2)]
-        matrix: Array = np.array(columns).T / h
-        return matrix
+    def power(share: float) -> float:
+        rates = state(share).slip_rates(change)
+        return part.friction * sum(float(zone.force @ np.abs(g)) for zone, g in rates)
 
-    def _within(self, lengths: Array, step: Array) -> float:
-        """The share of a step that leaves both zones and the stick zone a width."""
-        share = min(1.0, *(0.9 * lengths / np.maximum(-step, TINY)).tolist())
-        left, grown = 2.0 * self.outer.r - lengths.sum(), float(step.sum())
-        return share if grown <= left else min(share, 0.9 * left / grown)
+    cuts = sorted({begun, 1.0, *_passages(part, state)})
+    scale, total = power(0.5 * (begun + 1.0)), 0.0
+    for lo, hi in pairwise(cuts):
 
-    def _guess(self, sweeps: int, halvings: int) -> Array:
-        """Lengths near the longest that fulfil the equations: where p falls, shorter ones may."""
-        lengths = np.full(2, FIRST * self.outer.r)
-        for sweep, k in product(range(sweeps), (0, 1)):
-            other = self.frames[1 - k].zone(lengths[1 - k])
-            most = 2.0 * self.outer.r - other.length
+        def rate(v: float, lo: float = lo, hi: float = hi) -> float:
+            if lo == begun:
+                return (hi - lo) * power(lo + (hi - lo) * v)
+            return 2.0 * v * (hi - lo) * power(lo + (hi - lo) * v * v)
 
-            def short(length: float, k: int = k, other: SlipZone = other) -> bool:
-                zones = [other, other]
-                zones[k] = self.frames[k].zone(length)
-                return self._missed(zones, k) < 0.0
+        total += integral(rate, scale)
+    return total
 
-            tried = [part * most for part in TRIED]
-            first = next((n for n, length in enumerate(tried) if short(length)), len(tried))
-            if sweep and first in {0, len(tried)}:
-                raise ContactError(NO_ZONE)
-            first = min(first, len(tried) - 1)
-            low, high = tried[first], tried[first - 1] if first else most
-            for _ in range(halvings):
-                middle = 0.5 * (low + high)
-                low, high = (middle, high) if short(middle) else (low, middle)
-            lengths[k] = 0.5 * (low + high)
-        return lengths
 
-    def at_marks(self, lengths: tuple[float, float]) -> tuple[float, float]:
-        """The lengths, shortened to the next mark where the loads are balanced there too.
+def _passages(part: Receded, state: Callable[[float], Receded]) -> list[float]:
+    """The shares of the step at which an end of the stick zone passes a mark."""
+    begun = part.begun + EARLY * (1.0 - part.begun)
+    first = state(begun).stick
+    shares = []
+    for k in (0, 1):
+        lo, hi = sorted((first[k], part.stick[k]))
+        for mark in {m for m in places(part.before, part.pressure) if lo < m < hi}:
 
-        What is beyond it had slipped already.
-        """
-        shorter = list(lengths)
-        for k, frame in enumerate(self.frames):
-            nearer = frame.breaks[frame.breaks < lengths[k]]
-            if nearer.size:
-                shorter[k] = float(nearer[-1])
-                if abs(self.missed(shorter)[k]) > BALANCED:
-                    shorter[k] = lengths[k]
-        return shorter[0], shorter[1]
+            def ahead(share: float, k: int = k, mark: float = mark) -> float:
+                return state(share).stick[k] - mark
+
+            def settled(a: float, b: float, value: float) -> bool:
+                return b - a <= SURE or abs(value) <= SURE * part.stick.r
+
+            values = ahead(begun), ahead(1.0)
+            shares.append(false_position(ahead, begun, 1.0, values, settled))
+    return shares

@@ -25,7 +25,7 @@ from numpy.typing import NDArray
 
 from sie.errors import ContactError
 from sie.numerics import chebyshev
-from sie.numerics.graded_rule import graded, on_panels
+from sie.numerics.graded_rule import graded_angle
 from sie.numerics.interval import EPS, Interval
 from sie.numerics.root_finding import false_position
 from sie.traction.of_slope import SlopeDensity
@@ -38,22 +38,10 @@ TERMS, FEWER = 18, 13  # of T on a panel, and of what it is judged by
 # Of 2ρ: panels are halved towards a mark down to one length, and towards the end of the way to
 # another.
 SHORTEST, LONGEST = 1e-5, 0.1
-LEVELS = 8
 TOGETHER = 512  # places at a time
+RISE, FALL, WEIGHT = graded_angle()
 ISLAND = "a second stick zone begins there, which is not covered"
 NEAREST = 1e-12  # of the contact: marks nearer to an end of the way are that end
-
-
-def _graded_angle() -> tuple[Array, Array, Array]:
-    """sin², cos² and d(sin²) at nodes of an angle from 0 to π/2, graded towards both ends."""
-    near = 0.5 * graded(LEVELS)
-    cuts = np.concatenate(([0.0], near, [0.5], 1.0 - near[::-1], [1.0]))
-    angle, weight = (part.ravel() for part in on_panels(0.5 * math.pi * cuts))
-    sine, cosine = np.sin(angle), np.cos(angle)
-    return sine**2, cosine**2, 2.0 * sine * cosine * weight
-
-
-RISE, FALL, WEIGHT = _graded_angle()
 
 
 class Panel(NamedTuple):

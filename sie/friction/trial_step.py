@@ -24,17 +24,16 @@ from sie.numerics.interval import Interval
 from sie.problem.scene import Scene
 from sie.traction.of_slope import SlopeDensity
 
+from .growing_contact import LoadChange
+from .loads import Loads
 from .marched_step import Held, MarchedStep
 from .receding_step import Ends, Receded, receded
 from .step_conditions import SLACK, TESTED, inside, opens
-from .turning_point import Loads
 
 # Places in the stick zone at which |q| <= f p is tested, how near to its ends as powers of 10, and
 # by how much of the largest f p it may be missed.
 SCANNED, NEAREST, EXCEEDED = 200, -7.0, 1e-9
 HALVINGS = 10  # to the loads at which what is refused happens
-PLACES = 64  # at which slip in two directions is tested ...
-TURNED = 1e-7  # ... and by how much of the largest it may seem to turn, which is rounding
 
 ISLAND = "the shear in the stick zone reaches f p, and a second zone of slip opens there"
 TRY = "this is not covered; change P, Q, σ and tilt in other proportions"
@@ -52,6 +51,8 @@ class Marchable(Protocol):
     arm             π r₀
     pressure_at     the pressure under loads, in one patch
     sheared_by      Q and τ of loads
+    curved          whether the tilt follows from a moment
+    by_moment       whether moments are added along the path, not tilts
     """
 
     scene: Scene
@@ -62,6 +63,10 @@ class Marchable(Protocol):
     def arm(self) -> float: ...
     def pressure_at(self, loads: Loads) -> SlopeDensity: ...
     def sheared_by(self, loads: Loads) -> tuple[float, float]: ...
+    @property
+    def curved(self) -> bool: ...
+    @property
+    def by_moment(self) -> bool: ...
 
 
 @dataclass(frozen=True, eq=False)
@@ -107,11 +112,14 @@ class Trial:
         loads, shear = self.start.towards(self.end, share), self.shear(share)
         if abs(loads.Q) >= self.friction * loads.P * (1.0 - SLACK):
             raise ContactError("the bodies slide as a whole, |Q| = f P, which is not marched")
+        ends = Ends(self.signs, self.goes_on if self.constant else (False, False))
+        return receded(self.held, self.pressure(share), self.friction, shear, ends)
+
+    def pressure(self, share: float) -> SlopeDensity:
+        """p after a share of the step."""
         if self.constant:
-            p = self.held.pressure
-            return receded(self.held, p, self.friction, shear, Ends(self.signs, self.goes_on))
-        p = self.contacts.pressure_at(loads)
-        return receded(self.held, p, self.friction, shear, Ends(self.signs))
+            return self.held.pressure
+        return self.contacts.pressure_at(self.start.towards(self.end, share))
 
     # -- tests -------------------------------------------------------------------------------------
 
@@ -163,11 +171,7 @@ class Trial:
             return all(opens(complex(left * pull - rise), zone, contact, arm) for zone in zones)
         if self.constant:
             return True  # arccosh v <= sqrt(v² - 1)
-        x = contact.m + contact.r * np.cos(np.pi * (np.arange(PLACES) + 0.5) / PLACES)
-        slip = now.slip(x)
-        grown = slip - (before.slip(x) if before else 0.0)
-        along = grown * np.where(x < now.stick.m, left, right)
-        return bool((along >= -TURNED * np.abs(slip).max()).all())
+        return now.keeps_direction(LoadChange(self.contacts, self.start, self.end))
 
     def _located(
         self, before: Receded | None, end: Receded, shares: tuple[float, float]

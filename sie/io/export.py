@@ -11,7 +11,8 @@ A cell of slip that is not known is empty.
 JSON always holds
 
     sie, title, units {length, force, stress, moment}
-    scene (the code that rebuilds it), modulus E*, dundurs β
+    scene {profile, body, load, ..}, the tables of a scene file, which sie.Scene.from_dict reads (of
+    a load path those of its last point), modulus E*, dundurs β
     edges [x1, x2], sharp [.., ..], half_width, centre, normal_load, moment, tilt, notes [text, ..]
     patches [[x1, x2], ..], patch_loads [number, ..], contact_length, gap_volume, where there are
     several patches, or of one period of a contact that repeats; and there the period
@@ -28,6 +29,12 @@ and, where they are wanted,
     stress      {x, xx, yy, xy: [..]} on the surface
     yield       {ratio P/(bk), load P/k, sqrt_j2, places [[x, y], ..], criterion}
     tension     {value, x}
+    cycle       of load paths that come back to earlier loads: {from, to (points of the path),
+                 states, energy if known, slip_amplitude, friction_work, ruiz {value, x},
+                 surface {xx, yy, xy: {range, x, lowest, highest}}, swt if the body is known,
+                 findley, fatemi_socie if [fatigue] has their constants: [{value, x, y, angle and
+                 out_of_plane of the normal in degrees, amplitude, normal_stress}, ..]}, or {reason}
+                 where one is infinite or not known
     path        of load paths: [{normal_load, tangential_load, bulk_stress, tilt or moment if the
                  path has them, stick, energy_lost if known}, ..]
     traces      with check, of measured traces: [{points, smoothing, averaged, separated, misfit,
@@ -53,11 +60,13 @@ from sie import __version__
 from sie.history import History, PathSolution
 from sie.problem.request import POINTS
 from sie.problem.scene import Scene
+from sie.progress_bar import counted
 from sie.solution import Solution
 
 from .answers import energy_of, notes_of, slip_of, slipping, wanted
 from .sample_points import abscissae, beside, inside, peak
 from .scene_file import SceneFile
+from .scene_writing import tables_of
 
 Array = NDArray[np.float64]
 
@@ -66,7 +75,9 @@ STRESSES, LENGTHS = ("p", "q"), ("x", "gap", "slip")
 
 
 def csv_text(solution: Solution, file: SceneFile, points: int = POINTS) -> str:
-    """x, pressure and gap, always, as the module's docstring describes."""
+    """x, pressure and gap, always, as the module's docstring describes; of a path at each point."""
+    if isinstance(solution, PathSolution):
+        return history_text(solution.history, file, points)
     (x1, x2), load = solution.edges, solution.normal_load
     where = f"contact from x1 = {x1!r} to x2 = {x2!r}, load {load!r}"
     return _csv(solution.scene, where, file, [_columns(solution, points)])
@@ -76,7 +87,9 @@ def history_text(history: History, file: SceneFile, points: int = POINTS) -> str
     """The tractions, the gap and the slip at every turning point of a load path, as CSV."""
     tables = []
     turned = [name for name in ("tilt", "moment") if getattr(history.path, name)]
-    for k, (state, solution) in enumerate(zip(history.turning_points, history, strict=True)):
+    points_of_path = zip(history.turning_points, history, strict=True)
+    counted_points = counted("turning points", points_of_path, len(history))
+    for k, (state, solution) in enumerate(counted_points):
         if state.loads.P == 0.0:
             continue
         columns = _columns(solution, points)
@@ -120,9 +133,11 @@ def _csv(scene: Scene, where: str, file: SceneFile, tables: list[dict[str, Array
     return "\n".join((*head, *rows)) + "\n"
 
 
-def json_text(solution: Solution, file: SceneFile, points: int = POINTS) -> str:
+def json_text(
+    solution: Solution, file: SceneFile, points: int = POINTS, cycle: dict[str, Any] | None = None
+) -> str:
     """All wanted quantities, as the module's docstring describes."""
-    return strict_json(as_dict(solution, file, points))
+    return strict_json(as_dict(solution, file, points, cycle))
 
 
 def strict_json(value: Any) -> str:
@@ -130,8 +145,10 @@ def strict_json(value: Any) -> str:
     return json.dumps(_finite(value), indent=2, allow_nan=False) + "\n"
 
 
-def as_dict(solution: Solution, file: SceneFile, points: int = POINTS) -> dict[str, Any]:
-    """The content of `json_text`, with infinities as floats."""
+def as_dict(
+    solution: Solution, file: SceneFile, points: int = POINTS, cycle: dict[str, Any] | None = None
+) -> dict[str, Any]:
+    """The content of `json_text`, with infinities as floats; `cycle` is that of `cycle_answer`."""
     units, scene = file.units, solution.scene
     out: dict[str, Any] = {
         "sie": __version__,
@@ -142,7 +159,7 @@ def as_dict(solution: Solution, file: SceneFile, points: int = POINTS) -> dict[s
             "stress": units.stress,
             "moment": units.moment,
         },
-        "scene": repr(scene),
+        "scene": tables_of(scene),
         "modulus": scene.Estar,
         "dundurs": scene.beta,
         "edges": list(solution.edges),
@@ -158,6 +175,8 @@ def as_dict(solution: Solution, file: SceneFile, points: int = POINTS) -> dict[s
     sections = {"pressure": _pressure, "gap": _gap, "shear": _shear, "check": _check}
     sections |= {"energy": lambda solution, _: {"energy_lost": solution.energy_lost}}
     sections |= {"stress": _stress, "yield": _yield, "tension": _tension}
+    if cycle:
+        out["cycle"] = cycle
     if isinstance(solution, PathSolution):
         out["path"] = solution.history.rows()
     if "check" in wanted(file) and (reports := solution.trace_reports()):

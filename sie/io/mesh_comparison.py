@@ -1,331 +1,159 @@
-"""A mesh result beside the exact answer: error norms, and the shift in x that fits best.
+"""A mesh result beside the exact answer, all quantities of a file.
 
-With e = f_mesh - f at the points of the file, and integrals over x by the trapezoidal rule on them
-(over points scattered in the body, sums with equal weights)
+A comparison passes if l2 <= tol for every quantity (`sie.io.mesh_difference`). Before that
 
-    l1 = ∫|e| / ∫|f|,      l2 = (∫e² / ∫f²)^(1/2),      largest = max|e| / max|f|
-    resultant = ∫f_mesh over that of f on the whole contact, less 1
-    shift     the d for which f(x - d) is nearest to f_mesh in l2: another origin of the mesh, or
-              a contact that creeps
-    factor    the c for which c f is nearest to f_mesh in l2; given where it shows other units or
-              signs, and not a lack of accuracy
+    half a model      of a symmetric contact without a tangential load is mirrored
+    the sign of q     is found: it is that of one of the two bodies, and of the direction in which
+                      a code walks along its surface
+    stresses          are compared near the contact: farther away a block is no half-plane
 
-A comparison passes if l2 <= tol for every quantity. Points where f is infinite (sharp edges,
-corners) are left out and counted.
-
-Tractions p and q are compared on the surface, y = 0; stresses wherever the file has points. Depth
-is y >= 0, as everywhere here. In a file whose y points out of the body (none is positive) depth is
--y, and σ_xy has the other sign.
+and each of these is noted.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import asdict, dataclass
-from pathlib import Path
-from typing import Any
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from sie.messages import nearest
-from sie.profiles.trace_files import MESH, Table, read_table
+from sie.io.mesh_difference import EXACT, Comparison, difference
+from sie.io.mesh_files.names import STRESSES, TRACTIONS
+from sie.io.mesh_result import Mesh, Points
 from sie.solution import Solution
 
 Array = NDArray[np.float64]
 
-Exact = Callable[[Solution, Array, Array], Array]
-
-# The columns of a file that can be compared: their names, and the exact values at points (x,
-# depth).
-TRACTIONS: dict[str, Exact] = {
-    "p": lambda solution, x, y: solution.pressure(x),
-    "q": lambda solution, x, y: solution.shear(x),
-}
-STRESSES: dict[str, Exact] = {
-    "sxx": lambda solution, x, y: solution.stress(x, y).xx,
-    "syy": lambda solution, x, y: solution.stress(x, y).yy,
-    "sxy": lambda solution, x, y: solution.stress(x, y).xy,
-    "szz": lambda solution, x, y: solution.stress(x, y).zz,
-    "mises": lambda solution, x, y: solution.stress(x, y).mises,
-}
-QUANTITIES = TRACTIONS | STRESSES
-RESULTANTS: dict[str, Callable[[Solution], float]] = {
-    "p": lambda s: s.normal_load,
-    "q": lambda s: s.tangential_load,
-}
-# Their names in mesh codes, in lower case.
-NAMES = {
-    **{
-        name.format(axis): axis
-        for axis in "xy"
-        for name in ("{}-coordinate", "{}_coordinate", "{}-coord", "{}_coord", "coord_{}")
-    },
-    **dict(zip(("coor1", "coord1", "coor2", "coord2", "depth"), "xxyyy", strict=True)),
-    **dict.fromkeys(("pressure", "cpress", "contact pressure", "contact_pressure"), "p"),
-    **dict.fromkeys(("shear", "cshear1", "traction"), "q"),
-    **{
-        name: q
-        for q, ij in zip(STRESSES, ("11", "22", "12", "33"), strict=False)
-        for name in (f"s{ij}", f"s-s{ij}", f"s:s{ij}", f"s.s{ij}")
-    },
-    **{
-        f"{word}{q[1:]}": q
-        for q in ("sxx", "syy", "sxy", "szz")
-        for word in ("sigma_", "sigma", "stress_", "s_", "σ_", "σ")
-    },
-    **{"tau_xy": "sxy", "txy": "sxy", "τ_xy": "sxy"},
-    **dict.fromkeys(
-        ("von mises", "von_mises", "s_mises", "s-mises", "s.mises", "seqv", "sigma_mises"), "mises"
-    ),
-}
-FARTHEST_SHIFT = 0.5  # half-widths
-SHIFTS = 41  # in the first scan
-REFINED = 1e-9  # half-widths
-LARGEST = 1e100  # of a column: no length or stress, and its square is finite
-# Between these factors a mesh is inaccurate; beyond them its units or signs differ.
-FACTORS = (0.5, 2.0)
-
-
-@dataclass(frozen=True)
-class Mesh:
-    """The columns of a file, by ascending x: x, depth y (0 on the surface) and its quantities.
-
-    `others` are the columns that were passed over, by name, or by number where there is no header.
-    """
-
-    name: str
-    x: Array
-    y: Array
-    values: dict[str, Array]
-    others: tuple[str, ...] = ()
-
-    def points(self, quantity: str) -> tuple[Array, Array, Array]:
-        """(x, y, values) where the quantity is compared: all points, or those on the surface."""
-        chosen = (self.y == 0.0) if quantity in TRACTIONS else np.ones(len(self.x), dtype=bool)
-        return self.x[chosen], self.y[chosen], self.values[quantity][chosen]
-
-    def scattered(self, quantity: str) -> bool:
-        """Whether these points are not on a line at one depth."""
-        x, y, _ = self.points(quantity)
-        return bool(np.ptp(y) > 0.0 or np.ptp(x) == 0.0)
-
-
-@dataclass(frozen=True)
-class Difference:
-    """The relative difference of a mesh result from the exact one.
-
-    It is largest at the position `at` (x) and `depth` (y); `infinite` points were left out.
-    """
-
-    points: int
-    infinite: int
-    l1: float
-    l2: float
-    largest: float
-    at: float
-    depth: float
-    resultant: float | None
-    shift: float
-    l2_shifted: float
-    factor: float
-    l2_scaled: float
-
-    @property
-    def suspicion(self) -> str:
-        """The cause of a factor far from 1, if it explains over half of the difference."""
-        if FACTORS[0] <= self.factor <= FACTORS[1] or self.l2_scaled > abs(self.factor):
-            return ""
-        return (
-            "are the signs the same?"
-            if -FACTORS[1] <= self.factor <= -FACTORS[0]
-            else "are the units of load and length the same?"
-        )
-
-    def lines(self, name: str, file: str) -> list[str]:
-        """The difference of the quantity `name` as lines of a report."""
-        left_out = f" ({self.infinite} left out, where {name} is infinite)" if self.infinite else ""
-        depth = f", y = {self.depth:.6g}" if self.depth else ""
-        lines = [
-            f"{name}: {self.points} points of {file}{left_out}",
-            f"  l1     {self.l1:.3e}",
-            f"  l2     {self.l2:.3e}",
-            f"  max    {self.largest:.3e} of the largest, at x = {self.at:.6g}{depth}",
-        ]
-        if self.resultant is not None:
-            lines.append(f"  load   {self.resultant:+.3e}")
-        best = "fits best, and leaves l2 ="
-        lines.append(f"  shift  {self.shift:+.6g} {best} {self.l2_shifted:.3e}")
-        if self.suspicion:
-            text = f"{self.factor:+.6g} {best} {self.l2_scaled:.3e}: {self.suspicion}"
-            lines.append(f"  factor {text}")
-        return lines
-
-
-@dataclass(frozen=True)
-class Comparison:
-    """All quantities of a file against a tolerance of l2."""
-
-    mesh: Mesh
-    tol: float
-    differences: dict[str, Difference]
-
-    @property
-    def ok(self) -> bool:
-        """Whether the l2 error of every quantity is within the tolerance."""
-        return all(d.l2 <= self.tol for d in self.differences.values())
-
-    def as_dict(self) -> dict[str, Any]:
-        """All differences, as JSON can hold them."""
-        return {
-            "file": self.mesh.name,
-            "tol": self.tol,
-            "ok": self.ok,
-            "differences": {name: asdict(d) for name, d in self.differences.items()},
-            "not_compared": list(self.mesh.others),
-        }
-
-    def __str__(self) -> str:
-        lines: list[str] = []
-        for name, difference in self.differences.items():
-            lines += difference.lines(name, self.mesh.name)
-        if self.mesh.others:
-            lines.append(
-                f"not compared: the columns {', '.join(self.mesh.others)} of {self.mesh.name}"
-            )
-        verdict = f"l2 {'is within' if self.ok else 'EXCEEDS'} {self.tol:g}"
-        return "\n".join([*lines, verdict])
-
-
-def read_mesh(path: str | Path) -> Mesh:
-    """The columns x, y and those of QUANTITIES that the header names; x and p without a header."""
-    table = read_table(path, MESH)
-    names = [NAMES.get(name, name) for name in table.header] or ["x", "p"]
-    names += map(str, range(len(names), table.width))  # of columns without a name
-    columns = _columns(table, names)
-    y = _depths(table.file, columns)
-    order = np.lexsort((y, columns["x"]))
-    values = {name: columns[name][order] for name in columns if name in QUANTITIES}
-    others = tuple(name for name in names if name and name not in columns)
-    mesh = Mesh(table.file, columns["x"][order], y[order], values, others)
-    for name in values:
-        x, _, _ = mesh.points(name)
-        if len(x) < 2 or (name in TRACTIONS and x[0] == x[-1]):
-            where = " on the surface, y = 0, where it is compared" if name in TRACTIONS else ""
-            raise ValueError(
-                f"{table.file} holds {len(x)} points of {name}{where}: "
-                "a comparison needs at least two"
-            )
-    return mesh
-
-
-def _columns(table: Table, names: list[str]) -> dict[str, Array]:
-    """The columns that can be compared, by name. ValueError unless there are x and a quantity."""
-    known = [name for name in names if name in ("x", "y", *QUANTITIES)]
-    if "x" not in known or not any(name in QUANTITIES for name in known):
-        words = [word for word in ("x", *QUANTITIES, *NAMES) if NAMES.get(word, word) not in known]
-        near = next((name for name in table.header if nearest(name, words)), "")
-        hint = f' (is "{near}" meant as "{nearest(near, words)}"?)' if near else ""
-        raise ValueError(
-            f"{table.file} has the columns {', '.join(table.header)}{hint}: "
-            f"name one x and one {' or '.join(QUANTITIES)}, on the first line"
-        )
-    columns = dict(zip(known, table.columns(tuple(map(names.index, known))), strict=True))
-    for name, values in columns.items():
-        largest = float(np.abs(values).max())
-        if largest > LARGEST:
-            raise ValueError(
-                f"{table.file} has {name} up to {largest:g}, as what is missing may be marked: "
-                "delete such lines"
-            )
-    return columns
-
-
-def _depths(name: str, columns: dict[str, Array]) -> Array:
-    """y >= 0; a file whose y points the other way is turned over, and σ_xy in it."""
-    y = columns.get("y")
-    if y is None:
-        return np.zeros(len(columns["x"]))
-    if y.min() < 0.0 < y.max():
-        raise ValueError(
-            f"{name} has y from {y.min():.6g} to {y.max():.6g}: "
-            "the body is on one side of y = 0, leave the other out"
-        )
-    if y.min() < 0.0 and "sxy" in columns:
-        columns["sxy"] = -columns["sxy"]
-    return np.abs(y)
+NEAR = 4.0  # half-widths beside the contact and in depth, within which stresses are compared
+ODD = ("q", "sxy")  # change their sign in a mirror
+SAME = 1e-6  # half-widths
+FARTHEST_FIRST = 0.25  # half-widths from the centre to the first point of half a model
+LOADED, WITHIN = 0.05, 1.25  # parts of the largest traction and of the half-width
+LEAST_COVERED = 0.02  # of the contact: a mesh that covers less has another unit of length
+POWERS = (1e3, 1e-3, 1e6, 1e-6, 25.4, 1.0 / 25.4)
 
 
 def compare(solution: Solution, mesh: Mesh, tol: float) -> Comparison:
     """Every quantity of the mesh against the exact one. ValueError if no point is in contact."""
+    _refuse_elsewhere(solution, mesh)
+    for step in (_known, _near_contact, _mirrored, _with_sign_of_shear):
+        mesh = step(solution, mesh)
+    guess = _offset(solution, mesh)
+    differences = {name: difference(name, solution, mesh, guess) for name in mesh.fields}
+    return Comparison(mesh, tol, differences)
+
+
+def _refuse_elsewhere(solution: Solution, mesh: Mesh) -> None:
     x1, x2 = solution.edges
-    if np.count_nonzero((mesh.x > x1) & (mesh.x < x2)) < 2:
-        raise ValueError(
-            f"fewer than two points of {mesh.name} are in the contact [{x1:.6g}, {x2:.6g}], "
-            f"x runs from {mesh.x[0]:.6g} to {mesh.x[-1]:.6g}: "
-            "are the units of length, or the origins, the same?"
-        )
-    return Comparison(mesh, tol, {name: _difference(name, solution, mesh) for name in mesh.values})
+    x = np.concatenate([field.x for field in mesh.fields.values()])
 
+    def inside(scale: float) -> int:
+        return int(np.count_nonzero((scale * x > x1) & (scale * x < x2)))
 
-def _difference(name: str, solution: Solution, mesh: Mesh) -> Difference:
-    x, y, values = mesh.points(name)
-    weight = np.ones_like(x) if mesh.scattered(name) else _weights(x)
-
-    def exact_at(shift: float) -> Array:
-        return QUANTITIES[name](solution, x - shift, y)
-
-    exact = exact_at(0.0)
-    finite = np.isfinite(exact)
-    f, e, w = exact[finite], (values - exact)[finite], weight[finite]
-    # A quantity that is zero everywhere is measured by the pressure.
-    measure = f if f.any() else solution.pressure(x[finite])
-    whole = RESULTANTS[name](solution) if name in RESULTANTS else 0.0
-    shift = _best_shift(exact_at, values, weight, solution.half_width)
-    below = w @ measure**2
-    l2 = float(np.sqrt(w @ e**2 / below))
-    factor = float(w @ (f * values[finite]) / (w @ f**2)) if f.any() else 1.0
-    worst = np.abs(e).argmax()
-    return Difference(
-        points=len(f),
-        infinite=int(np.count_nonzero(~finite)),
-        l1=float(w @ np.abs(e) / (w @ np.abs(measure))),
-        l2=l2,
-        largest=float(np.abs(e).max() / np.abs(measure).max()),
-        at=float(x[finite][worst]),
-        depth=float(y[finite][worst]),
-        resultant=float(weight @ values) / whole - 1.0 if whole else None,
-        shift=shift,
-        l2_shifted=_misfit(exact_at(shift), values, weight) if shift else l2,
-        factor=factor,
-        l2_scaled=float(np.sqrt(w @ (values[finite] - factor * f) ** 2 / below)),
+    tiny = 0.0 < np.ptp(x) < LEAST_COVERED * (x2 - x1)
+    if inside(1.0) >= 2 and not tiny:
+        return
+    far = (s for s in POWERS if inside(s) >= 2 and 0.5 < np.ptp(x) * s / (x2 - x1) < 2.0 * NEAR)
+    scale = next(far, 0.0)
+    what = "all" if inside(1.0) >= 2 else "fewer than two"
+    hint = f" (x times {scale:g} would lie there)" if scale else ""
+    raise ValueError(
+        f"{what} points of {mesh.name} are in the contact [{x1:.6g}, {x2:.6g}], "
+        f"x runs from {x.min():.6g} to {x.max():.6g}{hint}: "
+        "are the units of length, or the origins, the same?"
     )
 
 
-def _misfit(exact: Array, values: Array, weight: Array) -> float:
+def _known(solution: Solution, mesh: Mesh) -> Mesh:
+    """The mesh without what the scene does not determine. ValueError if nothing remains."""
+    fields, notes = dict(mesh.fields), list(mesh.notes)
+    for name, (x, y, _, _) in mesh.fields.items():
+        try:
+            EXACT[name](solution, x[:1], y[:1])
+        except ValueError as problem:
+            del fields[name]
+            if not fields:
+                raise
+            notes.append(f"{name} is not compared: {problem}")
+    return replace(mesh, fields=fields, notes=tuple(notes))
+
+
+def _near_contact(solution: Solution, mesh: Mesh) -> Mesh:
+    """The mesh with those points of stresses that are near the contact."""
+    (x1, x2), reach = solution.edges, NEAR * solution.half_width
+    fields, notes = dict(mesh.fields), dict.fromkeys(mesh.notes)
+    for name in STRESSES:
+        if name not in fields:
+            continue
+        x, y, values, _ = fields[name]
+        near = (x > x1 - reach) & (x < x2 + reach) & (y < reach)
+        if near.all() or np.count_nonzero(near) < 2:
+            continue
+        fields[name] = Points(x[near], y[near], values[near])
+        notes[
+            f"stress is compared at {near.sum()} of {len(x)} points, those within {NEAR:g} "
+            "half-widths of the contact"
+        ] = None
+    return replace(mesh, fields=fields, notes=tuple(notes))
+
+
+def _mirrored(solution: Solution, mesh: Mesh) -> Mesh:
+    """The whole of a symmetric contact, of which the mesh has half."""
+    r, centre = solution.half_width, 0.5 * sum(solution.edges)
+    traction = next((name for name in TRACTIONS if name in mesh.fields), None)
+    if traction is None:
+        return mesh
+    x, _, values = mesh.points(traction)
+    first, last = x[[0, -1]] - centre
+    one_sided = first >= -SAME * r or last <= SAME * r
+    loaded = x[np.abs(values) > LOADED * np.abs(values).max()]
+    farthest = np.abs(loaded - centre).max(initial=0.0)
+    if not one_sided or min(abs(first), abs(last)) > FARTHEST_FIRST * r or farthest > WITHIN * r:
+        return mesh
+    side = f"x runs from {first + centre:.6g} to {last + centre:.6g}, half of the contact"
+    t = r * np.linspace(0.05, 0.95, 10)
+    p, opposite = solution.pressure(centre + t), solution.pressure(centre - t)
+    if solution.tangential_load or np.abs(p - opposite).max() > SAME * np.abs(p).max():
+        note = f"{side}: load is that of this half, as the contact is not symmetric"
+        return replace(mesh, notes=(*mesh.notes, note))
+    fields = {name: _with_image(name, field, centre) for name, field in mesh.fields.items()}
+    return replace(mesh, fields=fields, notes=(*mesh.notes, f"{side}: mirrored"))
+
+
+def _with_image(name: str, field: Points, centre: float) -> Points:
+    """The points and their mirror images; those on the axis once."""
+    x, y, values, widths = field
+    off = np.abs(x - centre) > SAME * np.ptp(x)
+    sign = -1.0 if name in ODD else 1.0
+    image = (2.0 * centre - x[off], y[off], sign * values[off])
+    x, y, values = (np.concatenate(pair) for pair in zip(image, (x, y, values), strict=True))
+    order = np.lexsort((y, x))
+    both = np.concatenate((widths[off], widths))[order] if isinstance(widths, np.ndarray) else ()
+    return Points(x[order], y[order], values[order], both)
+
+
+def _with_sign_of_shear(solution: Solution, mesh: Mesh) -> Mesh:
+    """The mesh with q turned over where that is nearer to the exact one."""
+    if "q" not in mesh.fields:
+        return mesh
+    x, _, q, _ = field = mesh.fields["q"]
+    exact = solution.shear(x)
     finite = np.isfinite(exact)
-    f, w = exact[finite], weight[finite]
-    below = float(w @ f**2)
-    return float(np.sqrt(w @ (values[finite] - f) ** 2 / below)) if below > 0.0 else float("inf")
+    if mesh.weights("q")[finite] @ (exact * q)[finite] >= 0.0:
+        return mesh
+    note = "q has the other sign in the file, as the shear on the other body: it is turned over"
+    fields = mesh.fields | {"q": field._replace(values=-q)}
+    return replace(mesh, fields=fields, notes=(*mesh.notes, note))
 
 
-def _best_shift(
-    exact_at: Callable[[float], Array], values: Array, weight: Array, r: float
-) -> float:
-    from scipy.optimize import minimize_scalar  # noqa: PLC0415 -- heavy, and for comparisons only
-
-    def misfit(shift: float) -> float:
-        return _misfit(exact_at(shift), values, weight)
-
-    grid = np.linspace(-FARTHEST_SHIFT * r, FARTHEST_SHIFT * r, SHIFTS)
-    best = int(np.argmin([misfit(d) for d in grid.tolist()]))
-    around = float(grid[max(best - 1, 0)]), float(grid[min(best + 1, SHIFTS - 1)])
-    options = {"xatol": REFINED * r}
-    shift = float(minimize_scalar(misfit, bounds=around, method="bounded", options=options).x)
-    return shift if np.isfinite(misfit(0.0)) and misfit(shift) < misfit(0.0) else 0.0
-
-
-def _weights(x: Array) -> Array:
-    """Weights of the trapezoidal rule."""
-    step = np.diff(x)
-    return 0.5 * (np.append(step, 0.0) + np.append(0.0, step))
+def _offset(solution: Solution, mesh: Mesh) -> float:
+    """The centre of the mesh's pressure less that of the exact one, 0 without a pressure."""
+    if "p" not in mesh.fields:
+        return 0.0
+    x, _, p = mesh.points("p")
+    weight = np.maximum(p, 0.0) * mesh.weights("p")
+    fine = np.linspace(*solution.edges, 203)[1:-1]
+    exact = np.nan_to_num(solution.pressure(fine), posinf=0.0)
+    if not weight.any() or not exact.any():
+        return 0.0
+    return float(weight @ x / weight.sum() - exact @ fine / exact.sum())

@@ -3,29 +3,40 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+import textwrap
+from collections.abc import Callable, Sequence
+from functools import partial
+from typing import Any
 
 import numpy as np
 
 from sie.history import PathSolution
+from sie.messages import WIDE, named_rows
 from sie.problem.request import energy_costs
 from sie.solution import Solution
 
 from .answers import energy_of, notes_of, slipping, wanted
+from .cycle_report import cycle_summary
 from .sample_points import SAME_PEAK, ceiling, full, peak, reach
 from .scene_file import SceneFile, Units
 
 SAME_PLACE = 1e-7  # of the half-width: rounding of p leaves a smooth peak uncertain by as much
 NOTHING = 1e-13  # of its scale: a smaller number is rounding, and is printed as 0
 MANY_ZONES = 8  # so many zones of stick or slip are listed
-COLUMNS, ROWS = 60, 8  # of the text picture
+ROWS, NARROWEST = 8, 20  # rows of the text picture, and its columns at least
+BETWEEN = "  "  # what stands between the columns of a table
 
 
-def summary(solution: Solution, file: SceneFile) -> str:
-    """All wanted quantities, section by section."""
-    sections = {
+def summary(
+    solution: Solution, file: SceneFile, cycle: dict[str, Any] | None = None, width: int = WIDE
+) -> str:
+    """All wanted quantities, section by section, with a picture of so many columns.
+
+    `cycle` is the answer of `cycle_answer`.
+    """
+    sections: dict[str, Callable[[Solution, Units], str]] = {
         "edges": edges_summary,
-        "pressure": pressure_summary,
+        "pressure": partial(pressure_summary, width=width),
         "gap": gap_summary,
         "shear": shear_summary,
         "energy": energy_summary,
@@ -35,10 +46,13 @@ def summary(solution: Solution, file: SceneFile) -> str:
         "check": check_summary,
     }
     scene = f"{solution.scene.profile!r}, E* = {solution.scene.Estar:.6g} {file.units.stress}"
+    scene = textwrap.fill(scene, WIDE, break_long_words=False, break_on_hyphens=False)
     names = set(wanted(file))
     if "shear" in names and not energy_costs(solution.scene):
         names.discard("energy")  # it is printed with the shear
     parts = [section(solution, file.units) for name, section in sections.items() if name in names]
+    if cycle:
+        parts.append(cycle_summary(cycle, file))
     # The certificate contains the notes.
     notes = "" if "check" in wanted(file) else "\n".join(notes_of(solution, file))
     head = f"{file.title}\n{scene}" if file.title else scene
@@ -53,7 +67,7 @@ def edges_summary(solution: Solution, units: Units) -> str:
         for x, s in zip(solution.edges, solution.sharp, strict=True)
     )
     edges = f"x1 = {x1};  x2 = {x2}"
-    return _rows(
+    return named_rows(
         ("edges", "none: all of the period is in contact" if full(solution) else edges),
         *_patches(solution, units),
         ("half-width", f"{_number(r)} {units.length}, centre at x = {_number(solution.centre, r)}"),
@@ -101,18 +115,22 @@ def _patches(solution: Solution, units: Units) -> tuple[tuple[str, str], ...]:
     )
 
 
-def pressure_summary(solution: Solution, units: Units) -> str:
+def pressure_summary(solution: Solution, units: Units, width: int = WIDE) -> str:
     """The peak pressure, the mean pressure, and the pressure as a picture in text."""
+    return f"{peak_summary(solution, units)}\n\n{text_picture(solution, units, width)}"
+
+
+def peak_summary(solution: Solution, units: Units) -> str:
+    """The peak pressure and the mean pressure."""
     largest, where = peak(solution)
     places = [_number(x, solution.half_width, SAME_PLACE) for x in where[:2]]
     places += [f"{len(where) - 2} more"] if len(where) > 2 else []
     value = f"{_number(largest)} {units.stress}" if math.isfinite(largest) else "infinite"
     mean = solution.normal_load / solution.contact_length
-    rows = _rows(
+    return named_rows(
         ("peak pressure", f"{value} at x = {' and '.join(places)}"),
         ("mean pressure", f"{_number(mean)} {units.stress}"),
     )
-    return f"{rows}\n\n{text_picture(solution, units)}"
 
 
 def gap_summary(solution: Solution, units: Units) -> str:
@@ -121,7 +139,7 @@ def gap_summary(solution: Solution, units: Units) -> str:
     It is taken in the middle of the way to the contact of the next period where that is nearer.
     """
     if full(solution):
-        return _rows(("gap", "none"))
+        return named_rows(("gap", "none"))
     (x1, x2), step = solution.edges, min(0.5 * solution.half_width, reach(solution))
     x = np.array([x1 - step, x2 + step])
     values = (
@@ -129,13 +147,13 @@ def gap_summary(solution: Solution, units: Units) -> str:
         for g in solution.gap(x).tolist()
     )
     places = [f"{gap} at x = {_number(u)}" for gap, u in zip(values, x.tolist(), strict=True)]
-    return _rows(("gap", ";  ".join(places)))
+    return named_rows(("gap", ";  ".join(places)))
 
 
 def shear_summary(solution: Solution, units: Units) -> str:
     """Stick zones, slip zones and dissipated energy; the turning points of a path as a table."""
     if not solution.carries_shear:
-        return _rows(("shear", "none"))
+        return named_rows(("shear", "none"))
     scene, r = solution.scene, solution.half_width
     limit = (
         "; bonded" if scene.bonded else f"; f P = {_number(scene.friction * solution.normal_load)}"
@@ -153,12 +171,12 @@ def shear_summary(solution: Solution, units: Units) -> str:
         for energy in energy_of(solution).values()
     ]
     table = [_path_table(solution, units)] if isinstance(solution, PathSolution) else []
-    return "\n\n".join([_rows(*rows), *table])
+    return "\n\n".join([named_rows(*rows), *table])
 
 
 def energy_summary(solution: Solution, units: Units) -> str:
     """The dissipated energy."""
-    return _rows(("energy lost", f"{_number(solution.energy_lost)} {units.moment}"))
+    return named_rows(("energy lost", f"{_number(solution.energy_lost)} {units.moment}"))
 
 
 def _zones(
@@ -175,24 +193,36 @@ def _zones(
 
 
 def _path_table(solution: PathSolution, units: Units) -> str:
+    """The turning points, as wide as a terminal at most."""
     rows = solution.history.rows()
     turned = [name for name in ("tilt", "moment") if name in rows[0]]
-    head = ("P", "Q", "σ", *turned, "stick from", "to")
-    lines = [f"{_cells(head)}   energy lost ({units.moment})"]
+    head = ["P", "Q", "σ", *turned, "stick from", "to", f"energy ({units.moment})"]
+    cells: list[list[float | str]] = []
     for point in rows:
         loads = [point[name] for name in ("normal_load", "tangential_load", "bulk_stress", *turned)]
         zones = point["stick"] or [("-", "-")]
-        energy = _number(point["energy_lost"]) if "energy_lost" in point else "not known"
-        lines.append(f"{_cells((*loads, *zones[0]))}   {energy}")
+        cells.append([*loads, *zones[0], point.get("energy_lost", "not known")])
         none = [""] * len(loads)
-        lines += [_cells((*none, *zone)) for zone in zones[1:MANY_ZONES]]
+        cells += [[*none, *zone, ""] for zone in zones[1:MANY_ZONES]]
         if len(zones) > MANY_ZONES:
-            lines.append(_cells((*none, f"and {len(zones) - MANY_ZONES}", "more")))
+            cells.append([*none, f"and {len(zones) - MANY_ZONES}", "more", ""])
+    return table(head, cells)
+
+
+def table(head: Sequence[str], rows: Sequence[Sequence[float | str]]) -> str:
+    """Columns aligned at the right, with as many digits as make them no wider than a terminal."""
+    for digits in range(6, 1, -1):
+        shown = [
+            [v if isinstance(v, str) else f"{v + 0.0:.{digits}g}" for v in row] for row in rows
+        ]
+        widths = [max(map(len, column)) for column in zip(head, *shown, strict=True)]
+        if sum(widths) + len(BETWEEN) * (len(head) - 1) <= WIDE:
+            break
+    lines = (
+        BETWEEN.join(f"{v:>{w}}" for v, w in zip(row, widths, strict=True)).rstrip()
+        for row in (head, *shown)
+    )
     return "\n".join(lines)
-
-
-def _cells(values: Sequence[float | str]) -> str:
-    return "".join(f"{v:>14}" if isinstance(v, str) else f"{_number(v):>14}" for v in values)
 
 
 def stress_summary(solution: Solution, units: Units) -> str:
@@ -208,7 +238,7 @@ def stress_summary(solution: Solution, units: Units) -> str:
             for component, value in (("σ_xx", s.xx), ("σ_yy", s.yy), ("σ_xy", s.xy))
         )
         rows.append((name, f"{', '.join(parts)} {units.stress} at the centre, {where}"))
-    return _rows(*rows)
+    return named_rows(*rows)
 
 
 def yield_summary(solution: Solution, units: Units) -> str:
@@ -216,24 +246,28 @@ def yield_summary(solution: Solution, units: Units) -> str:
     limit, r = solution.elastic_limit(), solution.half_width
     if math.isinf(limit.stress):
         place = f"x = {_number(limit.x, r)} {units.length} on the surface"
-        return _rows(("elastic limit", f"0: the stress is infinite at {place}"))
+        return named_rows(("elastic limit", f"0: the stress is infinite at {place}"))
     places = (
         f"x = {_number(x, r, SAME_PLACE)}, y = {_number(y)} {units.length}" for x, y in limit.places
     )
     ratio = f"P/(bk) = {_number(limit.ratio)} (von Mises)"
-    stress = f"this contact yields if k < {_number(limit.stress)} {units.stress}"
-    return _rows(("elastic limit", f"{ratio}: {stress}"), ("weakest point", " and ".join(places)))
+    stress = f"it yields if k < {_number(limit.stress)} {units.stress}"
+    return named_rows(
+        ("elastic limit", f"{ratio}: {stress}"), ("weakest point", " and ".join(places))
+    )
 
 
 def tension_summary(solution: Solution, units: Units) -> str:
     """The largest tension on the surface, and where."""
     value, x = solution.peak_tension()
+    if value == 0.0:
+        return named_rows(("peak tension", "none: the surface is nowhere in tension"))
     size = (
         f"{_number(value, solution.normal_load / solution.half_width)} {units.stress}"
         if math.isfinite(value)
         else "infinite"
     )
-    return _rows(
+    return named_rows(
         ("peak tension", f"{size} at x = {_number(x, solution.half_width)} {units.length}")
     )
 
@@ -243,10 +277,12 @@ def check_summary(solution: Solution, _units: Units) -> str:
     return "\n\n".join(map(str, (solution.check(), *solution.trace_reports())))
 
 
-def text_picture(solution: Solution, units: Units) -> str:
+def text_picture(solution: Solution, units: Units, width: int = WIDE) -> str:
     """The pressure over the contact as columns of blocks; ↑ where it rises above the picture."""
     (x1, x2), top = solution.edges, ceiling(solution)
-    p = solution.pressure(x1 + (x2 - x1) * (np.arange(COLUMNS) + 0.5) / COLUMNS)
+    margin = len(_number(top))
+    columns = max(width - margin - len(" │"), NARROWEST)
+    p = solution.pressure(x1 + (x2 - x1) * (np.arange(columns) + 0.5) / columns)
     eighths: list[int] = np.round(np.minimum(p / top, 1.0) * 8 * ROWS).astype(int).tolist()
     rows = [
         "".join(" ▁▂▃▄▅▆▇█"[min(max(e - 8 * level, 0), 8)] for e in eighths)
@@ -257,20 +293,15 @@ def text_picture(solution: Solution, units: Units) -> str:
         for block, cut in zip(rows[0], p > top * (1.0 + SAME_PEAK), strict=True)
     )
     labels = [_number(top), *[""] * (ROWS - 1)]
-    margin = len(labels[0])
     r = solution.half_width
     left, right = _number(x1, r), f"{_number(x2, r)} {units.length}"
     lines = [f"{label:>{margin}} │{row}" for label, row in zip(labels, rows, strict=True)]
     axis = [
-        f"{0:>{margin}} └{'─' * COLUMNS}",
-        f"{'':>{margin}}  {left}{right:>{COLUMNS - len(left)}}",
+        f"{0:>{margin}} └{'─' * columns}",
+        f"{'':>{margin}}  {left}{right:>{columns - len(left)}}",
     ]
     return "\n".join([f"p in {units.stress}", *lines, *axis])
 
 
 def _number(value: float, scale: float = 0.0, nothing: float = NOTHING) -> str:
     return f"{0.0 if abs(value) < nothing * scale else value:.6g}"
-
-
-def _rows(*rows: tuple[str, str]) -> str:
-    return "\n".join(f"{name:<15} {text}" for name, text in rows)

@@ -4,7 +4,9 @@
     want = ["edges"]    optional: what `sie solve` answers without --want
     indenter = "rigid"  optional; the other way is a table [indenter]
 
-    [units]             length = "mm"  force = "N/mm"  stress = "MPa": labels of consistent units
+    [units]             length = "mm"  force = "N/mm"  stress = "MPa": labels of consistent units;
+                        checked = true: pint checks them. With pint a value may have a unit of its
+                        own, "500 N/mm" or "20 um", and is converted (`quantities`)
     [profile]           kind and its parameters; mirrored, tilted, shifted, raised, applied in this
                         order; period repeats it; of kind "sampled" x and h, or path, a file beside
                         the scene file, and without_outliers = true, levelled = true | [lo, hi]
@@ -21,6 +23,8 @@
                         path = [[P, Q, σ], ...], turning points, σ may be left out, or a file,
                         "cycle.csv"; columns = ["P", "Q", "sigma", "tilt"] says what the numbers of
                         each row are (`path_table`); the scene is that of the last point
+    [fatigue]           findley_k, shear_limit, fatemi_socie_k, yield_stress, depth, parts: for the
+                        fatigue parameters of a path that closes (`fatigue_table`)
 
 `sie example` lists commented files to start from. A mistake is refused in one sentence, a
 `SceneFileError`, that names the file, the table, the value and the remedy; a name that is not known
@@ -54,8 +58,10 @@ from sie.problem.request import WANTS
 from sie.problem.scene import Scene
 from sie.profiles.kinds import KINDS
 
+from .fatigue_table import Fatigue, fatigue_of
 from .path_table import path_of
 from .profile_tables import profile_of
+from .quantities import in_units
 from .scene_tables import LOADS, TOP, Naming, remedy, require, values_of
 from .toml_values import text, texts
 
@@ -66,7 +72,7 @@ class SceneFileError(ValueError):
 
 @dataclass(frozen=True)
 class Units:
-    """Labels of consistent units, force = stress × length; nothing is converted."""
+    """Labels of consistent units, force = stress × length."""
 
     length: str = "mm"
     force: str = "N/mm"
@@ -114,6 +120,7 @@ class SceneFile:
     want         the quantities to be answered, empty if the file names none
     path         turning points (P, Q, σ), empty without a path
     tilt, moment what the path adds to the scene's at each point, empty for nothing
+    fatigue      constants of the material for fatigue parameters
     reads        the files that it names
     """
 
@@ -124,6 +131,7 @@ class SceneFile:
     path: tuple[tuple[float, float, float], ...] = ()
     tilt: tuple[float, ...] = ()
     moment: tuple[float, ...] = ()
+    fatigue: Fatigue = field(default_factory=Fatigue)
     reads: tuple[pathlib.Path, ...] = field(default=(), compare=False)
 
     @property
@@ -185,7 +193,7 @@ def parse(text: str | bytes, name: str = "scene", folder: pathlib.Path = HERE) -
             f"{name} is nested too deeply for a scene file: `sie example` prints how one looks"
         ) from None
     try:
-        return _scene_file(table, folder)
+        return from_tables(table, folder)
     except ValueError as problem:
         raise SceneFileError(f"{name}: {with_short_words(problem)}") from None
 
@@ -232,7 +240,11 @@ def example_names() -> tuple[str, ...]:
 # -- from tables to a scene ----------------------------------------------------------------------
 
 
-def _scene_file(top: dict[str, Any], folder: pathlib.Path) -> SceneFile:
+def from_tables(top: dict[str, Any], folder: pathlib.Path = HERE) -> SceneFile:
+    """The scene in tables that TOML or JSON was read into. Raises ValueError.
+
+    Files that they name are read from `folder`.
+    """
     for key in top:
         if key not in TOP:
             raise ValueError(f'there is no key or table "{key}": {remedy(key, TOP, "")}')
@@ -242,17 +254,22 @@ def _scene_file(top: dict[str, Any], folder: pathlib.Path) -> SceneFile:
     ):
         if name not in top:
             raise ValueError(f"there is no [{name}]: give [{name}] with {content}")
+    units = values_of("units", top.get("units", {}))
+    checked = units.pop("checked", False)
+    labels = Units(**units)
+    top = in_units(top, vars(labels), checked)
     loads = values_of("load", top["load"])
     named = loads.get("path")
     path = _path(loads, folder)
     return SceneFile(
         scene=Scene(profile=profile_of(top["profile"], folder), **_bodies(top), **loads),
         title=text("title", top.get("title", "")),
-        units=Units(**values_of("units", top.get("units", {}))),
+        units=labels,
         want=wants("want", texts("want", top.get("want", []))),
         path=path.points if path else (),
         tilt=path.tilt if path else (),
         moment=path.moment if path else (),
+        fatigue=fatigue_of(values_of("fatigue", top.get("fatigue", {}))),
         reads=tuple(
             folder / name
             for name in (

@@ -81,10 +81,12 @@ def entries_of_file() -> Entries:
 BODY: dict[str, Reader] = {"young": number, "poisson": number, "plane": text, "rigid": flag}
 LOADS = ("normal_load", "half_width", "tangential_load", "sliding", "bulk_stress")
 TABLES: dict[str, Mapping[str, Reader]] = {
-    "units": {"length": text, "force": text, "stress": text},
+    "units": {"length": text, "force": text, "stress": text, "checked": flag},
     "body": BODY,
     "indenter": BODY,
     "pair": {"modulus": number, "dundurs": number, "poisson": number, "coupling": text},
+    "fatigue": dict.fromkeys(("findley_k", "shear_limit", "fatemi_socie_k", "yield_stress"), number)
+    | {"depth": number_or_pair, "parts": whole},
     "load": dict.fromkeys((*LOADS, "tilt", "moment", "friction"), number)
     | {"path": rows_or_text, "columns": texts},
 }

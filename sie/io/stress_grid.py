@@ -1,7 +1,7 @@
 """The stress on a grid of points, and files of it for other programs.
 
-    .csv    4 comment lines (#), then  x,y,xx,yy,xy,zz,j2  and one row per point, x fastest
-    .npz    arrays x (nx), y (ny), xx, yy, xy, zz, j2 (ny, nx):  numpy.load(file)["j2"]
+    .csv    4 comment lines (#), then  x,y,xx,yy,xy,zz,j2,mises  and one row per point, x fastest
+    .npz    arrays x (nx), y (ny), xx, yy, xy, zz, j2, mises (ny, nx):  numpy.load(file)["j2"]
     .vti    VTK image data that ParaView opens: the tensor "stress" (XX YY ZZ XY YZ XZ) and the
             scalars "j2" and "mises"
 
@@ -28,7 +28,7 @@ from sie.stress.half_plane import Stress
 Array = NDArray[np.float64]
 
 SUFFIXES = ("csv", "npz", "vti")
-COMPONENTS = ("xx", "yy", "xy", "zz", "j2")
+COMPONENTS = ("xx", "yy", "xy", "zz", "j2", "mises")
 # The window: beside the contact and in depth, in half-widths.
 BESIDE, DEPTH = 1.0, 2.0
 # Characters that no XML text may contain, in whatever form (XML 1.0, production 2).

@@ -20,10 +20,11 @@ from .certificate import certificate
 from .density import PatchPressure
 from .full import FullContact, full_contact
 from .gap import gap, gap_volume
+from .half_width import Ways, contact_of_half_width
 from .of_scene import Problem, problem_of
 from .operator import Found, Operator
 from .result import PatchCertificate
-from .solver import contact
+from .solver import contact, contact_near
 
 Array = NDArray[np.float64]
 
@@ -96,7 +97,7 @@ def several_patches(scene: Scene) -> SeveralPatches | FullContact:
     try:
         with np.errstate(all="ignore"):  # what that leaves is no certified contact
             problem = problem_of(scene)
-            found = whole(problem, scene) or answered(problem, contact(problem), scene)
+            found = whole(problem, scene) or answered(*_found(problem, scene), scene)
     except np.linalg.LinAlgError:
         raise LoadError(
             "the conditions of the edges became singular on the way to this load, as they are "
@@ -107,14 +108,25 @@ def several_patches(scene: Scene) -> SeveralPatches | FullContact:
     if isinstance(found, SeveralPatches):
         # The certificate forms p/root at distances down to rounding from the narrowest edges.
         narrowest = min(x2 - x1 for x1, x2 in found.patches)
-        if not problem.given.load < MOST_STEEP * narrowest * narrowest:
+        if not found.problem.given.load < MOST_STEEP * narrowest * narrowest:
             raise LoadError(OUT_OF_RANGE)
     return found
 
 
+def _found(problem: Problem, scene: Scene) -> tuple[Problem, Found]:
+    """The patches, and the problem with their load where a half-width is given."""
+    if problem.given.half_width is None:
+        return problem, contact(problem)
+
+    def is_whole(asked: Problem) -> bool:
+        return whole(asked, scene) is not None
+
+    return contact_of_half_width(problem, Ways(is_whole, contact_near, contact))
+
+
 def whole(problem: Problem, scene: Scene) -> FullContact | None:
-    """Full contact of a periodic profile, if that is the answer."""
-    if not problem.chord.periodic:
+    """Full contact of a periodic profile under a load, if that is the answer."""
+    if not problem.chord.periodic or np.isnan(problem.given.load):
         return None
     G, start, period = 0.5 * scene.Estar, problem.domain[0], problem.chord.period
     return full_contact(
@@ -123,14 +135,14 @@ def whole(problem: Problem, scene: Scene) -> FullContact | None:
 
 
 def answered(problem: Problem, found: Found, scene: Scene) -> SeveralPatches:
-    assert scene.normal_load is not None
     state, P, G = found.state, found.state.patches, 0.5 * scene.Estar
+    load = G * problem.given.load if scene.normal_load is None else scene.normal_load
     pressure = PatchPressure(found.operator, G, state.tilt, G * problem.given.load)
     singular = (-float(state.charge[0]), float(state.charge[-1]))
     moment = scene.moment if scene.moment is not None else pressure.moment
     edges = Edges(
         Interval(float(P.a[0]), float(P.b[-1])),
-        scene.normal_load,
+        load,
         moment,
         state.tilt,
         (bool(state.sharp[0]), bool(state.sharp[-1])),
@@ -145,11 +157,6 @@ def answered(problem: Problem, found: Found, scene: Scene) -> SeveralPatches:
 
 
 def _refuse_uncovered(scene: Scene) -> None:
-    if scene.normal_load is None:
-        raise ContactError(
-            f"half_width = {scene.half_width:g} does not say of which of several patches, nor at "
-            "which load they all press: give normal_load"
-        )
     if scene.epsilon or scene.bonded:
         what = "bonded surfaces" if scene.bonded else "dissimilar bodies that slide"
         raise ContactError(

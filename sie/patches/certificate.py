@@ -19,7 +19,7 @@ from sie.numerics import chebyshev
 
 from .chord import Points
 from .density import PatchPressure
-from .newton import Linear, conditions
+from .newton import Linear, conditions, moves
 from .operator import Found, Operator
 from .panels import LONG, PatchPanels
 from .result import LEAST, PatchCertificate
@@ -41,7 +41,6 @@ PLACES = 120  # at which it is, about
 TOGETHER = 32  # of them at once
 EXPLAINED = 16.0  # times what half an ulp of the edges changes
 MOST = 1e-3  # of the peak: where that is more nothing is certified
-JUMP = 1e-9  # of H: less is rounding
 CLOSE = 1e4  # condition from which a patch is about to appear, or two to merge
 
 
@@ -50,7 +49,7 @@ def certificate(
 ) -> PatchCertificate:
     """Measure an answer; `given` is what was asked, in units of E*/2."""
     o, P, G = found.operator, found.operator.patches, pressure.half_modulus
-    rule, places = _measure(pressure)
+    rule, places = measured_on(pressure)
     p, at = (pressure.at_points(m.points, m.patch, m.piece) for m in (rule, places))
     p = np.where(np.isfinite(p), p, 0.0)  # as of a part that is shorter than the doubles are apart
     peak = float(at.max())
@@ -70,7 +69,7 @@ def certificate(
         lowest_pressure=min(found.findings.lowest, 0.0),
         patches=P.number,
         condition=condition,
-        measured_to=max(LEAST, min(EXPLAINED * _rounding(o, linear, asked / G, peak / G), MOST)),
+        measured_to=max(LEAST, min(EXPLAINED * _rounding(o, linear, given, peak / G), MOST)),
         tol=tol,
         tension=tuple((t.lo, t.hi) for t in found.findings.tension),
         overlap=tuple((v.lo, v.hi) for v in found.findings.overlap),
@@ -90,23 +89,15 @@ def _notes(condition: float) -> tuple[str, ...]:
 
 def conditioning(state: State, linear: Linear, given: Given) -> float:
     """|d ln r / d ln P| of the patch for which it is largest."""
-    size = np.abs(linear.matrix).max(axis=1)
-    N = state.patches.number
-    right = np.zeros(2 * N + 1)
-    right[2 * N - 1] = given.load
-    y = np.linalg.solve(linear.matrix / size[:, None], right / size)[: 2 * N]
-    smooth = ~state.sharp
-    D = np.where(smooth, linear.intensity, 1.0)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        move = np.where(smooth, 2.0 * y / D, 0.0).reshape(-1, 2)
+    move = moves(state, linear, given.load).reshape(-1, 2)
     change = np.abs(move).max(axis=1) / state.patches.r
     return float(np.nan_to_num(change, nan=np.inf).max(initial=0.0))
 
 
-def _rounding(o: Operator, linear: Linear, load: float, peak: float) -> float:
-    """The largest relative change of p or of the load by rounding of the edges and the slope.
+def _rounding(o: Operator, linear: Linear, given: Given, peak: float) -> float:
+    """The largest relative change of p, load or moment by rounding of the edges and the slope.
 
-    All smooth edges move by half an ulp, as if at random. `load` and `peak` are in units of E*/2.
+    All smooth edges move by half an ulp, as if at random. `peak` is in units of E*/2.
 
     An edge that moves is a point charge, which the conditions of the patches and of the load miss.
     """
@@ -114,10 +105,13 @@ def _rounding(o: Operator, linear: Linear, load: float, peak: float) -> float:
     charge = 0.25 * linear.intensity * np.spacing(np.abs(P.edges))
     missed = np.sqrt(((linear.matrix[:, : 2 * N] * charge) ** 2).sum(axis=1))
     beside = o.others(np.arange(N), Points(P.c[:, None], np.zeros((N, 1))))[:, 0]
+    hull = 0.5 * float(P.b[-1] - P.a[0])
     terms = np.abs(o.pieces.series[o.panels.piece]).sum(axis=1)
     return max(
         float((missed[:N] * beside).max()) / (np.pi * peak),
-        float(missed[2 * N - 1]) / load,
+        float(missed[2 * N - 1]) / given.load,
+        # the last row is the moment only where that is given
+        float(missed[2 * N]) / (given.load * hull),
         float(np.spacing(terms.max(initial=0.0))) / (2.0 * peak),
     )
 
@@ -131,7 +125,7 @@ class Measure(NamedTuple):
     weight: Array
 
 
-def _measure(pressure: PatchPressure) -> tuple[Measure, Measure]:
+def measured_on(pressure: PatchPressure) -> tuple[Measure, Measure]:
     """A composite rule on the panels of an operator, and places between its points.
 
     At the latter the equation is measured.
@@ -153,9 +147,13 @@ def _measure(pressure: PatchPressure) -> tuple[Measure, Measure]:
     some = np.flatnonzero((length > SHORT * (k.hi - k.lo)[panel]) & far)
     some = some if some.size else np.arange(len(lo))
     some = some[:: max(len(some) // PLACES, 1)]
-    number = -(-PLACES // len(some))
-    # not close to the ends of parts, between which a place makes the kernel as steep as it is close
-    part = 0.25 + 0.5 * (np.arange(number) + 0.5) / number
+    number = min(-(-PLACES // len(some)), nodes // 2)
+    # Not close to the ends of parts, between which a place makes the kernel as steep as it is
+    # close, and midway between two points: beside one the quotient is rounding.
+    wanted = 0.25 + 0.5 * (np.arange(number) + 0.5) / number
+    g = g[some]
+    after = (g[:, :, None] < wanted).sum(axis=1)
+    part = 0.5 * (np.take_along_axis(g, after - 1, 1) + np.take_along_axis(g, after, 1))
     angle = lo[some, None] + length[some, None] * part
     return rule, _at_angles(k, pressure, panel[some], angle)
 
@@ -163,11 +161,8 @@ def _measure(pressure: PatchPressure) -> tuple[Measure, Measure]:
 def _jumps_at_ends(o: Operator) -> Mask:
     """Whether H jumps at the end k.lo and at the end k.hi of each panel, (2, p)."""
     k, pieces = o.panels, o.pieces
-    inner = np.arange(1, len(pieces.origin))
-    with np.errstate(invalid="ignore"):  # walls have no length
-        below, above = (pieces.value(inner - m, pieces.ends[inner], 0.0) for m in (1, 0))
     jump = np.zeros(len(pieces.ends), dtype=bool)
-    jump[inner] = np.abs(above - below) > JUMP * np.maximum(np.abs(below), np.abs(above))
+    jump[1:-1] = pieces.steps != 0.0
     ends = np.stack(o.ends)
     closest = pieces.ends[k.piece + np.array([[0], [1]])]
     reached = np.abs(ends - closest) <= SHORT * (ends[1] - ends[0])
@@ -234,25 +229,27 @@ def _residual(
     pressure: PatchPressure, rule: tuple[Measure, Array], places: tuple[Measure, Array]
 ) -> float:
     """The largest residual at places with their pressures, by a rule with its own."""
-    o = pressure.operator
-    P, chord = o.patches, o.patches.chord
-    (by, p), (at, values) = rule, places
+    at, values = places
     x = at.points
-    own, (left, right) = (
-        at.patch,
-        (chord.apart(x.anchor - e[at.patch], x.offset) for e in (P.a, P.b)),
-    )
+    H = pressure.operator.pieces.value(at.piece, x.anchor, x.offset) + pressure.tilt
+    found = principal_value(pressure, rule, (x, at.patch, values))
+    return float(np.abs(found - pressure.half_modulus * H).max(initial=0.0))
+
+
+def principal_value(
+    pressure: PatchPressure, rule: tuple[Measure, Array], places: tuple[Points, Index, Array]
+) -> Array:
+    """1/π PV∫p(t)/(x - t) dt at places, their patches and pressures, by a rule with its own."""
+    P, chord = pressure.operator.patches, pressure.operator.patches.chord
+    (by, p), (x, own, values) = rule, places
+    left, right = (chord.apart(x.anchor - e[own], x.offset) for e in (P.a, P.b))
     total = values * np.log(left / -right)
     for k in range(0, len(own), TOGETHER):
         some = slice(k, k + TOGETHER)
         distance = chord.difference(
             x.anchor[some, None] - by.points.anchor, x.offset[some, None] - by.points.offset
         )
-        distance[distance == 0.0] = np.inf
-        kernel = 1.0 / distance
-        if chord.periodic:
-            kernel = (np.pi / chord.period) / np.tan((np.pi / chord.period) * distance)
+        kernel = chord.kernel(distance)
         taken_out = np.where(by.patch == own[some, None], values[some, None], 0.0)
         total[some] += ((p - taken_out) * kernel) @ by.weight
-    H = o.pieces.value(at.piece, x.anchor, x.offset) + pressure.tilt
-    return float(np.abs(total / np.pi - pressure.half_modulus * H).max(initial=0.0))
+    return np.asarray(total / np.pi)

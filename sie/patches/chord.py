@@ -87,6 +87,14 @@ class Chord:
             return step + offset
         return (step - self.period * np.rint(step / self.period)) + offset
 
+    def kernel(self, step: Any) -> Any:
+        """1/(x - t) of steps x - t; per period (π/λ) cot(π(x - t)/λ), the sum over all. 0 at 0."""
+        zero = step == 0.0
+        if not self.periodic:
+            return 1.0 / np.where(zero, np.inf, step)
+        angle = (np.pi / self.period) * np.where(zero, 0.5 * self.period, step)
+        return np.where(zero, 0.0, (np.pi / self.period) / np.tan(angle))
+
     def distance(self, x: Any, lo: Any, hi: Any) -> Any:
         """The distance of x from [lo, hi], or from its nearest repetition."""
         middle = 0.5 * (lo + hi)

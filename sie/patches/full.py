@@ -35,7 +35,9 @@ Complex = NDArray[np.complex128]
 GAUSS = 16  # nodes on a panel
 FEWEST = 8  # panels
 CLOSED = 1e-12  # periods: a gap at a concave corner that is no wider is taken for none
-LEVELS = 12  # how often the panels of the certificate are graded towards breaks
+# how often the panels of the certificate are graded towards breaks, and where H jumps at some:
+# p is infinite there like a logarithm, of which the last panel has to hold next to nothing
+LEVELS, DEEP = 12, 30
 SUSPECTS = 16  # places of lowest pressure on a grid: tension there rules full contact out
 CHUNK = 1 << 18
 
@@ -71,7 +73,7 @@ class FullPressure(Density):
 
     @cached_property
     def moment(self) -> float:  # type: ignore[override]
-        x, w = self.rule(LEVELS)
+        x, w = self.rule
         return float((w * self(x)) @ x)
 
     @cached_property
@@ -94,9 +96,13 @@ class FullPressure(Density):
     def breaks(self) -> tuple[float, ...]:
         return (*self.panels[0].tolist(), self.start + self.period)
 
-    def rule(self, levels: int) -> tuple[Array, Array]:
+    @cached_property
+    def rule(self) -> tuple[Array, Array]:
         """Places and weights of a composite rule, graded towards the ends of the panels."""
         lo, hi, _ = self.panels
+        end = self.start + self.period
+        jumps = self.pieces.jumps(np.array([self.start - 0.5 * self.period]), np.array([end]))
+        levels = DEEP if jumps.any() else LEVELS
         graded = GRADING ** np.arange(1.0, levels + 1.0)
         part = np.unique(np.concatenate(([0.0, 0.5, 1.0], graded, 1.0 - graded)))
         start = (lo[:, None] + (hi - lo)[:, None] * part[:-1]).ravel()
@@ -269,7 +275,7 @@ class FullContact:
     def certificate(self, tol: float) -> PatchCertificate:
         """The residual of (1) by a composite rule of its own, and the equilibrium."""
         pressure = self.pressure
-        x, w = pressure.rule(LEVELS)
+        x, w = pressure.rule
         p = pressure(x)
         lo, hi, piece = pressure.panels
         at = (lo + (hi - lo) * 0.45)[:: max(len(lo) // 100, 1)]

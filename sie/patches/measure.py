@@ -161,15 +161,19 @@ class Measure:
         )
 
     @cached_property
-    def tau(self) -> tuple[Array, Array]:
-        """sqrt(d(t, edge)/d(other edge, t)) at both ends of each panel."""
+    def bounds(self) -> tuple[tuple[Array, Array, Array], ...]:
+        """The ends of the panels: distances from the edge, d(other edge, t), τ.
+
+        τ = sqrt(d(t, edge)/d(other edge, t)).
+        """
         k, P = self.panels, self.patches
         d = P.chord.apart
         ends = []
         for angle in (k.lo, k.hi):
             s = 2.0 * P.r[k.patch] * np.sin(0.5 * angle) ** 2
-            ends.append(np.sqrt(d(0.0, s) / d(2.0 * P.r[k.patch], -s)))
-        return ends[0], ends[1]
+            far = d(2.0 * P.r[k.patch], -s)
+            ends.append((s, far, np.sqrt(d(0.0, s) / far)))
+        return tuple(ends)
 
     @cached_property
     def beside(self) -> tuple[Array, Array]:
@@ -343,21 +347,29 @@ def _f(o: Measure, panel: Index, x: Points, i: Index, S: Any) -> Any:
 
 
 def _pole(o: Measure, panel: Index, x: Points) -> Any:
-    """∫_panel dt/(W_k(t) d(t, x)), a principal value on the panel."""
+    """∫_panel dt/(W_k(t) d(t, x)), a principal value on the panel.
+
+    By the addition theorem τ² - τ_x² = d(b, a) d(t, x)/(d(b, t) d(b, x)), which keeps its digits on
+    a patch that nearly fills its period, where all τ are about 1.
+    """
     P, k = o.patches, o.panels
     patch, right = k.patch[panel], k.right[panel]
     inward = _inward(o, panel, x[:, None])[:, 0]
-    near, far = P.chord.apart(0.0, inward), P.chord.apart(2.0 * P.r[patch], -inward)
-    t1, t2 = o.tau[0][panel], o.tau[1][panel]
+    d = P.chord.apart
+    near, far = d(0.0, inward), d(2.0 * P.r[patch], -inward)
+    (s1, far1, t1), (s2, far2, t2) = ([v[panel] for v in end] for end in o.bounds)
     square = near / far
     size = np.where(right, -2.0, 2.0) / far
+    whole = P.whole[patch]
+    rise = whole * d(0.0, s2 - s1) / (far1 * far2 * (t1 + t2))  # τ_2 - τ_1
+    away = whole * d(0.0, s1 - inward) / (far1 * far) + t1 * rise  # τ_1 τ_2 - τ_x²
     with np.errstate(divide="ignore", invalid="ignore"):
         if np.iscomplexobj(square):
             tau = np.sqrt(square)
-            return size * np.arctanh(tau * (t2 - t1) / (t1 * t2 - square)) / tau
+            return size * np.arctanh(tau * rise / away) / tau
         tau = np.sqrt(np.abs(square))
-        outside = np.arctan2(tau * (t2 - t1), t1 * t2 + np.abs(square))
-        u = tau * (t2 - t1) / (t1 * t2 - square)
+        outside = np.arctan2(tau * rise, t1 * t2 + np.abs(square))
+        u = tau * rise / away
         inside = np.arctanh(np.where(np.abs(u) > 1.0, 1.0 / u, u))
         value = np.where(square < 0.0, outside, inside) / tau
         return size * np.where(tau == 0.0, 1.0 / t1 - 1.0 / t2, value)

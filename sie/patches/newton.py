@@ -21,6 +21,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from sie.numerics.interval import EPS
+
 from .bounds import CLOSED
 from .gap_rows import across_gaps
 from .measure import edge_ratio
@@ -42,7 +44,7 @@ MOST_STEPS = 60
 SETTLED = 1e-11  # half-widths of its patch: steps below, that stop shrinking, are rounding
 FINAL = 4e-15
 QUADRATIC = 1e-3  # half-widths: the steps decrease quadratically from here on
-ULPS = 8.0  # of an edge: no step tells less
+ULPS = 8.0  # of an edge and of the load: no step tells less
 NARROW = 1e-5  # half-widths: steps are told from this width of a gap on
 # times that an edge is asked back, and the part of the mean: only clear tension counts from then on
 TURNS, CLEARLY = 3, 0.03
@@ -109,6 +111,18 @@ def closures(o: Operator, ratio: Array) -> tuple[Array, Array]:
     return K, -across_gaps(P, k, T * k.dx) * ratio[: N - 1] / np.pi
 
 
+def moves(state: State, linear: Linear, load: float) -> Array:
+    """The derivatives of the edges (2N,) by ln P; those of sharp ones are 0."""
+    size = np.abs(linear.matrix).max(axis=1)
+    n = 2 * state.patches.number
+    right = np.zeros(n + 1)
+    right[n - 1] = load
+    y = np.linalg.solve(linear.matrix / size[:, None], right / size)[:n]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        moved = 2.0 * y / np.where(state.sharp, 1.0, linear.intensity)
+    return np.where(state.sharp, 0.0, moved)
+
+
 class Damping(NamedTuple):
     """What limits the next moves of the edges, (2N,) each.
 
@@ -166,17 +180,17 @@ def room(patches: Patches, corners: Array) -> Array:
 
 
 def solve(
-    state: State, pieces: Pieces, given: Given, accuracy: tuple[float, int]
+    state: State, pieces: Pieces, given: Given, accuracy: tuple[float, int], longest: int
 ) -> tuple[State, Event | None, int]:
     """Edges that meet the conditions, or the event that stopped the search on its way.
 
     The number of steps comes with them. `accuracy`: half-widths that the last step may have, and
-    the most steps.
+    the most steps since the last event. `longest`: the most of all.
     """
     enough, most = accuracy
     damping = Damping.none(2 * state.patches.number)
     sizes: list[float] = []
-    for step in range(most + MOST_STEPS * state.patches.number):
+    for step in range(min(most + MOST_STEPS * state.patches.number, longest)):
         if len(sizes) == most:
             break
         _, linear = conditions(state, pieces, given)
@@ -185,11 +199,12 @@ def solve(
         # D depends on the charges: they first
         unknown = state.sharp.any() and not state.charge.any()
         damping = damping.limited(state, 0.0 * asked if unknown else asked, pieces.concave)
-        size = relative_size(state, y, asked)
+        size = relative_size(state, y, _told(state, asked, moves(state, linear, given.load)))
         limits = pieces.solid_around(state.patches.c), given.moment is not None
         state, clipped = moved(state, damping.moved, y, limits)
         sizes.append(np.inf if clipped else size)
-        if _settled(sizes, enough, state.sharp.any()):
+        whole = np.array_equal(asked, damping.moved)
+        if _settled(sizes, enough, whole, state.sharp.any()):
             wrong = np.flatnonzero(state.sharp & (state.charge * state.outward < 0.0))
             return state, Event("smooth", int(wrong[0])) if wrong.size else None, step + 1
         event = _event(state, asked, damping.insists, pieces)
@@ -220,14 +235,18 @@ def wished(state: State, linear: Linear, y: Array, turns: Array) -> Array:
     return np.where(pulls, inward, np.where(smooth, 2.0 * y[: 2 * N] / D, 0.0))
 
 
-def relative_size(state: State, y: Array, asked: Array) -> float:
+def _told(state: State, asked: Array, moves: Array) -> Array:
+    """The moves of edges, less what doubles of the edges and of the load do not resolve."""
+    least = np.spacing(np.abs(state.patches.edges)) + EPS * np.nan_to_num(np.abs(moves))
+    return np.maximum(np.abs(asked) - ULPS * least, 0.0)
+
+
+def relative_size(state: State, y: Array, told: Array) -> float:
     """The largest move of an edge or change of a charge, as a fraction.
 
-    Moves are divided by the half-width or a narrower gap, less what doubles do not resolve; changes
-    by the largest charge.
+    Moves are divided by the half-width or a narrower gap, changes by the largest charge.
     """
     P, sharp = state.patches, state.sharp
-    told = np.maximum(np.abs(asked) - ULPS * np.spacing(np.abs(P.edges)), 0.0)
     gaps = np.stack((np.concatenate((P.gaps[-1:], P.gaps[:-1])), P.gaps), axis=1).ravel()
     r = np.repeat(P.r, 2)
     size = np.clip(gaps, NARROW * r, r)
@@ -254,18 +273,19 @@ def moved(state: State, move: Array, y: Array, limits: tuple[Any, bool]) -> tupl
     return State(Patches(e[::2], e[1::2], state.patches.chord), sharp, charge, tilt), clipped
 
 
-def _settled(sizes: list[float], enough: float, sharp: np.bool_) -> bool:
+def _settled(sizes: list[float], enough: float, whole: bool, sharp: np.bool_) -> bool:
     """Whether the last step is small enough.
 
-    It is so too if what follows is, by the steps' quadratic decrease, or if only rounding is left.
-    Beside sharp edges a move is wrong as far as the charges before it were.
+    It is so too if what follows is, by the steps' quadratic decrease where it was done as a
+    `whole`, or if only rounding is left. Beside sharp edges a move is wrong as far as the charges
+    before it were.
     """
     last, before = sizes[-1], sizes[-2] if len(sizes) > 1 else np.inf
     if last < enough:
         return True
     rate = before if sharp else (last / before) ** 2
     decreased = last < QUADRATIC and before < QUADRATIC and last * rate < enough
-    return decreased or (last < SETTLED and last >= 0.5 * before)
+    return (decreased and whole) or (last < SETTLED and last >= 0.5 * before)
 
 
 def _event(state: State, asked: Array, insists: Array, pieces: Pieces) -> Event | None:

@@ -22,6 +22,7 @@ from sie.profiles.base import Profile
 
 from .density import PatchPressure
 from .newton import conditions
+from .of_scene import Problem
 from .operator import Found, Operator
 from .profile_pieces import of_profile
 from .state import Given, State
@@ -55,6 +56,8 @@ class Answer(Protocol):
     def found(self) -> Found: ...
     @property
     def pressure(self) -> PatchPressure: ...
+    @property
+    def problem(self) -> Problem: ...
 
 
 def changes(
@@ -93,11 +96,15 @@ def _changed(several: Answer, error: Profile, places: Array, moment: bool) -> tu
     none = Given(0.0, 0.0, 0.0 if moment else None)
     still = State(P, np.ones(2 * P.number, dtype=bool), np.zeros(2 * P.number), 0.0)
     _, linear = conditions(still, pieces, none)
+    _, whole = conditions(state, several.found.operator.pieces, none)
+    moved = np.where(sharp, 0.0, 2.0 / np.where(sharp, 1.0, whole.intensity))
+    n = len(moved)
+    if several.problem.given.half_width is not None:  # the load changes in its place
+        linear.missed[n - 1], linear.matrix[n - 1] = 0.0, 0.0
+        linear.matrix[n - 1, [0, n - 1]] = -moved[0], moved[-1]
     size = np.abs(linear.matrix).max(axis=1)
     y = np.linalg.solve(linear.matrix / size[:, None], -linear.missed / size)
     charged = Operator(P, pieces, y[:-1])
     G, tilt = several.pressure.half_modulus, float(y[-1])
     p = PatchPressure(charged, G, tilt, 0.0)(places)
-    _, whole = conditions(state, several.found.operator.pieces, none)
-    shifts = np.where(sharp, 0.0, 2.0 * y[:-1] / np.where(sharp, 1.0, whole.intensity))
-    return p, shifts
+    return p, moved * y[:-1]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -14,7 +14,7 @@ from sie.problem.scene import Scene
 from .chord import Chord
 from .pieces import Pieces
 from .profile_pieces import of_profile
-from .state import Given
+from .state import Effort, Given
 
 Array = NDArray[np.float64]
 
@@ -26,7 +26,9 @@ class Problem:
     pieces     window -> the slope, without tilt
     slope      H(x);  height: h(x);  by_slope: whether the slope is a function, and h costs more
     domain     where the indenter is known; corners: whether its ends are the indenter's own
-    given      load, tilt or moment
+    given      load or half-width, tilt or moment
+    half_modulus    E*/2
+    effort     what the search has taken so far
     """
 
     pieces: Callable[[tuple[float, float]], Pieces]
@@ -38,6 +40,8 @@ class Problem:
     breaks: Array
     chord: Chord
     given: Given
+    half_modulus: float
+    effort: Effort = field(default_factory=Effort)
 
     def tilted(self, tilt: float, window: tuple[float, float]) -> Callable[[Array], Array]:
         """The function h + tilt x on the window, up to a constant.
@@ -57,7 +61,7 @@ class Problem:
 def problem_of(scene: Scene, tol: float = 1e-15) -> Problem:
     profile, G = scene.profile, 0.5 * scene.Estar
     moment = None if scene.moment is None else scene.moment / G
-    assert scene.normal_load is not None
+    load = np.nan if scene.normal_load is None else scene.normal_load / G
     domain = profile.pieces.domain
     return Problem(
         pieces=lambda window: of_profile(profile, window, tol),
@@ -68,7 +72,8 @@ def problem_of(scene: Scene, tol: float = 1e-15) -> Problem:
         corners=profile.ends_are_corners,
         breaks=np.asarray(profile.breaks),
         chord=Chord(profile.period),
-        given=Given(scene.normal_load / G, scene.tilt, moment),
+        given=Given(load, scene.tilt, moment, scene.half_width),
+        half_modulus=G,
     )
 
 

@@ -74,6 +74,12 @@ class Patches:
         return np.asarray(following - self.b)
 
     @cached_property
+    def whole(self) -> Array:
+        """d(b, a) of each patch; per period from the rest of it, where that is shorter."""
+        width, rest = self.b - self.a, (self.a - self.b) + self.chord.period
+        return np.asarray(self.chord.apart(0.0, np.minimum(width, rest)))
+
+    @cached_property
     def edges(self) -> Array:
         """a_1, b_1, a_2, b_2 ..."""
         return np.stack((self.a, self.b), axis=1).ravel()

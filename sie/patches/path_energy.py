@@ -17,15 +17,13 @@ from sie.errors import ContactError
 from sie.friction import changing_contact
 from sie.friction.changing_contact import ChangingContact
 from sie.friction.dissipation import Dissipation, dissipated
+from sie.friction.loads import Loads
 from sie.friction.marched_step import MarchedStep
 from sie.friction.memory import SlippedLayer
 from sie.friction.moving_work import work
-from sie.friction.receding_step import Receded
 from sie.friction.slip_state import Slip
-from sie.friction.turning_point import Loads, TurningPoint
-from sie.numerics.halving import integral
+from sie.friction.turning_point import TurningPoint
 from sie.numerics.interval import Interval
-from sie.traction.of_slope import SlopeDensity
 
 from .dissipation import PatchDissipation
 
@@ -36,16 +34,12 @@ class Followed(changing_contact.Followed, Protocol):
     first_loading    the state of a contact that was never sheared before S rose to a depth
     dissipation      the energy of layers at one tilt, in one patch
     work_in_patches  the same in several patches
-    pressure_at      the pressure under loads, in one patch
-    sheared_by       Q and τ of loads
     march            the turning point after a step that no layers answer
     """
 
     def first_loading(self, normal: tuple[float, float], depth: complex, turned: bool) -> Slip: ...
     def dissipation(self, turn: float) -> Dissipation: ...
     def work_in_patches(self, turn: float) -> PatchDissipation: ...
-    def pressure_at(self, loads: Loads) -> SlopeDensity: ...
-    def sheared_by(self, loads: Loads) -> tuple[float, float]: ...
     def march(self, before: TurningPoint, loads: Loads) -> TurningPoint: ...
 
 
@@ -91,27 +85,8 @@ class PathEnergy:
 
     def _of_march(self, index: int) -> float:
         """The energy that a step dissipated, by marching."""
-        path, before = self.path, self.path.turning_points[index - 1]
-        start, end = before.loads, path.turning_points[index].loads
-        parts = path.turning_points[index].marched or self._march(index)
-        if start.normal == end.normal:
-            return sum(part.integrals.work for part in parts)
-        if path.curved:
-            raise ContactError(
-                f"step {index} of the path, to {end}: it is marched, the tilt follows from the "
-                "moment, and the energy lost meanwhile is not covered; give tilt instead",
-                step=index,
-            )
-        part = parts[0]
-        assert isinstance(part, Receded)
-        dP, strain = end.P - start.P, 0.5 * path.scene.Estar * (end.turn - start.turn)
-        rates = dP, part.Q - part.before.Q, part.tau - part.before.tau, strain
-
-        def power(share: float) -> float:
-            loads = start.towards(end, share)
-            return part.under(path.pressure_at(loads), path.sheared_by(loads)).power(rates)
-
-        return integral(power, power(0.5))
+        parts = self.path.turning_points[index].marched or self._march(index)
+        return sum(part.work for part in parts)
 
     def _march(self, index: int) -> tuple[MarchedStep, ...]:
         """The parts of a step that layers answer at its end, but not on the way."""

@@ -29,7 +29,7 @@ Index = NDArray[np.int64]
 GROWTH = 8.0  # a piece is continued beyond its ends while its polynomial grows by no more
 EASY = 1.5  # lengths: how far a polynomial of degree 3 or less is continued
 WAVES = 6.0  # of these lengths a panel may take in
-CORNER = 1e-9  # of H: a jump down that is no rounding
+CORNER = 1e-9  # of the terms of H: a jump that is no rounding
 
 
 @dataclass(frozen=True, eq=False)
@@ -153,14 +153,25 @@ class Pieces:
             series = 0.0 * series
         return replace(self, power=power, series=series)
 
+    @cached_property
+    def steps(self) -> Array:
+        """By how much H jumps up at the inner ends, (K - 1,); 0 where that is rounding."""
+        k, x = np.arange(len(self.origin) - 1), self.ends[1:-1]
+        with np.errstate(invalid="ignore"):
+            step = self.value(k + 1, x, 0.0) - self.value(k, x, 0.0)
+            # H itself may be next to nothing there
+            size = np.maximum(self._terms(k, x), self._terms(k + 1, x))
+            return np.asarray(np.where(np.abs(step) > CORNER * size, step, 0.0))
+
+    def _terms(self, k: Index, x: Array) -> Array:
+        """The sum of the magnitudes of what H of the pieces k at x is the sum of."""
+        degree = np.arange(self.power.shape[1])
+        power = np.abs(self.power[k]) * np.abs(x - self.origin[k])[:, None] ** degree
+        return np.asarray(power.sum(axis=1) + np.abs(self.series[k]).sum(axis=1))
+
     def jumps(self, lo: Array, hi: Array) -> NDArray[np.bool_]:
         """Whether H jumps anywhere inside intervals."""
-        k = np.arange(len(self.origin) - 1)
-        x = self.ends[1:-1]
-        with np.errstate(invalid="ignore"):
-            below, above = self.value(k, x, 0.0), self.value(k + 1, x, 0.0)
-        jump = np.abs(below - above) > CORNER * np.maximum(np.abs(below), np.abs(above))
-        x = x[jump]
+        x = self.ends[1:-1][self.steps != 0.0]
         return np.asarray(np.searchsorted(x, hi) > np.searchsorted(x, lo, "right"))
 
     def _divided(self, power: Array, series: Array, k: Any, t: Any, x: Any) -> Any:
@@ -213,12 +224,7 @@ class Pieces:
     @cached_property
     def concave(self) -> Array:
         """Concave corners, where H jumps down between two pieces of the indenter."""
-        k = np.arange(len(self.origin) - 1)
-        x = self.ends[1:-1]
-        with np.errstate(invalid="ignore"):
-            below, above = self.value(k, x, 0.0), self.value(k + 1, x, 0.0)
-        down = below - above > CORNER * np.maximum(np.abs(below), np.abs(above))
-        return np.asarray(x[down & ~(self.void[:-1] | self.void[1:])])
+        return np.asarray(self.ends[1:-1][(self.steps < 0.0) & ~(self.void[:-1] | self.void[1:])])
 
     @cached_property
     def never_closed(self) -> Array:

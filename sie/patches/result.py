@@ -5,13 +5,35 @@ from __future__ import annotations
 import textwrap
 from collections.abc import Sequence
 from dataclasses import dataclass, fields, replace
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
 
 GRADING = 0.4  # parts of a panel shrink towards its ends by this factor
 LEAST = 8.0 * float(np.finfo(float).eps)
 WIDE = 79
+
+
+class OfShear(Protocol):
+    """The certificate of a shear: its measures, its verdict, and how it is printed."""
+
+    @property
+    def residual(self) -> float: ...
+    @property
+    def equilibrium(self) -> float: ...
+    @property
+    def excess(self) -> float: ...
+    @property
+    def opposing(self) -> float: ...
+    @property
+    def error(self) -> float: ...
+    @property
+    def ok(self) -> bool: ...
+    @property
+    def rows(self) -> tuple[tuple[str, str], ...]: ...
+    @property
+    def remarks(self) -> tuple[str, ...]: ...
+    def as_dict(self) -> dict[str, Any]: ...
 
 
 @dataclass(frozen=True)
@@ -27,6 +49,7 @@ class PatchCertificate:
     tol               what was asked for
     tension, overlap  intervals where p < 0 in contact, gap < 0 beside it: () if verified by bounds
     notes             sentences
+    shear             the certificate of the shear traction
     """
 
     residual: float
@@ -40,10 +63,7 @@ class PatchCertificate:
     tension: tuple[tuple[float, float], ...] = ()
     overlap: tuple[tuple[float, float], ...] = ()
     notes: tuple[str, ...] = ()
-
-    @property
-    def shear(self) -> None:
-        """The measure of a shear, which is part of `residual` here."""
+    shear: OfShear | None = None
 
     @property
     def error(self) -> float:
@@ -53,12 +73,15 @@ class PatchCertificate:
     @property
     def ok(self) -> bool:
         allowed = max(self.tol, self.measured_to)
+        if self.shear is not None and not self.shear.ok:
+            return False
         return bool(self.error <= allowed and not self.tension and not self.overlap)
 
     def as_dict(self) -> dict[str, Any]:
-        numbers = {f.name: getattr(self, f.name) for f in fields(self)}
+        numbers = {f.name: getattr(self, f.name) for f in fields(self) if f.name != "shear"}
         numbers |= {name: list(map(list, numbers[name])) for name in ("tension", "overlap")}
-        return numbers | {"notes": list(self.notes), "error": self.error, "ok": self.ok}
+        numbers |= {"notes": list(self.notes), "error": self.error, "ok": self.ok}
+        return numbers | ({} if self.shear is None else {"shear": self.shear.as_dict()})
 
     def __str__(self) -> str:
         rows = [
@@ -71,7 +94,9 @@ class PatchCertificate:
         ]
         allowed = max(self.tol, self.measured_to)
         verdict = f"certified to {allowed:.0e}" if self.ok else f"NOT certified to {allowed:.0e}"
+        rows += [] if self.shear is None else self.shear.rows
         lines = [f"{name:<48} {value:>9}" for name, value in rows]
+        lines += [] if self.shear is None else self.shear.remarks
         promise = "p >= 0 in contact and gap >= 0 beside it hold by bounds, panel by panel."
         return "\n".join([*lines, verdict, *textwrap.wrap(promise, WIDE), *self.notes])
 

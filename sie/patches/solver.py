@@ -13,6 +13,7 @@ the tilt, along which the moment of the pressure falls.
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,11 +25,12 @@ from .gap import gap, overlaps
 from .newton import FINAL, MOST_STEPS
 from .of_scene import Problem, changed
 from .operator import Found, Operator
+from .panels import Patches
 from .pieces import Pieces
-from .repairs import after, apart, bounded, mended
-from .start import grid_pressure
+from .repairs import after, apart, bounded, mended, one_period
+from .start import cells_of, grid_pressure
 from .start_state import start_of
-from .state import Event, Findings, Given, State, balances
+from .state import Effort, Event, Findings, Given, State, balances
 from .tension import tensions
 from .window import COARSE, WIDENED, fitted_window, levels
 
@@ -59,14 +61,45 @@ CELLS = 1.5  # for each break in the window
 FAR, LOOKED_AT = 1e3, 4000
 
 
+class Exhausted(Exception):
+    """The effort of a search is spent."""
+
+
+def contact_near(problem: Problem, near: Found) -> Found | None:
+    """The patches of a problem from those under a close load; None if that does not find them."""
+    problem = replace(problem, effort=Effort())
+    window = near.operator.pieces.domain
+    try:
+        found = settled(near.state, near.operator.pieces, problem)
+        refuse_unknown_ends(found.state, problem)
+        if _overlap_beyond(found, problem, window) == window:
+            return _in_one_period(found, problem)
+    except (*ASTRAY, Exhausted):
+        pass
+    return None
+
+
 def contact(problem: Problem) -> Found:
     """The patches of a problem. Raises ContactError where none are certified."""
+    problem = replace(problem, effort=Effort())
+    try:
+        return _in_windows(problem)
+    except Exhausted:
+        moment = problem.given.moment is not None
+        raise LoadError(
+            "the patches of contact do not settle within the most steps of a search at normal_load "
+            f"over E*/2 = {problem.given.load:.6g}: change the load{' or the moment' * moment}, or "
+            "take a profile with fewer waves, as a trace that is smoothed or a part of it"
+        ) from None
+
+
+def _in_windows(problem: Problem) -> Found:
     window = fitted_window(problem)
     for _ in range(WIDENED):
         found = _within(problem, window)
         beyond = _overlap_beyond(found, problem, window)
         if beyond == window:
-            return found
+            return _in_one_period(found, problem)
         window = beyond
     raise LoadError(
         f"contact goes on beyond [{window[0]:.6g}, {window[1]:.6g}]: the slope rises too little; "
@@ -74,15 +107,38 @@ def contact(problem: Problem) -> Found:
     )
 
 
+def _in_one_period(found: Found, problem: Problem) -> Found:
+    """The same contact; per period the first patch begins in that of the profile.
+
+    The widest gap follows the last patch. Sharp edges that rounding moves off the indenter's end,
+    and patches about to merge, are left where they are.
+    """
+    P, state = found.state.patches, found.state
+    if not P.chord.periodic:
+        return found
+    last = int(np.argmax(P.gaps * (1.0 + SAME * (np.arange(P.number) == P.number - 1))))
+    a, b = one_period(P.a, P.b, P.chord.period)
+    if last == P.number - 1:
+        a, b = P.a, P.b
+    turns = np.floor((a[0] - problem.domain[0]) / P.chord.period + SAME) * P.chord.period
+    if last == P.number - 1 and turns == 0.0:
+        return found
+    turn = -2 * (last + 1)
+    sharp, charge = np.roll(state.sharp, turn), np.roll(state.charge, turn)
+    turned = State(Patches(a - turns, b - turns, P.chord), sharp, charge, state.tilt)
+    try:
+        return settled(turned, found.operator.pieces, problem)
+    except ASTRAY:
+        return found
+
+
 def _within(problem: Problem, window: tuple[float, float]) -> Found:
     tilts = (problem.given.tilt,) * 2
     if problem.given.moment is not None:
         tilts = levels(problem, window)
     tilt = 0.5 * (tilts[0] + tilts[1])
-    cells = FEWEST_CELLS
     inside = np.count_nonzero((problem.breaks > window[0]) & (problem.breaks < window[1]))
-    while cells < min(CELLS * inside, MOST_CELLS):
-        cells *= 2
+    cells = cells_of(min(max(CELLS * inside, FEWEST_CELLS), MOST_CELLS))
     pieces = problem.pieces(window)
 
     def touched(asked: Problem, tilt: float, cells: int) -> State:
@@ -186,7 +242,7 @@ def settled(state: State, pieces: Pieces, problem: Problem) -> Found:
             break
         seen.add(start)
         accuracy = (ROUGHLY, EARLY_STEPS) if round_ < early else (FINAL, MOST_STEPS)
-        state, event, count = newton.solve(state, pieces, problem.given, accuracy)
+        state, event, count = _stepped(state, pieces, problem, accuracy)
         steps += count
         stalls += event is not None and event.kind == "stall" and round_ >= early
         if stalls > STALLS:
@@ -210,6 +266,19 @@ def settled(state: State, pieces: Pieces, problem: Problem) -> Found:
     if nearly is not None:
         return nearly
     raise _unsettled(problem, state.patches.number)
+
+
+def _stepped(
+    state: State, pieces: Pieces, problem: Problem, accuracy: tuple[float, int]
+) -> tuple[State, Event | None, int]:
+    """What Newton's method leads to. Raises Exhausted where no effort is left."""
+    number = state.patches.number
+    longest = problem.effort.steps(number)
+    if longest < 1:
+        raise Exhausted
+    found = newton.solve(state, pieces, problem.given, accuracy, longest)
+    problem.effort.spend(found[2], number)
+    return found
 
 
 def _unsettled(problem: Problem, patches: int, reached: float = 0.0) -> LoadError:

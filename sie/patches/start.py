@@ -8,6 +8,7 @@ parabola with its load, P = πGκr²/2, where the slope is that which the other 
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from typing import NamedTuple
 
@@ -17,6 +18,8 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 
 COARSEST = 256  # cells
+# of the coarsest of the grids that lead to a fine one: the even lengths of fast transforms
+FAST = (144, 150, 160, 180, 192, 200, 216, 240, COARSEST)
 ITERATIONS, PRECONDITIONED = 400, 200  # on one grid
 # Steps from one look for overlaps to the next: new contact ends the conjugate directions, and in
 # noise some comes with every step
@@ -52,7 +55,9 @@ def grid_pressure(
     Heights may be infinite where there is no indenter.
     """
     lo, hi = window
-    n = min(COARSEST, cells)
+    n = cells
+    while n > COARSEST:
+        n //= 2
     p = np.ones(0)
     while True:
         dx = (hi - lo) / n
@@ -66,6 +71,12 @@ def grid_pressure(
         if n >= cells:
             return Grid(lo, dx, p, periodic)
         n *= 2
+
+
+def cells_of(least: float) -> int:
+    """The fewest cells, not fewer than these, of a grid that is fast on all levels."""
+    doubled = 1 << max(math.ceil(math.log2(least / COARSEST)), 0)
+    return doubled * next(n for n in FAST if n * doubled >= least)
 
 
 def _influence(n: int, dx: float, periodic: bool) -> Array:

@@ -12,13 +12,16 @@ from .panels import Patches
 
 Array = NDArray[np.float64]
 
+MOST_EFFORT = 1500.0
+
 
 class Given(NamedTuple):
-    """The given load, and tilt or moment, in units of E*/2."""
+    """The given load, and tilt or moment, in units of E*/2; a half-width that gave the load."""
 
     load: float
     tilt: float
     moment: float | None
+    half_width: float | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,6 +43,28 @@ def balances(state: State, given: Given) -> bool:
     """Whether the given load acts between the outermost edges, as that of a pressure does."""
     P = state.patches
     return given.moment is None or bool(P.a[0] < given.moment / given.load < P.b[-1])
+
+
+@dataclass
+class Effort:
+    """The effort of one search.
+
+    A step of Newton's method with N patches is an effort of 1 + N/100: that of one patch takes
+    milliseconds, and that of 1500 patches a second.
+    """
+
+    spent: float = 0.0
+
+    def steps(self, patches: int) -> int:
+        """How many steps are left."""
+        return int((MOST_EFFORT - self.spent) / self._of_step(patches))
+
+    def spend(self, steps: int, patches: int) -> None:
+        self.spent += steps * self._of_step(patches)
+
+    @staticmethod
+    def _of_step(patches: int) -> float:
+        return 1.0 + patches / 100.0
 
 
 class Event(NamedTuple):

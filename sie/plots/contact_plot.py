@@ -18,8 +18,9 @@ picture is asked for; `pyplot` is not used, and no global setting is changed.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 from typing import Any
 
 import numpy as np
@@ -29,9 +30,8 @@ from numpy.typing import NDArray
 
 from sie.history import History, PathSolution, follow
 from sie.io.answers import slip_of
-from sie.io.sample_points import abscissae, ceiling, full, peak, reach, summits
+from sie.io.sample_points import ABOVE_ORDINARY, abscissae, ceiling, full, peak, reach, summits
 from sie.io.scene_file import UNITS, Units
-from sie.problem.load_path import Path
 from sie.solution import Solution
 
 from . import style
@@ -53,19 +53,21 @@ ARROW = {
 GROUND = 0.28  # thickness of the half-plane in the lower panel, relative to the height above it
 
 
-def picture(solution: Solution, units: Units = UNITS, title: str = "") -> Figure:
+def picture(
+    solution: Solution, units: Units = UNITS, title: str = "", width: float = style.WIDTH
+) -> Figure:
     """A Matplotlib figure of the pressure and the gap, and of shear and slip if there are any.
 
-    `units` are labels. The figure is not registered with pyplot: save it with
+    `units` are labels, `width` is in inches. The figure is not registered with pyplot: save it with
     figure.savefig("contact.pdf"), or leave it as the last line of a notebook's cell.
     """
     view = _View(solution, units)
-    sheared = solution.carries_shear and not solution.scene.bonded  # q between ± f p
-    loop = _loop(solution)
+    sheared = solution.carries_shear
+    loop = loop_along(solution.history) if isinstance(solution, PathSolution) and sheared else None
     draw = [_draw_pressure, _draw_gap, *[_draw_shear] * sheared]
     draw += [_draw_slip] * (sheared and bool(view.slip.any()))
     count = len(draw) + (loop is not None)
-    figure = Figure(figsize=(style.WIDTH, HEIGHT * count), dpi=style.DPI, layout="constrained")
+    figure = style.Picture(HEIGHT * count, width)
     grid = figure.add_gridspec(count, 1, height_ratios=[1.2, *[1.0] * (count - 1)])
     upper = figure.add_subplot(grid[0])
     lower = [figure.add_subplot(grid[k], sharex=upper) for k in range(1, len(draw))]
@@ -77,16 +79,29 @@ def picture(solution: Solution, units: Units = UNITS, title: str = "") -> Figure
         draw_loop(below, loop, units)
         style.plain(below)
     for axes in panels:
-        if not full(solution):
-            style.edge_lines(axes, solution.patches, view.factor, zorder=2.5)
-        style.plain(axes)
-    panels[-1].set_xlim(view.left * view.factor, view.right * view.factor)
+        _finish(axes, view)
     style.x_axis(panels[-1], view.length)
     for axes in panels[:-1]:
         axes.tick_params(labelbottom=False)
     figure.align_ylabels()
     style.heading(figure, title)
     return figure
+
+
+def panel(solution: Solution, what: str, axes: Axes, units: Units = UNITS) -> None:
+    """One panel of the picture on given axes: pressure, gap, shear or slip."""
+    view = _View(solution, units)
+    PANELS[what](axes, view)
+    _finish(axes, view)
+    style.x_axis(axes, view.length)
+
+
+def _finish(axes: Axes, view: _View) -> None:
+    """The edges, the frame and the range of x of a panel."""
+    if not full(view.solution):
+        style.edge_lines(axes, view.solution.patches, view.factor, zorder=2.5)
+    style.plain(axes)
+    axes.set_xlim(view.left * view.factor, view.right * view.factor)
 
 
 # -- the quantities ------------------------------------------------------------------------------
@@ -137,6 +152,15 @@ class _View:
     def shown(self) -> float:
         """The largest pressure to be drawn."""
         return ceiling(self.solution)
+
+    @cached_property
+    def shown_shear(self) -> float:
+        """The largest |q| to be drawn: f times the pressure, of bonded bodies of q itself."""
+        solution = self.solution
+        if not solution.scene.bonded:
+            return solution.scene.friction * self.shown
+        q = np.abs(solution.shear(self.inside))
+        return ABOVE_ORDINARY * float(np.quantile(q[np.isfinite(q)], 0.9)) or self.shown
 
     @cached_property
     def cut(self) -> list[float]:
@@ -213,17 +237,21 @@ def _draw_gap(axes: Axes, view: _View) -> None:
 
 
 def _draw_shear(axes: Axes, view: _View) -> None:
-    """q between ± f p; where |q| leaves the panel (sharp edges) it is cut like the pressure."""
-    solution, x = view.solution, view.inside
-    f, largest = solution.scene.friction, solution.scene.friction * view.shown
+    """q between ± f p; where |q| leaves the panel (sharp edges) it is cut like the pressure.
+
+    In full stick there are no limits.
+    """
+    solution, x, largest = view.solution, view.inside, view.shown_shear
     scale, stress = style.scaled(largest, view.units.stress)
-    limit = np.minimum(f * solution.pressure(x), 4.0 * largest)
     q = np.clip(solution.shear(x), -4.0 * largest, 4.0 * largest)
     _shade_stick(axes, view)
     # Below an axis that ends under 0 the other limit would show two stubs.
     both = bool(np.nanmin(q) < -1e-9 * largest)
-    for sign, label in ((1.0, r"$\pm f p$" if both else "$f p$"), (-1.0, ""))[: 1 + both]:
-        dashed: dict[str, Any] = {"linestyle": style.DASHED, "zorder": 2, "label": label}
+    limits = ((1.0, r"$\pm f p$" if both else "$f p$"), (-1.0, ""))[: 1 + both]
+    for sign, label in () if solution.scene.bonded else limits:
+        limit = np.minimum(solution.scene.friction * solution.pressure(x), 4.0 * largest)
+        # over q, which runs along them where the bodies slip
+        dashed: dict[str, Any] = {"linestyle": style.DASHED, "zorder": 4, "label": label}
         style.curve(axes, x * view.factor, sign * limit * scale, style.INK, 0.8, **dashed)
     style.curve(axes, x * view.factor, q * scale, style.VERMILLION, 1.3, zorder=3, label="$q$")
     style.zero_line(axes)
@@ -249,15 +277,17 @@ def _shade_stick(axes: Axes, view: _View) -> None:
         axes.axvspan(*ends, color=style.PALE_BLUE, linewidth=0.0, zorder=0, label=label)
 
 
-def _loop(solution: Solution) -> Loop | None:
-    """The loop of Q over the shift along the path of a solution, None without one."""
-    if not isinstance(solution, PathSolution) or not solution.sheared:
-        return None
-    history = solution.history
+PANELS: dict[str, Callable[[Axes, _View], None]] = {
+    "pressure": _draw_pressure,
+    "gap": _draw_gap,
+    "shear": _draw_shear,
+    "slip": _draw_slip,
+}
 
-    def along(path: Path) -> History:
-        return follow(history.scene, path, history.tol, history.economy)
 
+def loop_along(history: History) -> Loop | None:
+    """The loop of a history, None without one, as of `loop_of`."""
+    along = partial(follow, history.scene, tol=history.tol, economy=history.economy)
     return loop_of(history.path, history.turning_points, along)
 
 

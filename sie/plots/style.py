@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 Patches = tuple[tuple[float, float], ...]
 
-WIDTH, DPI = 3.4, 300  # inches, one column of a journal
+WIDTH, DPI = 3.35, 300  # inches, one column of a journal
 POINTS = 1201  # of a curve
 FEW = 6  # patches, of which every edge is marked
 # Suffixes that need a TeX installation, or that no program opens.
@@ -36,7 +36,7 @@ FILES: Any = {"pdf.fonttype": 42, "ps.fonttype": 42, "svg.hashsalt": "sie"}
 # Fonts that come with Matplotlib; the later ones have the letters that the first lacks.
 FAMILY = ["STIXGeneral", "DejaVu Serif", "DejaVu Sans"]
 SIZE, SMALL = 8.0, 7.0
-TITLE_COLUMNS = 56
+TITLE_COLUMNS = 16.5  # letters of a title in an inch
 # Okabe and Ito (2008): distinct for the colour-blind, and in greyscale by their lightness. Opaque,
 # as PostScript has no transparency.
 BLUE, PALE_BLUE, VERMILLION, INK = "#0072B2", "#cfe4f0", "#D55E00", "#222222"
@@ -48,6 +48,29 @@ DIGITS = 4
 # A length in mm may be given in these; other units are preceded by a power of ten.
 METRIC = ((1e-3, "m"), (1.0, "mm"), (1e3, "µm"), (1e6, "nm"))
 READABLE = (0.1, 1e4)  # largest values that need no other unit
+
+
+class Picture(Figure):
+    """A figure of this package, which a notebook shows."""
+
+    def __init__(self, height: float, width: float = WIDTH) -> None:
+        super().__init__(figsize=(width, height), dpi=DPI, layout="constrained")
+
+    def _repr_png_(self) -> bytes:
+        return picture_bytes(self, "png")
+
+
+class ShownAxes(Axes):
+    """Axes of a figure of their own, which a notebook shows."""
+
+    def _repr_png_(self) -> bytes:
+        assert isinstance(self.figure, Picture)
+        return self.figure._repr_png_()
+
+
+def title_lines(title: str, width: float) -> list[str]:
+    """The lines of a title over a picture of so many inches."""
+    return textwrap.wrap(title, round(width * TITLE_COLUMNS))
 
 
 def suffixes() -> tuple[str, ...]:
@@ -68,7 +91,7 @@ def picture_bytes(figure: Figure, suffix: str) -> bytes:
 def heading(figure: Figure, title: str) -> None:
     """The title over the panels, in as many lines as it needs, its $ as they are."""
     if title:
-        text = textwrap.fill(title, TITLE_COLUMNS)
+        text = "\n".join(title_lines(title, figure.get_figwidth()))
         figure.suptitle(text, fontproperties=font(), parse_math=False)
 
 

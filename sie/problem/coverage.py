@@ -45,10 +45,12 @@ def _refuse_dissimilar(scene: Scene) -> None:
         )
     if scene.tilt or scene.moment:
         name, value = ("tilt", scene.tilt) if scene.tilt else ("moment", scene.moment)
+        turned = f"give profile.tilted({value:g}) if that is symmetric, as a parabola is, "
         raise ContactError(
             f"{pair} pressed with {name} = {value:g}: their stick zone grows in proportion to the "
             "contact only under a symmetric profile, and the growth of both of its ends is not "
-            f"solved; set {name} = 0, set friction = 0, or {NEGLECTED}"
+            f"solved; {turned if scene.tilt else ''}set {name} = 0, set friction = 0, or "
+            f"{NEGLECTED}"
         )
     if scene.tangential_load and scene.half_width is not None:
         raise ContactError(

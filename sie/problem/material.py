@@ -17,6 +17,11 @@ from sie import arguments
 # traction, a fraction of about β, is below the accuracy of the answers.
 SIMILAR = 1e-12
 
+NO_POISSON = (
+    "σ_zz and what depends on it need Poisson's ratio: give poisson beside modulus, or the body by "
+    "young and poisson"
+)
+
 Plane = Literal["strain", "stress"]
 
 

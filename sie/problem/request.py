@@ -6,10 +6,13 @@ from collections.abc import Collection, Iterable
 
 from sie import arguments
 
+from .material import NO_POISSON
 from .scene import Scene
 
 # What can be asked for in a scene file, on the command line and of `sie.plan`.
-WANTS = ("edges", "pressure", "gap", "shear", "energy", "check", "stress", "yield", "tension")
+WANTS = (
+    "edges", "pressure", "gap", "shear", "energy", "check", "stress", "yield", "tension", "cycle",
+)  # fmt: skip
 # Attributes of the solution, and the quantities that they belong to.
 ALSO = {
     "half_width": "edges",
@@ -26,7 +29,7 @@ UNASKED = ("edges", "pressure", "gap", "shear", "check")
 POINTS = 401
 GRID = (201, 101)
 # Quantities that depend on the shear traction.
-NEED_SHEAR = frozenset({"shear", "energy", "stress", "yield", "tension", "check"})
+NEED_SHEAR = frozenset({"shear", "energy", "stress", "yield", "tension", "check", "cycle"})
 # Work that the solver may skip; `sie.solve(..., economy=())` switches all of it off.
 ECONOMY = frozenset({"symmetry", "transform", "zero panels", "convexity", "shear", "sliding"})
 
@@ -42,6 +45,12 @@ def wanted(want: str | Iterable[str]) -> tuple[str, ...]:
     if not names:
         raise ValueError(f"nothing is wanted: ask for {', '.join(WANTS)}")
     return names
+
+
+def refuse_unknown_poisson(scene: Scene) -> None:
+    """Raises ValueError where what needs Poisson's ratio is asked for without one."""
+    if scene.body is None and scene.poisson is None:
+        raise ValueError(NO_POISSON)
 
 
 def energy_costs(scene: Scene) -> bool:

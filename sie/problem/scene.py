@@ -6,10 +6,11 @@ Values that make no contact problem are refused when the scene is built.
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from sie import arguments
+from sie import arguments, higher_layers
 from sie.numerics.interval import EPS
 from sie.profiles.base import Profile
 
@@ -37,7 +38,9 @@ class Scene:
     normal_load : float
         P > 0, force per length. Exactly one of `normal_load` and `half_width` is given.
     half_width : float
-        Half-width of the contact, length.
+        Half-width of the contact, length: of several patches half the distance of the outermost
+        edges, per period half of the shortest interval that has all patches of a period. The load
+        follows; a half-width that it jumps over, as a patch appears beyond the others, is refused.
     tilt : float, optional
         Angle that is added to the slope of the profile.
     moment : float, optional
@@ -110,6 +113,85 @@ class Scene:
         else:
             self._check_bodies()
         self._check_loads()
+
+    # -- other forms of a scene --------------------------------------------------------------------
+
+    @classmethod
+    def from_dict(cls, tables: Mapping[str, Any]) -> Scene:
+        """The scene that tables describe.
+
+        Parameters
+        ----------
+        tables : mapping
+            The tables of a scene file by name, as `to_dict` gives them, as the key "scene" of
+            `sie solve --json` holds them, or as `tomllib` reads them. "Infinity" and "-Infinity",
+            which JSON has in place of the numbers, are numbers.
+
+        Returns
+        -------
+        Scene
+            The scene, equal to the one that `to_dict` was asked of.
+
+        Raises
+        ------
+        ValueError
+            For tables that describe no contact problem, or a path of several loads.
+
+        Examples
+        --------
+        >>> import sie
+        >>> scene = sie.Scene(profile=sie.Parabola(100.0), modulus=80e3, normal_load=50.0)
+        >>> sie.Scene.from_dict(scene.to_dict()) == scene
+        True
+        """
+        return higher_layers.module("io.scene_writing").scene_of(tables)
+
+    def to_dict(self) -> dict[str, Any]:
+        """The scene as the tables of a scene file.
+
+        Returns
+        -------
+        dict
+            Tables by name, made of dicts, lists, texts and numbers: json and pickle take them. A
+            trace stands in them by its points, not by its file.
+
+        Raises
+        ------
+        ValueError
+            If a scene file cannot name the profile: a Python function, or a sum that was moved as
+            a whole.
+
+        Examples
+        --------
+        >>> import sie
+        >>> sie.Scene(profile=sie.Wedge(0.1), modulus=1.0, normal_load=2.0).to_dict()["profile"]
+        {'kind': 'wedge', 'slope': 0.1}
+        """
+        return higher_layers.module("io.scene_writing").tables_of(self)
+
+    def to_toml(self) -> str:
+        """The scene as the text of a scene file, which reads back into an equal scene.
+
+        Returns
+        -------
+        str
+            TOML; `sie solve` takes it.
+
+        Raises
+        ------
+        ValueError
+            As of `to_dict`, and for a trace so long that its text is more than 1 MB.
+
+        Examples
+        --------
+        >>> import sie
+        >>> scene = sie.Scene(profile=sie.Wedge(0.1), modulus=1.0, normal_load=2.0)
+        >>> scene.to_toml().splitlines()[:3]
+        ['[profile]', 'kind = "wedge"', 'slope = 0.1']
+        """
+        return higher_layers.module("io.scene_writing").toml_text(self.to_dict())
+
+    # -- checks ------------------------------------------------------------------------------------
 
     def _check_bodies(self) -> None:
         if self.poisson is not None:

@@ -122,4 +122,12 @@ def _sampled_crossings(one: Profile, other: Profile, lo: float, hi: float) -> li
     change = np.flatnonzero(
         np.isfinite(values[:-1] * values[1:]) & (values[:-1] * values[1:] < 0.0)
     )
-    return [float(brentq(difference, x[k], x[k + 1], xtol=1e-300, rtol=8.9e-16)) for k in change]
+
+    def root(a: float, b: float) -> float:
+        at_a, at_b = difference(a), difference(b)
+        # Heights at one point may differ by rounding from those at many; then one end is the root.
+        if at_a * at_b > 0.0:
+            return a if abs(at_a) < abs(at_b) else b
+        return float(brentq(difference, a, b, xtol=1e-300, rtol=8.9e-16))
+
+    return [root(float(x[k]), float(x[k + 1])) for k in change]

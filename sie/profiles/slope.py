@@ -28,11 +28,8 @@ from .slope_row import Row
 Array = NDArray[np.float64]
 Vectorised = Callable[[Array], Any]
 
-
 # Up to so many pieces of so low a degree, a loop over floats is cheaper than NumPy's calls.
 FEW, LOW = 6, 4
-
-
 # A break carries a true jump of h' (and a logarithmic infinity of the pressure) when the jump
 # exceeds rounding by this factor.
 JUMP = 256.0 * EPS
@@ -52,10 +49,9 @@ class FunctionTerm:
         """Values at t, given offset = t - shift."""
         # `resolution` refuses values that are not finite, and names the place.
         with np.errstate(all="ignore"):
-            values: Array = self.sign * arguments.real_values(
-                "slope", self.function, self.sign * offset
-            )
-        return values
+            values = arguments.real_values("slope", self.function, self.sign * offset)
+            signed: Array = self.sign * values
+        return signed
 
 
 @dataclass(frozen=True, eq=False)

@@ -74,6 +74,11 @@ def read_table(path: str | Path, limit: Limit = TRACE) -> Table:
     return _table(path.name, files.content(path, limit.size), 0, limit)
 
 
+def text_lines(path: Path, limit: Limit) -> list[str]:
+    """The lines of a text file. Raises ValueError where it is none or too long, and OSError."""
+    return _text(path.name, files.content(path, limit.size), limit.lines).splitlines()
+
+
 @dataclass(frozen=True, eq=False)
 class Table:
     """The columns of a text file.
@@ -82,12 +87,14 @@ class Table:
     rows         (number of the line, its cells) from the first line with numbers on
     header       names of the columns in lower case without their units; empty without a header
     separator    what separates the cells, "" for blanks
+    before       the lines before the first one with numbers
     """
 
     file: str
     rows: tuple[tuple[int, list[str]], ...]
     header: tuple[str, ...]
     separator: str
+    before: tuple[str, ...] = ()
 
     @property
     def width(self) -> int:
@@ -181,7 +188,9 @@ def _table(file: str, data: bytes, skip: int, limit: Limit) -> Table:
             "give a text file with columns, or skip fewer lines"
         )
     rows = tuple((k + skip + 1, cells) for k, cells in enumerate(split) if k >= start and cells)
-    return Table(file, rows, _header(lines[:start], separator, len(split[start])), separator)
+    before = lines[:start]
+    header = _header(before, separator, len(split[start]))
+    return Table(file, rows, header, separator, tuple(before))
 
 
 def _header(lines: list[str], separator: str, width: int) -> tuple[str, ...]:

@@ -7,11 +7,14 @@ tangential displacement of the body against the indenter.
     slip amplitude     δ(x) = (max s - min s)/2 over the cycle
     Ruiz (1984)        κ1 = max|q| δ, friction work, for wear
                        κ2 = max σ_xx max|q| δ, for the start of cracks
+
+Fatigue parameters on critical planes are in `fatigue`.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, Protocol
@@ -20,8 +23,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from sie import arguments
+from sie.errors import ContactError
 
-from .half_plane import Stress
+from . import fatigue
+from .fatigue import CriticalPlane
+from .half_plane import Stress, Tractions
 
 Array = NDArray[np.float64]
 
@@ -39,6 +45,10 @@ class State(Protocol):
     def shear(self) -> Any:
         """The shear traction q."""
 
+    @property
+    def tractions(self) -> Tractions:
+        """The tractions, the bulk stress and the body."""
+
 
 @dataclass(frozen=True)
 class Range:
@@ -46,6 +56,8 @@ class Range:
 
     lowest     the smallest value, of the shape of the points
     highest    the largest value
+
+    Where both are infinite, at a sharp edge, the range is infinite too.
     """
 
     lowest: Array
@@ -54,12 +66,13 @@ class Range:
     @property
     def range(self) -> Array:
         """highest - lowest."""
-        return self.highest - self.lowest
+        infinite = np.isinf(self.lowest)
+        return np.where(infinite, np.inf, self.highest - np.where(infinite, 0.0, self.lowest))
 
     @property
     def amplitude(self) -> Array:
         """Half of the range."""
-        return 0.5 * (self.highest - self.lowest)
+        return 0.5 * self.range
 
     @property
     def mean(self) -> Array:
@@ -143,6 +156,23 @@ class Cycle:
             tensor[..., 0, 1] = tensor[..., 1, 0] = s.xy
         return out
 
+    def table(self) -> Any:
+        """The loads, the contact and the stick zone at each turning point, as a table.
+
+        Returns
+        -------
+        pandas.DataFrame or list of dict
+            A row for each state with the columns P, Q, sigma, x1, x2, stick_from, stick_to and,
+            where it is known, energy_lost. A DataFrame where pandas is installed. Of several stick
+            zones the outermost ends are given; in full sliding there are none.
+        """
+        rows = [_row(state) for state in self.states]
+        try:
+            import pandas  # type: ignore[import, unused-ignore]  # noqa: PLC0415
+        except ImportError:
+            return rows
+        return pandas.DataFrame(rows)
+
     def range(self, x: ArrayLike, y: ArrayLike) -> dict[str, Range]:
         """Lowest and highest stress components at points over the cycle.
 
@@ -217,10 +247,10 @@ class Cycle:
         Returns
         -------
         ndarray of float
-            Work per area, same shape as x.
+            Work per area, same shape as x; 0 where nothing slips, at a sharp edge too.
         """
         q = np.stack([np.abs(state.shear(x)) for state in self.states]).max(axis=0)
-        return q * self.slip_range(x).amplitude
+        return _product(q, self.slip_range(x).amplitude)
 
     def ruiz(self, x: ArrayLike) -> Array:
         """Ruiz' second parameter κ2 = max(σ_xx) max|q| δ: where cracks begin.
@@ -236,4 +266,133 @@ class Cycle:
             Stress times work per area, same shape as x; 0 where the surface is never in tension.
         """
         tension = np.stack([state.stress(x, 0.0).xx for state in self.states]).max(axis=0)
-        return np.maximum(tension, 0.0) * self.friction_work(x)
+        return _product(np.maximum(tension, 0.0), self.friction_work(x))
+
+    def swt(self, x: ArrayLike | None = None, y: ArrayLike = 0.0) -> CriticalPlane:
+        """The parameter of Smith, Watson and Topper: max over planes of σ_n,max Δε_n/2.
+
+        Parameters
+        ----------
+        x, y : array_like of float, optional
+            Positions and depths, length. Without x, the worst place at each depth.
+
+        Returns
+        -------
+        CriticalPlane
+            The value, stress, and the plane; 0 where no plane is ever in tension.
+
+        Raises
+        ------
+        ValueError
+            If the body is not given by young and poisson.
+        ContactError
+            At a sharp edge on the surface, where the stress is infinite: ask at a depth.
+
+        Notes
+        -----
+        All planes are compared. The value is that of the worst one to 1e-5 at least, and nearly
+        always to rounding. In plane strain a fully reversed σ_xx = ±S gives S² (1 - ν²)/E.
+
+        References
+        ----------
+        Smith, Watson & Topper, J. Materials 5 (1970) 767-778.
+
+        Examples
+        --------
+        >>> import sie
+        >>> ti = sie.Elastic(115e3, 0.32)
+        >>> scene = sie.Scene(profile=sie.Parabola(100.0), body=ti, normal_load=50, friction=0.5)
+        >>> worst = sie.steady_cycle(scene, (50.0, 15.0, 30.0), (50.0, -15.0, -30.0)).cycle.swt()
+        >>> round(float(worst.value), 3), round(float(worst.x), 4), float(worst.y)
+        (0.098, -0.3152, 0.0)
+        """
+        return fatigue.at_points(self.states, fatigue.smith_watson_topper(self.states), x, y)
+
+    def findley(self, x: ArrayLike | None = None, y: ArrayLike = 0.0, *, k: float) -> CriticalPlane:
+        """Findley's parameter: max over planes of τ_a + k σ_n,max.
+
+        Parameters
+        ----------
+        x, y : array_like of float, optional
+            As of `swt`.
+        k : float
+            Weight of the normal stress, about 0.2 to 0.3 for ductile metals.
+
+        Returns
+        -------
+        CriticalPlane
+            The value, stress, and the plane.
+
+        Raises
+        ------
+        ValueError
+            If Poisson's ratio is not given, or k is negative.
+        ContactError
+            As of `swt`.
+
+        Notes
+        -----
+        τ_a is half the longest chord of the path of the shear on a plane: half its range where the
+        normal lies in the x-y plane. The accuracy is that of `swt`. A fully reversed σ_xx = ±S
+        gives S [k + √(1 + k²)]/2.
+
+        References
+        ----------
+        Findley, J. Eng. Ind. 81 (1959) 301-306.
+        """
+        return fatigue.at_points(self.states, fatigue.findley(k), x, y)
+
+    def fatemi_socie(
+        self, x: ArrayLike | None = None, y: ArrayLike = 0.0, *, k: float, yield_stress: float
+    ) -> CriticalPlane:
+        """The parameter of Fatemi and Socie: max over planes of γ_a (1 + k σ_n,max/σ_y).
+
+        Parameters
+        ----------
+        x, y : array_like of float, optional
+            As of `swt`.
+        k : float
+            Weight of the normal stress, about 0.3 to 1.
+        yield_stress : float
+            σ_y, stress.
+
+        Returns
+        -------
+        CriticalPlane
+            The value, a strain, and the plane.
+
+        Raises
+        ------
+        ValueError
+            If the body is not given by young and poisson, k is negative, or σ_y not positive.
+        ContactError
+            As of `swt`.
+
+        Notes
+        -----
+        γ_a = τ_a/μ is the amplitude of the engineering shear strain, τ_a and the accuracy as of
+        `findley`.
+
+        References
+        ----------
+        Fatemi & Socie, Fatigue Fract. Eng. Mater. Struct. 11 (1988) 149-165.
+        """
+        criterion = fatigue.fatemi_socie(self.states, k, yield_stress)
+        return fatigue.at_points(self.states, criterion, x, y)
+
+
+def _product(a: Array, b: Array) -> Array:
+    """a × b, 0 where b is 0 even if a is infinite."""
+    return np.asarray(np.where(b == 0.0, 0.0, a) * b)
+
+
+def _row(state: Any) -> dict[str, float]:
+    """The loads, the contact and the stick zone of a state."""
+    x1, x2 = state.pressure.interval
+    row = {"P": state.normal_load, "Q": state.tangential_load, "sigma": state.tractions.bulk_stress}
+    row |= {"x1": x1, "x2": x2}
+    if state.stick:
+        row |= {"stick_from": state.stick[0][0], "stick_to": state.stick[-1][1]}
+    with suppress(ContactError, AttributeError):  # of a steady state only the cycle's is known
+        row["energy_lost"] = state.energy_lost
+    return row

@@ -25,7 +25,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from sie import arguments
-from sie.problem.material import Elastic, Plane
+from sie.problem.material import NO_POISSON, Elastic, Plane
 from sie.traction.base import Density, shallow
 
 Array = NDArray[np.float64]
@@ -76,11 +76,7 @@ class Tractions:
     @property
     def known_poisson(self) -> float:
         """Poisson's ratio. ValueError if it was not given."""
-        return _known(
-            self.poisson,
-            "σ_zz and what depends on it need Poisson's ratio: give poisson beside modulus, or "
-            "the body by young and poisson",
-        )
+        return _known(self.poisson, NO_POISSON)
 
     @property
     def known_body(self) -> Elastic:

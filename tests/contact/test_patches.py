@@ -394,7 +394,6 @@ def test_stick_zones_lie_in_patches_and_slip_goes_one_way(Q):
 @pytest.mark.parametrize(
     ("asked", "words"),
     [
-        ({"profile": TWO, "half_width": 1.0}, "give normal_load"),
         ({**SCENES["wave"], "moment": 0.1}, "leave out tilt and moment"),
         (
             {"profile": sie.Sampled([-1, 0, 1, 2], [1, 0, 0.5, 0]), "normal_load": 0.5},

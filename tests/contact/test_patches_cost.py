@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import sie
-from sie.patches import full, gap_rows, start
+from sie.patches import full, gap_rows, newton, start, state
 from sie.patches.chord import Chord, Points
 from sie.patches.newton import Damping
 from sie.patches.operator import Operator
@@ -110,6 +110,46 @@ def test_bodies_touch_where_a_grid_of_a_noisy_wave_has_pressure(seed):
         h, 1.0 / cells, load, start._influence(cells, 1.0 / cells, True)
     ).displaced(p)
     assert np.std((displacement + h)[p > 0.0]) < 1e-2 * noise
+
+
+@pytest.mark.parametrize("most", [0.5, 3.0, 10.0])
+def test_a_search_ends_with_its_effort_and_says_what_to_do(most, monkeypatch):
+    steps, original = [], newton.conditions
+
+    def counted(*given):
+        steps.append(1)
+        return original(*given)
+
+    def astray(at, *given):  # no edge ever comes to rest
+        return 0.01 * np.resize([1.0, -1.0], len(at.charge)) * at.patches.r.min()
+
+    monkeypatch.setattr(newton, "conditions", counted)
+    monkeypatch.setattr(newton, "wished", astray)
+    monkeypatch.setattr(state, "MOST_EFFORT", most)
+    row = sie.Row([sie.Parabola(1.0).shifted(3.0 * k) for k in range(8)])
+    scene = sie.Scene(profile=row, modulus=1.0, normal_load=0.5)
+    with pytest.raises(
+        sie.LoadError, match=r"do not settle within the most steps.*change the load"
+    ):
+        _ = sie.solve(scene).patches
+    assert len(steps) <= most
+
+
+@pytest.mark.parametrize("least", [2048.0, 3000.0, 15_000.0, 150_000.0, 262_144.0])
+def test_grids_have_few_cells_more_than_asked_and_halve_to_the_coarsest(least):
+    cells = start.cells_of(least)
+    assert least <= cells < 1.14 * least
+    coarsest = cells >> int(np.log2(cells / start.COARSEST) + 0.999)
+    assert coarsest in start.FAST
+    assert cells % coarsest == 0
+
+
+@pytest.mark.parametrize("period", [True, False])
+@pytest.mark.parametrize("cells", start.FAST)
+def test_grids_of_all_numbers_of_cells_carry_their_load(cells, period):
+    grid = start.grid_pressure(lambda x: np.cos(2.0 * np.pi * x), (0.0, 1.0), cells, 0.1, period)
+    assert len(grid.p) == cells
+    assert grid.p.sum() * grid.dx == pytest.approx(0.1)
 
 
 def test_edges_that_no_event_touches_keep_what_they_asked_for():

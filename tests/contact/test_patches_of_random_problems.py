@@ -7,8 +7,10 @@ import pytest
 
 import sie
 from analytic import two_parabolas
-from sie.patches import solver
+from sie.contact import normal
+from sie.patches import certificate, newton, solver
 from sie.patches.of_scene import problem_of
+from sie.patches.profile_pieces import of_profile
 from sie.profiles.resolution import rounding_noise
 
 
@@ -80,6 +82,30 @@ def test_the_pressure_beside_a_sharp_edge_carries_the_load_to_rounding(tilt):
     assert certificate.force < 3e-14
 
 
+@pytest.mark.parametrize("height", [0.0, 0.1, 0.2])
+@pytest.mark.parametrize("load", [10.0, 12.0, 14.0, 17.0, 20.0])
+def test_two_parabolas_that_nearly_fill_their_period_meet_the_equation(load, height):
+    """All places are as near to one edge of such a patch as to the other, to 1e-10 of it."""
+    row = sie.Row([sie.Parabola(1.0), sie.Parabola(1.0).shifted(1.0).raised(height)])
+    solution = solved(profile=sie.Periodic(row, 2.5), normal_load=load)
+    assert len(solution.patches) == 1
+    assert solution.check().ok
+
+
+def test_a_step_that_was_cut_short_does_not_end_the_search():
+    sizes = [1e-3, 1e-4, 1e-9]
+    assert newton._settled(sizes, newton.FINAL, True, np.False_)
+    assert not newton._settled(sizes, newton.FINAL, False, np.False_)
+
+
+@pytest.mark.parametrize("waves_", [1, 2, 3])
+def test_a_spline_that_is_level_at_a_point_has_no_corner_there(waves_):
+    """Its slope there is rounding, on either side another."""
+    x = np.linspace(-1.0, 1.0, 24 * waves_ + 1)
+    profile = sie.Sampled(x, 0.05 * np.cos(2.0 * waves_ * np.pi * x))
+    assert not of_profile(profile, (-1.0, 1.0), 1e-15).never_closed.size
+
+
 # -- the certificate -------------------------------------------------------------------------------
 
 
@@ -90,6 +116,26 @@ def test_light_contacts_far_from_the_origin_are_certified_to_the_rounding_of_x(d
     half_width = np.sqrt(4.0 * 0.5e-4 / np.pi)
     assert certificate.ok
     assert certificate.measured_to < 100.0 * np.spacing(distance) / half_width
+
+
+@pytest.mark.parametrize("load", [1e-6, 1e-4])
+@pytest.mark.parametrize("place", [5.3, 50.0])
+def test_moments_about_a_distant_origin_are_certified_to_the_rounding_of_x(place, load):
+    flats = rounded_flats((0.05, 0.3, place, 0.0), (0.05, 0.3, place + 3.0, 0.1))
+    certificate = solved(profile=flats, normal_load=load, moment=(place + 0.01) * load).check()
+    assert certificate.ok
+    assert certificate.measured_to < 1e-6
+
+
+@pytest.mark.parametrize("load", [1e-4, 0.02, 1.0])
+def test_the_equation_is_measured_away_from_the_points_of_its_rule(load):
+    """Beside one the difference of two pressures is rounding, and its quotient large."""
+    scene = sie.Scene(profile=sie.Periodic(trace(60, 4), 2.05), modulus=1.0, normal_load=load)
+    rule, places = certificate._measure(sie.solve(scene).in_patches.pressure)
+    x, at = np.sort(rule.points.x), places.points.x
+    k = np.searchsorted(x, at)
+    between = (at - x[k - 1]) / (x[k] - x[k - 1])
+    assert between == pytest.approx(0.5, abs=0.1)
 
 
 @pytest.mark.parametrize("gap", [1e-9, 1e-10, 5e-11, 2e-11, 1e-11, 1e-12, 1e-13])
@@ -132,6 +178,20 @@ def test_a_moment_between_two_waves_is_answered_by_both(lever):
     solution = solved(profile=sie.FromFunction(waves), normal_load=load, moment=lever * load)
     assert len(solution.patches) == 2
     assert solution.check().ok
+
+
+@pytest.mark.parametrize("load", [1e-4, 1e-3])
+def test_a_moment_that_jumps_from_wave_to_wave_ends_the_search_for_one_patch(load, monkeypatch):
+    calls, original = [], normal._edges_at
+
+    def counted(*args, **given):
+        calls.append(1)
+        return original(*args, **given)
+
+    monkeypatch.setattr(normal, "_edges_at", counted)
+    solution = solved(profile=sie.FromFunction(waves), normal_load=load, moment=-0.1 * load)
+    assert len(solution.patches) == 2
+    assert len(calls) < 30
 
 
 @pytest.mark.parametrize("load", [1e-4, 1e-5, 1e-6])

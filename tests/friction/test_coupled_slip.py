@@ -12,6 +12,7 @@ import pytest
 
 import sie
 from analytic import goodman
+from oracles import spence
 from sie.certificate.coupled_check import coupled_certificate
 from sie.friction import coupled_flat
 from sie.friction.coupled_flat import flat_punch
@@ -67,6 +68,12 @@ def test_stick_zone_and_central_pressure_of_a_flat_agree_with_other_formulations
     solution = solved(sie.Flat(1.0), *pair)
     assert solution.stick[0][1] == pytest.approx(c, abs=2e-11)
     assert float(solution.pressure(0.0)) == pytest.approx(p0, rel=2e-11)
+
+
+@pytest.mark.parametrize("pair", spence.SLIP_WIDTHS)
+def test_slip_zone_is_as_narrow_as_in_forty_digits(pair):
+    width = flat_punch(*pair).modulus.rest
+    assert width == pytest.approx(spence.SLIP_WIDTHS[pair], rel=1e-10)
 
 
 @pytest.mark.parametrize("pair", REFERENCES)
@@ -558,6 +565,26 @@ def test_contact_in_several_patches_is_refused(profile, words):
     scene = sie.Scene(profile=profile, modulus=2.0, dundurs=0.3, friction=0.3, normal_load=0.01)
     with pytest.raises(sie.ContactError, match=words):
         _ = sie.solve(scene).edges
+
+
+def test_first_yield_without_poissons_ratio_is_refused_before_any_work():
+    solution = sie.solve(
+        sie.Scene(profile=sie.Wedge(0.1), modulus=2.0, dundurs=0.3, friction=0.3, normal_load=1.0)
+    )
+    with pytest.raises(ValueError, match="give poisson"):
+        solution.elastic_limit()
+    assert "pressed" not in vars(solution)
+
+
+@pytest.mark.parametrize(("beta", "friction", "load"), [(0.0864, 0.0696, 1.07), (0.033, 0.3, 0.29)])
+def test_a_symmetric_trace_is_solved_whatever_the_rounding_of_its_axis(beta, friction, load):
+    x = np.linspace(-3.0, 3.0, 61)
+    loads = {"modulus": 2.0, "dundurs": beta, "friction": friction, "normal_load": load}
+    trace, parabola = (
+        sie.solve(sie.Scene(profile=profile, **loads))
+        for profile in (sie.Sampled(x, 0.5 * x * x), sie.Parabola(1.0))
+    )
+    assert trace.stick[0] == pytest.approx(parabola.stick[0], rel=1e-9)
 
 
 def test_a_path_of_dissimilar_bodies_is_refused():

@@ -99,6 +99,7 @@ def test_certificate_holds_from_narrow_slip_zones_to_incipient_sliding(beta, fri
         (sie.RoundedFlat(0.5, 1.0), -0.07, 0.3, 0.5),
         (sie.RoundedFlat(0.5, 1.0), -0.07, 0.3, 1e-3),
         (sie.RoundedFlat(0.2, 1.0), 0.13, 0.36, -0.026),
+        (sie.RoundedFlat(0.393, 1.0), 0.057, 0.27, -3e-6),
         (sie.Parabola(1.0), 0.0015, 0.031, 8e-5),
         (sie.FromFunction(slope="sinh(x)"), 0.0022, 0.037, 2.5e-5),
         (sie.Power(4.0, 0.4), -0.024, 1.42, -6.4e-6),
@@ -544,7 +545,7 @@ def test_refusal_of_a_small_load_names_the_least_that_is_certified(profile, beta
 
 def test_certificate_is_not_ok_where_slip_would_oppose_the_load():
     search, Q = solved(None, 0.3, 2.0, 0.9).tangential_search, 1.0
-    state = ShearedContact(search, search._newton(search._start(Q), Q), Q, 1.0, 1.0)
+    state = ShearedContact(search, search._newton(search.start(Q), Q), Q, 1.0, 1.0)
     assert search.least_slip(state.trial) < 0.0
     assert not sheared_certificate(state, scene(None, 0.3, 2.0, 0.5), 1e-13).ok
 
@@ -578,6 +579,34 @@ def test_certificate_holds_next_to_both_ends_of_the_loads(profile, beta, frictio
     assert solved(profile, beta, friction, part, load).check().ok
 
 
+CORNERS = sie.Piecewise((-9.0, -0.4, 0.4, 9.0), ((-0.8, 1.0), (0.0, 0.5), (0.8, 1.0)))
+
+
+@pytest.mark.parametrize(
+    ("profile", "beta", "friction", "part", "load"),
+    [
+        # An edge of the stick zone ends next to a corner
+        (CORNERS, -0.2028, 0.045, -0.569, 0.2282),
+        # Nodes of a rule next to a corner, or to the end of a stick zone, are few doubles apart
+        (CORNERS, -0.00345, 0.0184, 0.459, 2.3),
+        (CORNERS, -0.1516, 0.3515, -0.9998, 0.45),
+        # Zones of 1e-8 half-widths
+        (sie.Parabola(1.0), 0.0389, 4.2, -1.34e-6, 0.107),
+        (sie.RoundedFlat(56.9, 1.0), -0.039, 0.867, -1.215e-3, 0.405),
+        # No stick under P alone, where slip of full sliding passes zero more than once
+        (sie.RoundedFlat(0.63, 1.0), 0.4878, 0.018, -0.7785, 0.3566),
+    ],
+)
+def test_certificate_holds_next_to_corners_and_kinks(profile, beta, friction, part, load):
+    assert solved(profile, beta, friction, part, load).check().ok
+
+
+@pytest.mark.parametrize(("beta", "friction"), [(0.36, 0.57), (0.3, 0.3)])
+def test_a_small_load_is_refused_in_few_trials(monkeypatch, beta, friction):
+    found = trials_of(monkeypatch, lambda: solved(None, beta, friction, 0.5).coupled)
+    assert trials_of(monkeypatch, lambda: refused(None, beta, friction, 1e-5)) < 20 * found
+
+
 @pytest.mark.parametrize("part", [1e-6, 1e-3, 0.5])
 def test_pressure_is_continuous_a_few_doubles_beside_the_stick_zone(part):
     solution = solved(sie.FromFunction(slope="sinh(x)"), 0.00701, 9.9, part, 0.36)
@@ -598,6 +627,13 @@ def test_pressure_is_continuous_a_few_doubles_beside_the_stick_zone(part):
 def test_what_is_not_solved_is_refused_before_any_work(changes, words):
     with pytest.raises(sie.ContactError, match=words):
         sie.solve(replace(scene(), **changes))
+
+
+def test_a_tilted_parabola_is_refused_with_the_profile_that_is_solved():
+    with pytest.raises(sie.ContactError, match=re.escape("give profile.tilted(0.1)")):
+        sie.solve(replace(scene(), tilt=0.1))
+    tilted, upright = solved(sie.Parabola(1.0).tilted(0.1)), solved()
+    assert zones(tilted) == pytest.approx(zones(upright) - 0.1, abs=1e-11)
 
 
 def test_paths_are_refused_with_what_is_missing():

@@ -328,11 +328,6 @@ def test_an_invalid_point_of_a_cycle_is_refused_by_its_name(point, said, name):
     [
         ([(1, 0.3, 0), (1, 0.3, np.nan)], "σ of point 1 is nan"),
         ([(1, 0.3, 0), (0.2, 0.3, 0.1)], "step 1 .*exceeds f P"),
-        ([(1, 0.6, 0.2), (1.5, 0.5, 0.15)], "step 1 .*grows and sticks"),
-        (
-            [(1, 0, 0), (1.6, 0.3, 0.35)],
-            "step 1 .*no stick zone inside the contact .*an edge of it sticks",
-        ),
         ([(0, 0, 0), (1, 0.3, 0.1)], "step 1 .*grows from nothing"),
         (
             [(0.8, 0.21, 0.17), (1.1, -0.63, -0.16), (1.12, -0.15, -0.03), (0.71, -0.3, -0.126)],

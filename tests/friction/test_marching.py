@@ -23,6 +23,9 @@ MEAN_STRESS = [(1, 0, 0.3), (1, 0.5, 0.3), (1, -0.5, 0.3), (1, 0.5, 0.3)]
 TURNED = [(1, 0.4, 0), (1, 0.4, 0.25), (1, 0.4, -0.25)]
 TRAVELLING = [(1, 0, 0), (1, 0.5, 3)]
 TO_THE_EDGE = [(1, 0, 0), (1, 0.67, 0.9)]
+# An edge of contact grows and sticks: slip begins at the other one, or after both have stuck.
+ONE_STICKS = [(1, 0, 0), (1.3, 0.5, 0.6)]
+BOTH_STICK = [(1, 0, 0), (1.6, 0.2, 0.2), (1.9, 0.7, 0.5)]
 TOGETHER = [(1, 0, 0, 0), (1.2, 0.55, 0.1, -0.02), (0.9, -0.3, -0.1, 0.02), (1.2, 0.55, 0.1, -0.02)]
 
 
@@ -53,6 +56,12 @@ def inside(solution, n=41):
     return 0.5 * (x1 + x2) + 0.49 * (x2 - x1) * np.linspace(-1.0, 1.0, n)
 
 
+def touched_before(solution):
+    """Points that were in contact from the start of the path on."""
+    x, (x1, x2) = inside(solution), solution.history[0].edges
+    return x[(x > x1) & (x < x2)]
+
+
 # -- closed forms and layers ----------------------------------------------------------------------
 
 LAYERED = {
@@ -62,6 +71,7 @@ LAYERED = {
     "both directions": [(1, 0, 0), (1, 0, 0.6), (1, 0, -0.3)],
     "both directions, P falls": [(1, 0, 0), (0.8, 0.05, 0.5)],
     "in turn": [(1, 0.4, 0), (1, 0, 0.2), (1, -0.4, 0)],
+    "grows and sticks": [(1, 0.4, 0), (1.4, 0.6, 0), (1.4, 0.2, 0)],
 }
 
 
@@ -72,6 +82,7 @@ def test_marching_gives_what_layers_give(case, scene):
     x = inside(by_layers)
     assert marched.stick[0] == pytest.approx(by_layers.stick[0], abs=1e-11)
     assert marched.shear(x) == pytest.approx(by_layers.shear(x), abs=1e-12)
+    x = touched_before(marched)
     assert marched.slip(x) == pytest.approx(by_layers.slip(x), abs=1e-11)
     assert marched.check().ok
 
@@ -110,9 +121,51 @@ def test_a_stick_zone_that_travels_has_the_width_of_its_rates():
     assert c2 - c1 == pytest.approx(2.0 * Q / (np.pi * 0.25 * sigma), rel=1e-12)
 
 
+def test_a_growing_contact_that_sticks_has_the_closed_form_of_its_layers():
+    """Hertz, half-width r: q = (dQ/π - dτ x)/d(r²)·2 [sqrt(r² - x²) - sqrt(r0² - x²)]."""
+    solution = followed(HERTZ, BOTH_STICK[:2])[-1]
+    _, Q, sigma = solution.history.path.points[-1]
+    x = np.array([-1.2, -1.001, -0.999, -0.4, 0.0, 0.7, 0.9999, 1.0001, 1.25])
+    grown = np.sqrt(1.6 - x**2) - np.sqrt(np.maximum(1.0 - x**2, 0.0))
+    due = (Q / np.pi - 0.25 * sigma * x) / 0.6 * 2.0 * grown
+    assert solution.shear(x) == pytest.approx(due, abs=1e-13)
+    assert solution.stick == (solution.edges,) and solution.energy_lost == 0.0
+
+
+def test_slip_begins_at_a_growing_edge_where_the_rates_reach_friction():
+    """Hertz: dQ + π r dτ = f dP at the left edge, which grows to r = 1.2 at this bulk stress."""
+    Q, r = 0.1, 1.2
+    sigma = (0.6 - Q) * F * 4.0 / (np.pi * r * S)
+    points = [(1, 0, 0), (1.6, Q, sigma)]
+    parts = followed(HERTZ, points).turning_points[1].marched
+    assert parts[0].signs == (0.0, 0.0) and parts[1].signs == (1.0, 0.0)
+    assert parts[0].stick.x1 == pytest.approx(-r, abs=1e-12)
+
+
 # -- laws -----------------------------------------------------------------------------------------
 
-ALL = [MEAN_STRESS, TURNED, TRAVELLING, TO_THE_EDGE]
+GROWING = [ONE_STICKS, BOTH_STICK]
+ALL = [MEAN_STRESS, TURNED, TRAVELLING, TO_THE_EDGE, *GROWING]
+
+
+@pytest.mark.parametrize("points", GROWING)
+def test_what_sticks_at_a_growing_edge_satisfies_its_equation_to_rounding(points):
+    certificate = followed(HERTZ, points)[-1].check()
+    assert certificate.shear.residual <= 1e-12 and certificate.shear.equilibrium <= 1e-13
+
+
+def test_a_moment_along_a_path_is_the_tilt_that_it_causes():
+    """In each of short parts the tilt that follows from the moment is nearly linear."""
+    scene = replace(LOPSIDED, moment=0.0)
+    loads = [(P0, 0.0, 0.0), (1.5 * P0, 0.3 * F, 0.35 * S)]
+    by_moment = sie.follow(scene, sie.Path(loads, moment=[0.0, 0.03 * P0]).subdivided(6))
+    tilts = [solution.tilt for solution in by_moment]
+    by_tilt = sie.follow(LOPSIDED, sie.Path(by_moment.path.points, tilt=tilts))
+    whole = sie.follow(scene, sie.Path(loads, moment=[0.0, 0.03 * P0]))[-1]
+    x = inside(whole)
+    assert whole.shear(x) == pytest.approx(by_moment[-1].shear(x), abs=1e-12)
+    assert whole.shear(x) == pytest.approx(by_tilt[-1].shear(x), abs=3e-4 * f)
+    assert whole.energy_lost == pytest.approx(by_moment[-1].energy_lost, rel=1e-9)
 
 
 @pytest.mark.parametrize("points", [*ALL, TOGETHER])
@@ -129,6 +182,7 @@ def test_a_marched_path_in_parts_ends_in_the_same_state(points):
     x = inside(whole)
     assert parts.stick[0] == pytest.approx(whole.stick[0], abs=1e-9)
     assert parts.shear(x) == pytest.approx(whole.shear(x), abs=1e-10)
+    x = touched_before(whole)
     assert parts.slip(x) == pytest.approx(whole.slip(x), abs=1e-9)
     assert parts.energy_lost == pytest.approx(whole.energy_lost, rel=1e-7)
 
@@ -210,6 +264,8 @@ def test_the_certificate_says_that_a_state_was_marched_and_how_well_its_ends_are
 def test_a_path_says_which_steps_are_marched():
     plan = str(followed(HERTZ, TURNED[:2]).plan)
     assert "layers" in plan.splitlines()[0] and "marched: slip turns" in plan.splitlines()[1]
+    plan = str(followed(HERTZ, BOTH_STICK[:2]).plan)
+    assert "marched: the contact grows and sticks" in plan
 
 
 def test_a_second_zone_of_slip_is_refused_with_the_loads_at_which_it_opens():

@@ -232,7 +232,8 @@ def test_the_plan_of_several_patches_speaks_of_patches(profile):
     )
     plan = str(sie.plan(scene, want="shear"))
     assert "on all patches" in plan
-    assert "both edges" not in plan and "DCT" not in plan
+    assert "the patches under P - |Q|/f are the stick zones" in plan
+    assert "both edges" not in plan and "DCT" not in plan and "cost nothing" not in plan
 
 
 def test_a_cycle_of_bulk_stress_in_a_contact_that_repeats_is_refused_as_such():

@@ -85,23 +85,20 @@ def test_the_summary_says_edges_load_peak_and_certificate(scene, capsys):
     assert str(solution.check()) in out
 
 
-def test_the_text_picture_is_the_pressure_column_by_column(scene):
+@pytest.mark.parametrize("width", [40, 80, 133])
+def test_the_text_picture_is_the_pressure_column_by_column(width, scene):
     solution = sie.solve(scene_file.read(scene).scene)
-    rows = [
-        line.split("│")[1]
-        for line in report.text_picture(solution, scene_file.UNITS).splitlines()
-        if "│" in line
-    ]
-    heights = (
-        np.array([sum(" ▁▂▃▄▅▆▇█".index(row[k]) for row in rows) for k in range(report.COLUMNS)])
-        / 8.0
-        / report.ROWS
-    )
-    x = np.linspace(*solution.edges, 2 * report.COLUMNS + 1)[1::2]
+    picture = report.text_picture(solution, scene_file.UNITS, width)
+    rows = [line.split("│")[1] for line in picture.splitlines() if "│" in line]
+    columns = len(rows[0])
+    heights = np.array([sum(" ▁▂▃▄▅▆▇█".index(row[k]) for row in rows) for k in range(columns)])
+    heights = heights / 8.0 / report.ROWS
+    x = np.linspace(*solution.edges, 2 * columns + 1)[1::2]
     assert (
         np.abs(heights * sample_points.ceiling(solution) / solution.pressure(x) - 1.0).max() < 0.05
     )
     assert (heights == heights[::-1]).all()
+    assert max(map(len, picture.splitlines())) == width
 
 
 def test_sharp_edges_and_infinite_peaks_are_reported(tmp_path, capsys):
@@ -127,7 +124,7 @@ def test_an_answer_without_a_good_certificate_is_printed_with_its_exit_code(
     )
 
 
-@pytest.mark.parametrize("want", WANTS)
+@pytest.mark.parametrize("want", [want for want in WANTS if want != "cycle"])
 def test_only_wanted_quantities_are_printed(want, scene, capsys):
     main(["solve", scene, "--want", want])
     out = capsys.readouterr().out
@@ -226,9 +223,7 @@ def test_json_is_strict_and_equals_the_library_to_the_last_digit(kind, tmp_path,
     )
     assert float(pressure["peak"]["p"]) == max(map(float, [*pressure["p"], pressure["peak"]["p"]]))
     assert found["check"] == solution.check().as_dict() and found["check"]["ok"] is True
-    assert (
-        sie.solve(eval(found["scene"], vars(sie) | {"inf": float("inf")})).edges == solution.edges
-    )
+    assert sie.Scene.from_dict(found["scene"]) == solution.scene
 
 
 def test_the_shear_in_sliding_is_in_the_report_the_json_and_the_csv(tmp_path, monkeypatch, capsys):
@@ -365,7 +360,7 @@ def test_a_path_is_followed_to_its_last_point_with_a_table_of_all(tmp_path, monk
     file = scene_file.read(path)
     history = sie.follow(file.scene, sie.Path(file.path))
     out = capsys.readouterr().out
-    assert out.count("\n           500") == len(history)
+    assert out.count("\n500 ") == len(history)
     found = json.loads(Path("out.json").read_text())
     assert [point["stick"] for point in found["path"]] == [
         [list(zone) for zone in s.stick] for s in history
@@ -402,7 +397,7 @@ def test_the_turning_points_of_a_rig_are_a_table_with_its_tilts(rig, capsys):
 
 
 def test_every_turning_point_is_written_with_its_tractions(rig, capsys):
-    assert main(["solve", "rig.toml", "--history", "all.csv", "--points", "20"]) == 0
+    assert main(["solve", "rig.toml", "--csv", "all.csv", "--points", "20"]) == 0
     written = [line for line in Path("all.csv").read_text().splitlines() if line[0] != "#"]
     rows = list(csv.DictReader(written))
     for k, point in enumerate(rig):
@@ -412,11 +407,6 @@ def test_every_turning_point_is_written_with_its_tractions(rig, capsys):
         x = np.array([float(row["x"]) for row in mine])
         assert [float(row["p"]) for row in mine] == point.pressure(x).tolist()
         assert [float(row["q"]) for row in mine] == point.shear(x).tolist()
-
-
-def test_a_history_of_a_scene_without_a_path_is_refused(scene, capsys):
-    assert main(["solve", scene, "--history", "all.csv"]) == 2
-    assert "give [load] path" in sentence(capsys) and not Path("all.csv").exists()
 
 
 def test_a_path_that_is_not_covered_is_refused_by_plan_and_solve(tmp_path, monkeypatch, capsys):
@@ -495,6 +485,18 @@ BAD = {
     "tolerance of a comparison": (
         ["compare", "scene.toml", "fem.csv", "--tol", "inf"],
         "tol = inf is no positive number",
+    ),
+    "a height in words": (
+        ["compare", "scene.toml", "fem.csv", "--surface", "top"],
+        "top is not a height",
+    ),
+    "a height that is none": (
+        ["compare", "scene.toml", "fem.csv", "--surface", "nan"],
+        "nan is not a height",
+    ),
+    "an unknown body": (
+        ["compare", "scene.toml", "fem.csv", "--body", "left"],
+        "give below or above",
     ),
     "no suffix": (["solve", "scene.toml", "--plot", "picture"], ".png"),
     "unknown suffix": (["solve", "scene.toml", "--plot", "out.xyz"], ".svg"),

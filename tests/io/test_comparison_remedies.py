@@ -50,7 +50,7 @@ REFUSED = {
     "points on both sides": (BOTH_SIDES, "leave the other out", ONE_SIDE),
     "one point": (written(X[:1], P[:1]), "needs at least two", written(X[:2], P[:2])),
     "no point on the surface": (
-        written(header="x,y,p", y=np.full(len(X), 0.2)), "on the surface, y = 0",
+        written(header="x,y,p", y=np.linspace(0.2, 0.3, len(X))), "on the surface, y = 0",
         written(header="x,y,p", y=np.zeros(len(X))),
     ),
     "another unit of length": (written(1000.0 * X + 5.0), "the units of length", written()),

@@ -341,7 +341,8 @@ def test_the_picture_of_the_stress_shows_every_patch():
     contours = pytest.importorskip("sie.plots.stress_plot")
     solution = sie.solve(ROW)
     axes = contours.contours(solution).axes[0]
-    drawn = [tuple(line.get_xdata()) for line in axes.lines if line.get_label() == "contact"]
+    bars = [line for line in axes.lines if line.get_linewidth() == contours.BAR]
+    drawn = [tuple(line.get_xdata()) for line in bars]
     assert drawn == list(solution.patches)
 
 
@@ -361,3 +362,55 @@ def test_a_place_without_an_indenter_is_left_out_of_the_picture(profile, load):
     lower = plot.picture(solution).axes[1]
     low, high = lower.get_ylim()
     assert -np.inf < low < 0.0 < high < np.inf
+
+
+# -- stress ---------------------------------------------------------------------------------------
+
+stress = pytest.importorskip("sie.plots.stress_plot")
+NARROW_PEAK = sie.solve(SCENES["thin rim"])
+
+
+@pytest.mark.parametrize("solution", [NARROW_PEAK, SHEARED["partial slip"]])
+def test_each_band_of_the_contours_has_its_part_of_the_field(solution):
+    """A level may be off by the rounding of its two digits."""
+    bar = stress.contours(solution).axes[1]
+    levels = bar.get_yticks()
+    root = np.sqrt(stress.Grid(solution, stress.NX, stress.NY).stress.j2)
+    shares = np.minimum(root / solution.elastic_limit().stress, 1.0)
+    counted = np.histogram(shares, levels)[0] / shares.size
+    assert len(stress.BELOW) - 2 <= len(counted) <= len(stress.BELOW) + 1
+    assert (counted >= 0.002).all() and counted.max() <= 0.4
+
+
+def test_the_bars_of_contact_and_stick_have_a_key():
+    axes = stress.contours(SHEARED["partial slip"]).axes[0]
+    assert [text.get_text() for text in axes.get_legend().get_texts()] == ["contact", "stick"]
+
+
+def test_full_stick_under_a_tangential_load_has_a_panel_of_its_shear():
+    scene = sie.Scene(
+        profile=sie.Flat(2.0), modulus=500.0, dundurs=0.3, normal_load=20.0, friction=np.inf,
+        tangential_load=3.0,
+    )  # fmt: skip
+    solution = sie.solve(scene)
+    axes = plot.picture(solution).axes[2]
+    x, q = lines(axes)["$q$"].get_data()
+    middle = np.abs(x) < 1.0
+    np.testing.assert_allclose(q[middle], solution.shear(x[middle]), rtol=1e-12)
+    low, high = axes.get_ylim()
+    assert (q[middle] > low).all() and (q[middle] < high).all()
+
+
+def test_the_limit_of_friction_is_drawn_over_the_shear():
+    drawn = lines(plot.picture(SHEARED["sliding"]).axes[2])
+    assert drawn["$f p$"].get_zorder() > drawn["$q$"].get_zorder()
+
+
+@pytest.mark.parametrize("width", [3.35, 7.0])
+@pytest.mark.parametrize("draw", [plot.picture, stress.contours])
+def test_a_picture_is_as_wide_as_asked_with_its_words_inside(draw, width):
+    figure = draw(SHEARED["partial slip"], title="A contact " * 9, width=width)
+    figure.draw_without_rendering()
+    assert figure.get_figwidth() == width
+    box = figure.get_tightbbox()
+    assert box.x0 >= -0.02 and box.x1 <= width + 0.02

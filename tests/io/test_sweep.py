@@ -5,6 +5,7 @@ loses nothing.
 import builtins
 import os
 import sys
+import threading
 from concurrent.futures import (
     BrokenExecutor,
     Executor,
@@ -430,14 +431,17 @@ def test_a_sweep_counts_the_patches_and_measures_their_length():
 
 
 def test_a_bar_is_shown_for_long_work_on_a_terminal_only(monkeypatch, capsys):
+    before = threading.active_count()
     sie.sweep(SCENE, over={"normal_load": LOADS})
     assert capsys.readouterr().err == ""
     monkeypatch.setattr(progress_bar, "PATIENCE", 0.0)
     sie.sweep(SCENE, over={"normal_load": LOADS})
     assert capsys.readouterr().err == ""
     monkeypatch.setattr(sys.stderr, "isatty", lambda: True)
+    pytest.importorskip("tqdm")
     sie.sweep(SCENE, over={"normal_load": LOADS})
     assert "/3" in capsys.readouterr().err
+    assert threading.active_count() == before
     sie.sweep(SCENE, over={"normal_load": LOADS}, progress=False)
     assert capsys.readouterr().err == ""
 
@@ -469,6 +473,37 @@ def test_an_invalid_sweep_is_refused_before_any_work(arguments, words):
 def test_a_value_beyond_all_floats_costs_its_own_point_only():
     found = plain(sie.sweep(SCENE, over={"normal_load": [0.1, 10**400]}, want="half_width"))
     assert np.isfinite(found["half_width"]).tolist() == [True, False]
+
+
+def test_with_xarray_every_quantity_and_parameter_of_the_package_has_its_name_and_unit():
+    pytest.importorskip("xarray")
+    over = {"normal_load": [0.1, 0.2], "profile.radius": [1.0], "friction": [0.1]}
+    units = {"length": "m", "force": "N/m", "stress": "Pa"}
+    scene = replace(SCENE, profile=sie.Parabola(1.0), poisson=0.3)
+    found = sie.sweep(scene, over=over, want=list(sie.QUANTITIES), units=units)
+    for name, variable in {**found.data_vars, **found.coords}.items():
+        assert name == "reason" or set(variable.attrs) == {"long_name", "units"}, name
+    assert found["normal_load"].attrs["units"] == "N/m"
+    assert found["moment"].attrs["units"] == "N/m m" and found["error"].attrs["units"] == "1"
+    assert found["profile.radius"].attrs == {"long_name": "radius", "units": "m"}
+
+
+def test_a_quantity_of_the_user_has_no_name_or_unit_that_it_was_not_given():
+    pytest.importorskip("xarray")
+    want = {"tilt": own_quantity, "b": "half_width"}
+    found = sie.sweep(SCENE, over={"normal_load": [0.1]}, want=want)
+    assert found["tilt"].attrs == {}
+    assert found["b"].attrs == {"long_name": "half-width of the contact", "units": "mm"}
+
+
+def own_quantity(solution):
+    return 2.0 * solution.half_width
+
+
+@pytest.mark.parametrize("units", ["mm", {"lenght": "m"}, {"length": 1.0}])
+def test_units_that_are_no_labels_are_refused_before_any_work(units):
+    with pytest.raises(ValueError, match="are no labels of units"):
+        sie.sweep(SCENE, over={"normal_load": [0.1]}, units=units)
 
 
 def test_with_xarray_the_result_is_labelled():

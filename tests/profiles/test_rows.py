@@ -47,6 +47,28 @@ def test_the_slope_of_a_row_is_that_of_its_lowest_profile(row):
     np.testing.assert_allclose(row.slope(X)[away], expected[away], rtol=1e-13, atol=1e-15)
 
 
+HARDENING = FromFunction("x*abs(x)+x/8", breaks=(0.0,))
+
+
+@pytest.mark.parametrize(
+    "other",
+    [
+        sie.Power(2.5, 1.2029823428821735),
+        sie.RoundedFlat(0.5, 1.0).raised(1e-16),
+        sie.RoundedFlat(0.5, 1.0),
+    ],
+)
+@pytest.mark.parametrize(
+    "one", [HARDENING.mirrored(), HARDENING.tilted(0.05), HARDENING.shifted(1e-17).raised(1e-16)]
+)
+def test_two_profiles_that_touch_to_rounding_make_a_row(one, other):
+    x = np.linspace(-2.0, 2.0, 81)
+    least = np.minimum(one.height(x), other.height(x))
+    row = Row([one, other])
+    np.testing.assert_array_equal(row.height(x), least)
+    assert all(lo < hi for lo, hi, _ in row.lowest)
+
+
 def test_places_without_an_indenter_are_walls():
     assert FLATS.walls == ((-0.19999999999999996, 0.29999999999999993),)
     assert FLATS.mirrored().walls == ((-0.29999999999999993, 0.19999999999999996),)

@@ -2,6 +2,8 @@
 parameters their products.
 """
 
+import sys
+
 import numpy as np
 import pytest
 
@@ -83,6 +85,14 @@ def test_ruizs_parameters_are_products_of_amplitude_traction_and_tension(cycle):
     assert cycle.ruiz(x) == pytest.approx(np.maximum(tension, 0.0) * work, rel=1e-13)
 
 
+def test_at_a_sharp_edge_the_range_is_infinite_and_without_slip_there_is_no_work():
+    scene = sie.Scene(profile=sie.Flat(1.0), modulus=1.0, normal_load=0.3, friction=0.4)
+    cycle = sie.Cycle(sie.follow(scene, sie.Path([(0.3, 0.0), (0.4, 0.05), (0.3, 0.0)])))
+    assert cycle.range([0.0, 1.0], 0.0)["yy"].range[1] == np.inf
+    assert cycle.range([0.0, 1.0], 0.0)["yy"].amplitude[1] == np.inf
+    assert (cycle.friction_work([0.0, 1.0]) == 0.0).all() and cycle.ruiz(1.0) == 0.0
+
+
 def test_one_state_is_no_cycle():
     with pytest.raises(ValueError, match="1 states make no cycle"):
         sie.Cycle([sie.solve(SCENE)])
@@ -131,3 +141,36 @@ def test_parts_that_are_no_count_are_refused(parts):
 def test_a_path_is_not_cut_into_more_parts_than_memory_holds(parts):
     with pytest.raises(ValueError, match="give fewer parts"):
         PATH.subdivided(parts)
+
+
+COLUMNS = ["P", "Q", "sigma", "x1", "x2", "stick_from", "stick_to"]
+
+
+@pytest.fixture(params=["with pandas", "without"])
+def rows(request, monkeypatch):
+    """A function that makes a list of the rows of a table."""
+    if request.param == "without":
+        monkeypatch.setitem(sys.modules, "pandas", None)
+        return lambda table: table
+    pytest.importorskip("pandas")
+    return lambda table: table.to_dict("records")
+
+
+def test_the_table_has_a_row_for_each_turning_point(rows):
+    history = sie.follow(SCENE, PATH)
+    found = rows(sie.Cycle(history).table())
+    for row, point, loads in zip(found, history, PATH.points, strict=True):
+        (stick,) = point.stick
+        expected = (*loads, *point.edges, *stick, point.energy_lost)
+        assert list(row) == [*COLUMNS, "energy_lost"]
+        assert list(row.values()) == pytest.approx(expected, rel=1e-14)
+
+
+def test_the_table_of_a_steady_cycle_has_its_permanent_stick_zone(rows):
+    A, B = (0.3, 0.1, 0.02), (0.25, -0.05, -0.01)
+    steady = sie.steady_cycle(SCENE, A, B)
+    found = rows(steady.cycle.table())
+    assert [list(row)[:7] for row in found] == [COLUMNS] * 2
+    for row, loads in zip(found, (A, B), strict=True):
+        assert [row[name] for name in ("P", "Q", "sigma")] == list(loads)
+        assert (row["stick_from"], row["stick_to"]) == steady.stick[0]

@@ -29,7 +29,7 @@ body { margin: 0 auto; max-width: 62rem; padding: 1rem; font: 16px/1.5 system-ui
 h1 { font-size: 1.5rem }
 h2 { margin-top: 2.5rem; border-bottom: 1px solid var(--line); font-size: 1.25rem }
 h3 { font-size: 1rem }
-nav a { margin-right: .8rem; white-space: nowrap }
+nav a { display: inline-block; margin-right: .8rem }
 p.intro { white-space: pre-line; color: var(--soft) }
 .figures { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 25rem), 1fr));
   gap: 1rem }

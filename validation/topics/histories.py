@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from itertools import cycle, pairwise
+from itertools import cycle, islice, pairwise
 from typing import Any
 
 import numpy as np
@@ -20,14 +20,15 @@ from numpy.typing import NDArray
 import sie
 from oracles.kalker import Mesh
 from oracles.load_history import history as on_a_mesh
-from oracles.random_histories import KINDS, random_path
+from oracles.random_histories import KINDS, MARCHED, random_path
 from validation.harness.measures import largest
 from validation.harness.records import Claim, Curve, Doing, Record, Table, checked, in_turn
 
 TITLE = "Paths of all loads, and steady cycles"
-SECONDS = (3.0, 30.0)
+SECONDS = (4.0, 40.0)
 TIMED = False
 EXACT, TABULATED, FOLLOWED = 1e-12, 2e-7, 1e-12
+MARCHED_TO = 1e-9  # of the half-width; the certificate promises ten times as much
 # Bounds for the mesh: mean error of q over the largest f p, that of the energy, and their decrease.
 MEAN_ERROR, ENERGY_ERROR, HALVED = 4e-3, 3e-2, 0.75
 BALANCE = 1e-9
@@ -55,6 +56,13 @@ IN_PHASE: list[tuple[float, ...]] = [(1, 0, 0), *[(1.2, 0.55, 0.1), (0.9, -0.3, 
 OUT_OF_PHASE = [(1, 0.4, 0), (1, 0, 0.2), (1, -0.4, 0), (1, 0, -0.2), (1, 0.4, 0)]
 DRAWN = [(1, 0, 0), *[(1.1, 0.5, 0.05), (1, -0.4, -0.05)] * 2]
 HELD_UP = [(1, 0, 0), (1.3, 0.55, 0.2), (0.8, -0.3, -0.15), (1.3, 0.55, 0.2)]
+
+MEAN_STRESS, TRAVELLING = "Q cycles under a constant σ", "a stick zone travels"
+MARCHED_PATHS: dict[str, Points] = {
+    MEAN_STRESS: [(1, 0, 0.3), (1, 0.5, 0.3), (1, -0.5, 0.3), (1, 0.5, 0.3)],
+    TRAVELLING: [(1, 0, 0), (1, 0.5, 3)],
+    "two stick zones": [(1, 0.06, -0.36), (1, -0.31, 0.08)],
+}
 
 # (name, points, (P/P0, tilt) of the stick zone at each point from the second)
 ZONES: tuple[tuple[str, Points, Points], ...] = (
@@ -97,6 +105,7 @@ def compute(quick: bool) -> Iterator[Record]:
     yield from in_turn(
         ("closed forms", _tabulated()),
         ("steady cycles", _steady()),
+        ("marching", _marched(quick)),
         ("laws", _laws()),
         ("random paths on a mesh", _on_meshes(quick)),
     )
@@ -159,6 +168,54 @@ def _steady() -> Iterator[Record]:
 def _cycle(scene: sie.Scene, A: tuple[float, ...], B: tuple[float, ...]) -> sie.SteadyCycle:
     start, end = scaled([A, B])
     return sie.steady_cycle(scene, start, end)
+
+
+# -- steps that no layers answer ------------------------------------------------------------------
+
+
+def _marched(quick: bool) -> Iterator[Record]:
+    ends = [abs(end) for end in followed(HERTZ, MARCHED_PATHS[MEAN_STRESS])[3].stick[0]]
+    yield checked(
+        lambda share: largest(abs(end - np.sqrt(1.0 - share)) for end in ends),
+        *(0.5, 0.49),
+        what="stick zone of a cycle of Q under a constant σ against Mindlin's without it",
+        by=BY,
+        named="Mindlin's zone for 0.98 of the range of Q",
+        high=MARCHED_TO,
+    )
+    (c1, c2), (_, Q, sigma) = (
+        followed(HERTZ, MARCHED_PATHS[TRAVELLING])[-1].stick[0],
+        MARCHED_PATHS[TRAVELLING][1],
+    )
+    yield checked(
+        lambda rate: abs((c2 - c1) / (2.0 * Q * F / (np.pi * 0.25 * rate * S)) - 1.0),
+        *(sigma, 0.99 * sigma),
+        what="width of a stick zone that travels, 2 |dQ/(π dτ)|: relative error",
+        by=BY,
+        named="the width of 0.99 of the rate of σ",
+        high=MARCHED_TO,
+    )
+    rows = [
+        (name, *_in_parts(points))
+        for name, points in MARCHED_PATHS.items()
+        if name == TRAVELLING or not quick
+    ]
+    what = "ends of marched stick zones against the path in three parts: largest error"
+    named = "parts of a path that ends at 0.99 of σ"
+    error, wrong = largest(row[1] for row in rows), min(row[2] for row in rows)
+    yield Claim(f"{what} / half-width", BY, error, wrong, named, high=MARCHED_TO)
+    header = ("path", "ends", "those of another path", "residual in the certificate")
+    yield Table("Steps that no layers answer, against the same path in parts", header, rows)
+
+
+def _in_parts(points: Points) -> tuple[float, float, float]:
+    """Errors of the ends against a path in parts, and against that to another σ; the residual."""
+    whole, (*before, (P, Q, sigma)) = followed(HERTZ, points)[-1], points
+    others = [followed(HERTZ, path, 3)[-1] for path in (points, [*before, (P, Q, 0.99 * sigma)])]
+    right, wrong = (float(np.abs(np.subtract(whole.stick, o.stick)).max()) for o in others)
+    sheared = whole.check().shear
+    assert sheared is not None
+    return right, wrong, sheared.residual
 
 
 # -- laws -----------------------------------------------------------------------------------------
@@ -258,7 +315,7 @@ def _of_kind(kind: str, rng: np.random.Generator, scenes: Sequence[sie.Scene]) -
 def _on_meshes(quick: bool) -> Iterator[Record]:
     scenes, number = ((HERTZ,), 2) if quick else ((HERTZ, LOPSIDED), 60)
     rng = np.random.default_rng(17)
-    kinds = [kind for kind, _ in zip(cycle(KINDS), range(number), strict=False)]
+    kinds = list(islice(cycle([*KINDS, *MARCHED]), number))
     paths = [_of_kind(kind, rng, scenes) for kind in kinds]
     found = []
     for k, states in enumerate(paths):

@@ -21,6 +21,7 @@ from oracles import spence
 from sie.certificate.coupled_check import coupled_certificate
 from sie.certificate.coupled_shear_check import sheared_certificate
 from sie.certificate.shear_check import goodman_certificate
+from sie.friction.coupled_flat import flat_punch
 from sie.friction.coupled_sheared import ShearedContact
 from sie.friction.goodman import GoodmanSlip
 from validation.harness.measures import largest, smallest
@@ -102,6 +103,18 @@ def references() -> Iterator[Record]:
         smallest(wrong),
         "c/b of Goodman's approximation",
         high=SAME,
+    )
+    widths, close, off = spence.SLIP_WIDTHS, [], []
+    for (beta, f), width in widths.items():
+        close.append(abs(flat_punch(beta, f).modulus.rest / width - 1.0))
+        off.append(abs(flat_punch(beta * (1.0 + OFF), f).modulus.rest / width - 1.0))
+    yield Claim(
+        "largest relative error of 1 - c/b, from 0.35 to 1.6e-15",
+        "the eigenvalue in 40 digits by another rule",
+        largest(close),
+        smallest(off),
+        f"β off by {OFF:.0e} of it",
+        high=1e-10,
     )
     yield Table("A flat punch, b = P = 1", ("β", "f", "c/b", "p(0)", "error"), rows)
 

@@ -1,0 +1,191 @@
+"""The way of an end of the stick zone that recedes, by Newton's method on one panel after another.
+
+A panel is as long as its series resolves. It ends at a mark of the earlier shear, where the speed
+of the end changes.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sie.errors import ContactError
+from sie.numerics import chebyshev
+from sie.numerics.interval import EPS
+from sie.numerics.root_finding import false_position
+
+from .sticking_zone import GRADED, ROUGH, Panel, Zone, added, kernel
+
+Array = NDArray[np.float64]
+
+TERMS, FEWER = 16, 12  # of the time on a panel, and of what it is judged by
+RESOLVED = 1e-12  # of ρ: what the last terms of a panel leave of its end
+FIRST, SHORTEST = 0.05, 1e-8  # of ρ: the first panel, and the shortest
+MOST_STEPS, SETTLED, ROUNDING = 12, 1e-14, 1e-9  # of Newton's method, of the series
+MOST_PANELS = 300
+SAME = 1e-12  # of a half-width: places that are nearer to each other are one
+WATCHED = np.linspace(0.0, 1.0, 17)  # of a panel: where it is seen whether the edge sticks
+OFTEN, DOUBLED, HALVED = 24, 4, 40
+STEADY = np.ones(2)  # of M, for time in proportion to the distance
+
+
+@dataclass(frozen=True, eq=False)
+class EndMotion:
+    """The motion of an end of a stick zone.
+
+    zone       the zone
+    missing    q* at places (1-d) where the end arrives, as it was at the start
+    """
+
+    zone: Zone
+    missing: Callable[[Array], Array]
+
+    def way(self, u: float, time: float, marks: list[float]) -> tuple[tuple[Panel, ...], float]:
+        """The way from a place at a time until the edge slips, and the sign of that slip.
+
+        The sign is 0 where the course is over before.
+        """
+        panels: list[Panel] = []
+        rho, over = self._half(u, time), self.zone.course.hi
+        length = FIRST * rho
+        while len(panels) < MOST_PANELS:
+            most = min(*(m - u for m in marks if m > u + SAME * rho), self._half(u, time), math.inf)
+            length = most if length > 0.7 * most else length
+            panel = self._panel(tuple(panels), (u, length, time), TERMS)
+            if panel is None:
+                if length <= SHORTEST * rho:
+                    break
+                length *= 0.4
+                continue
+            if panel.until >= over:
+                panel = replace(panel, last=float(panel.root(np.array(over))))
+            panel, slips = _until_slip(self.zone, panel)
+            panels.append(panel)
+            if panel.last < 1.0 or slips:
+                return tuple(panels), slips
+            u, time = u + length, panel.until
+            length *= 2.0
+        raise ContactError("the end of the stick zone does not recede steadily")
+
+    def end_from_fewer(self, panels: tuple[Panel, ...]) -> float:
+        """The end of the same way from fewer terms."""
+        again: tuple[Panel, ...] = ()
+        time = panels[0].time
+        for panel in panels:
+            found = self._panel(again, (panel.start, panel.length, time), FEWER) or panel
+            again = (*again, found)
+            time = found.until
+        last = again[-1]
+        reached = replace(last, last=float(last.root(np.array(min(panels[-1].until, time)))))
+        return reached.end
+
+    def _half(self, u: float, time: float) -> float:
+        return 0.5 * (float(self.zone.edge(np.array(time))) - u)
+
+    def _panel(
+        self, before: tuple[Panel, ...], place: tuple[float, float, float], terms: int
+    ) -> Panel | None:
+        """One more panel, None where it is not found or not resolved."""
+        start, length, time = place
+        u = start + length * (0.5 * (1.0 + chebyshev.points(terms))) ** 2
+        if (u <= start).any():
+            return None
+        known = self.missing(u) + added(self.zone, before, u)
+        pace = self._first_pace(known[-1:], u[-1:], place)
+        if pace is None:
+            return None
+        guess = 0.5 * pace * np.pad(STEADY, (0, terms - 2))
+        panel = self._by_newton(Panel(start, length, time, guess), u, known)
+        if panel is None or terms < TERMS:
+            return panel
+        c = np.abs(panel.series)
+        resolved = c[-2:].max() * length <= RESOLVED * c.max() * self._half(start, time)
+        onwards = panel.pace(0.5 * (1.0 + chebyshev.points(OFTEN))) > 0.0
+        return panel if resolved and onwards.all() else None
+
+    def _by_newton(self, panel: Panel, u: Array, known: Array) -> Panel | None:
+        """The panel whose way brings q* to 0 at places u when the end arrives."""
+        course, before = self.zone.course, math.inf
+        touched, latest = np.full(len(u), course.lo), 3.0 * course.hi - 2.0 * panel.time
+        for _ in range(MOST_STEPS):
+            (rate, change), w, times = kernel(self.zone, panel, u, touched, GRADED)
+            if not (np.isfinite(rate).all() and times.max() <= latest):
+                return None
+            s, pace = 2.0 * w - 1.0, panel.pace(w)
+            T = chebyshev.polynomials(len(u), s)
+            matrix = ((0.5 * T / w + _derivatives(T, s)) * rate).sum(axis=2).T
+            matrix += (T * (panel.length * w * change() * pace)).sum(axis=2).T
+            step = np.linalg.solve(matrix, -known - (rate * pace).sum(axis=1))
+            panel = replace(panel, series=panel.series + step)
+            size = float(np.abs(step).max() / np.abs(panel.series).max())
+            if size <= SETTLED or 0.3 * before <= size <= ROUNDING:
+                return panel
+            before = size
+        return None
+
+    def _first_pace(
+        self, known: Array, last: Array, place: tuple[float, float, float]
+    ) -> float | None:
+        """The constant dt/du with which the end of a panel is reached in time."""
+        start, length, time = place
+        touched = np.full(1, self.zone.course.lo)
+
+        def missed(pace: float) -> float:
+            panel = Panel(start, length, time, 0.5 * pace * STEADY)
+            (rate, _), *_ = kernel(self.zone, panel, last, touched, ROUGH)
+            return float(known[0] + pace * rate.sum())
+
+        high = (self.zone.course.hi - time) / length
+        at_high = missed(high)
+        for _ in range(DOUBLED):
+            if at_high <= 0.0:
+                break
+            high *= 2.0
+            at_high = missed(high)
+        else:
+            return None
+        low, at_low = high, at_high
+        for _ in range(HALVED):
+            if not at_low <= 0.0:
+                break
+            high, at_high, low = low, at_low, 0.25 * low
+            at_low = missed(low)
+        if not at_low > 0.0:
+            return None
+        values = at_low, at_high
+        return false_position(missed, low, high, values, lambda a, b, value: b - a <= 1e-3 * b)
+
+
+def _derivatives(T: Array, s: Array) -> Array:
+    """T_n'(s) from T_n(s), n first."""
+    out = np.zeros(T.shape)
+    out[1] = 1.0
+    for n in range(2, len(T)):
+        out[n] = 2.0 * s * out[n - 1] + 2.0 * T[n - 1] - out[n - 2]
+    return out
+
+
+def _until_slip(zone: Zone, panel: Panel) -> tuple[Panel, float]:
+    """A panel up to where the edge begins to slip, and in which direction, 0 if it does not."""
+
+    def room(w: Array, k: int) -> Array:
+        return zone.held_by(panel.times(w), panel.start + panel.length * w**2)[k]
+
+    w, last, slips = panel.last * WATCHED, panel.last, 0.0
+    for k, sign in enumerate((zone.sign, -zone.sign)):
+        values = room(w, k)
+        lost = np.flatnonzero((values[:-1] >= 0.0) & (values[1:] < 0.0))
+        if lost.size:
+            j = int(lost[0])
+            ends, at_ends = ((float(pair[j]), float(pair[j + 1])) for pair in (w, values))
+
+            def left(at: float, k: int = k) -> float:
+                return float(room(np.array(at), k))
+
+            at = false_position(left, *ends, at_ends, lambda a, b, value: b - a <= 4.0 * EPS)
+            last, slips = (at, sign) if at < last else (last, slips)
+    return replace(panel, last=last), slips

@@ -1,0 +1,194 @@
+"""A step in which one end of the stick zone recedes, and the other, an edge, grows and sticks.
+
+With s the slip at the end u that recedes, ξ the coordinate from there to the edge b(t) of contact,
+and q = s f (p - q*), the part q* vanishes where it slips and changes in the stick zone [u, b] by
+
+    dq*/dt = [A/π - B (ξ - μ)]/sqrt((ξ - u)(b - ξ)),    A = dP - s dQ/f,    B = G dθ - s dτ/f,
+
+μ the centre and ρ the half-width of the zone. A point that the edge brings into contact has q* = 0.
+The end arrives at ξ when q* is 0 there: an equation of Abel's kind for the time t(u),
+
+    q*0(u) + ∫ [A/π - B (u - (v + b)/2)]/sqrt((u - v)(b - u)) dt(v) = 0,
+
+with b = b(t). Time is a series in the root of the distance on each panel; it begins like
+the root where the edge nearly slips from the start. The edge sticks while
+
+    0 <= (A - π B ρ) sqrt(r/ρ) <= 2 (dP - π G r dθ),
+
+r the half-width of contact; beyond it slips by s below, by -s above. The slip at u is that of the
+stick zone's layer. `BothStick` has the state where neither edge slips.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sie.numerics import chebyshev
+from sie.numerics.interval import Interval
+
+from .end_motion import SAME, EndMotion
+from .growing_contact import Course
+from .marched_step import FrozenEdge, Held, MarchedStep, places
+from .slip_onset import Onset
+from .sticking_zone import GRADED, PLAIN, Panel, Zone, added, rows_of
+
+Array = NDArray[np.float64]
+
+WORK_NODES = 10  # on each panel
+
+
+@dataclass(frozen=True, eq=False)
+class EdgeSticks(MarchedStep):
+    """The state after one end of the stick zone receded while the other, an edge, grew and stuck.
+
+    zone     the stick zone in the direction of the edge
+    panels   the time on the way of the end
+    share    the share of the step at its end
+    error    the error of the end of the way over its half-width, from fewer terms
+    slips    the sign of the slip that begins at the edge at the end, 0 if none does
+    """
+
+    zone: Zone
+    panels: tuple[Panel, ...]
+    share: float
+    error: float = 0.0
+    slips: float = 0.0
+
+    @property
+    def then(self) -> Onset:
+        """What goes on after its end."""
+        left, right = self.signs
+        return Onset((left or self.slips, right or self.slips), (left != 0.0, right != 0.0))
+
+    @cached_property
+    def stick(self) -> Interval:
+        d, end = self.zone.direction, self.panels[-1].end
+        edge = self.pressure.contact.x2 if d > 0.0 else self.pressure.contact.x1
+        return Interval(min(d * end, edge), max(d * end, edge))
+
+    @property
+    def reach(self) -> tuple[float, float]:
+        return self.stick.x1, self.stick.x2
+
+    @property
+    def kept(self) -> tuple[float, float]:
+        old = self.before.pressure.contact
+        return max(self.stick.x1, old.x1), min(self.stick.x2, old.x2)
+
+    @property
+    def _places(self) -> tuple[float, ...]:
+        """Where p and q may not be smooth.
+
+        The end changes its speed at a mark, which is left at the edge at that time.
+        """
+        before, (zone, panels) = super()._places, (self.zone, self.panels)
+        near = SAME * self.before.pressure.contact.r
+        passed = [
+            panel.time
+            for panel in panels[1:]
+            if np.abs(zone.direction * panel.start - np.array(before)).min() <= near
+        ]
+        left = zone.direction * zone.edge(np.array(passed))
+        return *before, zone.direction * panels[0].start, *left.tolist()
+
+    def in_stick(self, x: Array) -> Array:
+        bound = (self.signs[0] or self.signs[1]) * self.friction
+        way = added(self.zone, self.panels, self.zone.direction * x)
+        q: Array = bound * (self.pressure(x) - way) - self.before.lacking(bound, x)
+        return q
+
+    def until(self, share: float) -> EdgeSticks:
+        """The same at an earlier share of the step."""
+        panels = [panel for panel in self.panels if panel.time < share]
+        last = panels[-1]
+        if last.until > share:
+            panels[-1] = replace(last, last=float(last.root(np.array(share))))
+        course = self.zone.course
+        Q, tau = course.shear(share)
+        p = course.pressure(share)
+        return replace(self, pressure=p, Q=Q, tau=tau, panels=tuple(panels), share=share)
+
+    def slip(self, x: Array) -> Array:
+        place, total = self.zone.direction * x, np.zeros(len(x))
+        for panel in self.panels:
+            far = panel.start - place > panel.end - panel.start
+            for some, rule in rows_of(far, PLAIN) + rows_of(~far & (place < panel.end), GRADED):
+                low = np.maximum(panel.start, place[some])[:, None]
+                length = (panel.end - low) * rule[0]
+                u = low + length
+                w = np.sqrt(((low - panel.start) + length) / panel.length)
+                time = panel.times(w)
+                rho = 0.5 * (self.zone.edge(time) - u)
+                v = (np.maximum(panel.start - place[some], 0.0)[:, None] + length) / rho
+                rate = self._rate(v, rho, time) * panel.pace(w)
+                total[some] += (panel.end - low)[:, 0] * (rate @ rule[2])
+        return total
+
+    def _rate(self, v: Array, rho: Array, time: Array) -> Array:
+        """dΔg/dt beside the end that recedes, v - 1 as the distance over ρ."""
+        root = np.sqrt(v * (v + 2.0))
+        rate = self.zone.load / math.pi * np.log1p(v + root) + self.zone.turn(time) * rho * root
+        s = self.signs[0] or self.signs[1]
+        slip: Array = -s * self.friction * rate / self.pressure.half_modulus
+        return slip
+
+    @cached_property
+    def work(self) -> float:
+        """f ∫∫ p |dΔg| dx."""
+        g, weight = chebyshev.gauss_legendre(WORK_NODES)
+        total = 0.0
+        for panel in self.panels:
+            w = panel.last * g
+            steps = 2.0 * panel.length * w * panel.last * weight * panel.pace(w)
+            for time, at, step in zip(panel.times(w).tolist(), w.tolist(), steps.tolist()):
+                total += step * self._power(time, panel.start + panel.length * at**2)
+        return total
+
+    def _power(self, time: float, u: float) -> float:
+        zone, d = self.zone, self.zone.direction
+        p = zone.course.pressure(time)
+        edge = p.contact.x1 if d > 0.0 else p.contact.x2
+        marks = np.array([*p.breaks])
+        frame = FrozenEdge(edge, -d, 2.0 * p.contact.r, p, marks)
+        slips = frame.zone(u - d * edge)
+        rho = 0.5 * (float(zone.edge(np.array(time))) - u)
+        rate = self._rate(slips.from_stick / rho, np.array(rho), np.array(time))
+        return self.friction * float(slips.force @ np.abs(rate))
+
+
+def edge_sticks(
+    before: Held, course: Course, signs: tuple[float, float], goes_on: bool, share: float
+) -> EdgeSticks:
+    """The state at the end of a course, or where the edge that sticks begins to slip.
+
+    `signs` has the sign of slip at the end that recedes, and 0 at the edge that grows.
+    Raises ContactError where there is none.
+    """
+    direction = 1.0 if signs[0] else -1.0
+    s, f = signs[0] or signs[1], course.contacts.scene.friction
+    zone = Zone(course, direction, course.rates.mirrored(direction), s, f)
+    old = before.pressure.contact
+    inner = before.stick if goes_on else old
+    start = inner.x1 if direction > 0.0 else -inner.x2
+
+    def missing(u: Array) -> Array:
+        """q* where the end arrives."""
+        return before.lacking(s * f, direction * u) / (s * f)
+
+    edge = course.pressure(course.hi)
+    marks = sorted({direction * x for x in places(before, edge)})
+    marks = [u for u in marks if u > start + SAME * old.r]
+    motion = EndMotion(zone, missing)
+    panels, slips = motion.way(start, share, marks)
+    judge = motion.end_from_fewer(panels)
+    rho = 0.5 * (float(zone.edge(np.array(panels[-1].until))) - panels[-1].end)
+    error = abs(judge - panels[-1].end) / rho
+    end = panels[-1].until if slips else course.hi
+    Q, tau = course.shear(end)
+    p = course.pressure(end) if end < course.hi else edge
+    return EdgeSticks(before, p, f, signs, Q, tau, zone, panels, end, error, slips)

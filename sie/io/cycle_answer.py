@@ -1,0 +1,164 @@
+"""The last closed cycle of a load path: slip, energy, stress ranges and fatigue parameters.
+
+The cycle runs from the last earlier point of the path that has the loads of its last point. Each of
+its steps is examined at a few states, as [fatigue] parts says.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sie.errors import ContactError
+from sie.history import History, PathSolution, follow
+from sie.problem.load_path import Path
+from sie.problem.material import Elastic
+from sie.solution import Solution
+from sie.stress.fretting import Cycle
+from sie.stress.half_plane import Tractions
+from sie.stress.surface_search import ROUNDS, by_value, columns, largest
+
+from .fatigue_table import DEPTHS, Fatigue
+from .scene_file import SceneFile
+
+Array = NDArray[np.float64]
+
+COMPONENTS = ("xx", "yy", "xy")
+SLIP_ROUNDS = 4  # of narrowing for what depends on the slip
+
+
+def start_of_cycle(path: Path | None) -> int:
+    """The index of the point at which the last cycle of a path begins.
+
+    ValueError without a path, or where it does not come back to earlier loads.
+    """
+    if path is None:
+        raise ValueError(
+            "--want cycle needs a load path, and the scene has none: give [load] path, which comes "
+            "back to earlier loads"
+        )
+    points = [(*loads, turn) for loads, turn in zip(path.points, path.turns, strict=True)]
+    for k in range(len(points) - 2, -1, -1):
+        if points[k] == points[-1]:
+            return k
+    loads = ", ".join(f"{value:g}" for value in path.points[-1])
+    raise ValueError(
+        f"the path does not come back to the loads ({loads}) of its last point: "
+        "end it at the loads at which its last cycle begins"
+    )
+
+
+def cycle_of(solution: Solution, file: SceneFile) -> dict[str, Any]:
+    """What JSON and the report say of the last cycle of a path."""
+    start = start_of_cycle(file.load_path)
+    assert isinstance(solution, PathSolution)
+    history, parts = solution.history, file.fatigue.parts
+    states = _states(history, start, parts)
+    cycle = Cycle(states)
+    answer: dict[str, Any] = {"from": start, "to": len(history) - 1, "states": cycle.size}
+    answer |= _energy(history, start)
+    widest = max(states, key=lambda state: state.half_width)
+    tractions = [state.tractions for state in states]
+    answer |= _slip(Cycle(history[start:]), tractions, widest)
+    x = columns(tractions, 0.0)
+    answer["surface"] = {name: _stress_range(cycle, x, name) for name in COMPONENTS}
+    depths = file.fatigue.depth or tuple(part * widest.half_width for part in DEPTHS)
+    known = isinstance(history.scene.body, Elastic)
+    return answer | _parameters(cycle, file.fatigue, (0.0, *depths), known)
+
+
+def _states(history: History, start: int, parts: int) -> Sequence[Solution]:
+    """The solutions over the cycle; steps that are marched are not divided."""
+    if parts == 1 or any(point.marched for point in history.turning_points):
+        return history[start:]
+    divided = follow(history.scene, history.path.subdivided(parts), history.tol, history.economy)
+    return divided[start * parts :]
+
+
+def _energy(history: History, start: int) -> dict[str, float]:
+    """The energy that one cycle dissipates; {} where it is not known."""
+    try:
+        return {"energy": history[-1].energy_lost - history[start].energy_lost}
+    except ContactError:
+        return {}
+
+
+def _slip(turning: Cycle, tractions: Sequence[Tractions], widest: Solution) -> dict[str, Any]:
+    """The largest slip amplitude and Ruiz' parameters, by the states at the turning points.
+
+    In each step a point slips in one direction, so that no other states are needed; the slip of
+    points that come into contact takes milliseconds each.
+    """
+    x = np.concatenate((columns(tractions, widest.half_width), *(t.marks for t in tractions)))
+    touching = np.unique(x[(x >= widest.edges[0]) & (x <= widest.edges[1])])
+    quantities = {
+        "slip_amplitude": lambda x: turning.slip_range(x).amplitude,
+        "friction_work": turning.friction_work,
+        "ruiz": turning.ruiz,
+    }
+    return {
+        name: _largest(touching, quantity, SLIP_ROUNDS) for name, quantity in quantities.items()
+    }
+
+
+def _largest(x: Array, quantity: Callable[[Array], Array], rounds: int = ROUNDS) -> dict[str, Any]:
+    """The largest value of a quantity on the surface and its place, or why it is not known."""
+    try:
+        values = quantity(x)
+        infinite = ~np.isfinite(values)
+        if infinite.any():
+            return {"reason": f"infinite at x = {x[infinite][0]:g}, a sharp edge or a corner"}
+        place, value = largest(x, values, by_value(quantity), rounds)
+    except ContactError as problem:
+        return {"reason": str(problem)}
+    return {"value": value, "x": place}
+
+
+def _stress_range(cycle: Cycle, x: Array, name: str) -> dict[str, Any]:
+    """The largest range of a stress on the surface, its place, and the stresses there."""
+
+    def over_cycle(x: Array) -> Array:
+        stresses = np.stack([getattr(state.stress(x, 0.0), name) for state in cycle.states])
+        return np.where(np.isfinite(stresses), stresses, np.inf)
+
+    def width(x: Array) -> Array:
+        stresses = over_cycle(x)
+        finite = np.isfinite(stresses).all(axis=0)
+        return np.where(finite, np.ptp(np.where(finite, stresses, 0.0), axis=0), np.inf)
+
+    found = _largest(x, width)
+    if "reason" in found:
+        return found
+    stresses = over_cycle(np.array([found["x"]]))
+    ends = {"lowest": float(stresses.min()), "highest": float(stresses.max())}
+    return {"range": found["value"], "x": found["x"]} | ends
+
+
+def _parameters(
+    cycle: Cycle, material: Fatigue, depths: Sequence[float], elastic: bool
+) -> dict[str, list[dict[str, Any]]]:
+    """The fatigue parameters for which the material is known, at each depth."""
+    asked: dict[str, Callable[[float], Any]] = {}
+    if elastic:
+        asked["swt"] = lambda y: cycle.swt(y=y)
+    if material.findley_k:
+        asked["findley"] = lambda y: cycle.findley(y=y, k=material.findley_k)
+    if material.fatemi_socie_k:
+        constants = {"k": material.fatemi_socie_k, "yield_stress": material.yield_stress}
+        asked["fatemi_socie"] = lambda y: cycle.fatemi_socie(y=y, **constants)
+    return {name: [_at_depth(find, y) for y in depths] for name, find in asked.items()}
+
+
+def _at_depth(find: Callable[[float], Any], y: float) -> dict[str, Any]:
+    """The largest value of a parameter at a depth, or why there is none."""
+    try:
+        worst = find(y)
+    except ContactError as problem:
+        return {"y": y, "reason": str(problem)}
+    names = ("value", "x", "y", "angle", "out_of_plane", "amplitude", "normal_stress")
+    values = {name: float(getattr(worst, name)) for name in names}
+    return values | {name: math.degrees(values[name]) for name in ("angle", "out_of_plane")}

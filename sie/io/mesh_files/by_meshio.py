@@ -1,0 +1,110 @@
+"""Meshes that meshio reads: VTK (.vtu, .vtk), XDMF, MED of Code_Aster, Exodus of MOOSE.
+
+Values at nodes stay there; values of cells belong to the means of the nodes of the cells. An array
+of several components is named by letters or, for CalculiX' contact, by their order
+(ccx2paraview).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sie import files
+from sie.profiles.trace_files import MESH
+
+from .names import QUANTITIES, TRACTIONS, meaning
+from .raw import Group, MeshGeometry, Raw
+
+Array = NDArray[np.float64]
+
+SUFFIXES = (".vtu", ".vtk", ".xdmf", ".med", ".e", ".exo", ".ex2", ".msh")
+# The order of components by their number: VTK's symmetric tensors, plane ones, and full ones.
+_LETTERS = {
+    3: ("xx", "yy", "xy"),
+    4: ("xx", "yy", "zz", "xy"),
+    6: ("xx", "yy", "zz", "xy", "yz", "xz"),
+    9: ("xx", "xy", "xz", "yx", "yy", "yz", "zx", "zy", "zz"),
+}
+_CONTACT = ("copen", "cslip1", "cslip2", "cpress", "cshear1", "cshear2")
+_TENSORS = ("s", "stress", "sigma", "sig", "cauchy_stress")
+
+
+def read(path: Path) -> Raw:
+    """All fields whose names are known. ValueError without one, or without meshio."""
+    files.content(path, MESH.size)  # refuses what is no file, or too large
+    try:
+        import meshio  # noqa: PLC0415 -- an extra
+    except ImportError:
+        raise ValueError(
+            f'{path.name} is read by meshio, which is missing: pip install "plane-contact[mesh]", '
+            "or export the points as CSV"
+        ) from None
+    try:
+        mesh: Any = meshio.read(path)
+    except (Exception, SystemExit) as problem:  # whatever its many readers raise
+        raise ValueError(
+            f"{path.name} is not read by meshio ({type(problem).__name__}): "
+            "export the points as CSV"
+        ) from None
+    points = np.asarray(mesh.points, dtype=float)
+    geometry = _geometry(path.name, mesh)
+    bodies = geometry.bodies()
+    part = np.array([bodies.get(k, 0) for k in range(len(points))], dtype=np.int64)
+    groups = []
+    fields = _fields(mesh.point_data)
+    for names in ([n for n in fields if n in TRACTIONS], [n for n in fields if n not in TRACTIONS]):
+        if names:
+            columns = {"x": points[:, 0], "y": points[:, 1], **{n: fields[n] for n in names}}
+            groups.append(Group(columns, bodies=part if bodies else ()))
+    groups += _of_cells(mesh, points, part)
+    if not groups:
+        found = ", ".join([*mesh.point_data, *mesh.cell_data]) or "no field"
+        raise ValueError(
+            f"{path.name} holds {found}: name one field {' or '.join(QUANTITIES)}, "
+            "or as the code names it, like CPRESS"
+        )
+    return Raw(path.name, tuple(groups), tops=geometry.tops(bodies))
+
+
+def _geometry(file: str, mesh: Any) -> MeshGeometry:
+    nodes = {k: (float(p[0]), float(p[1])) for k, p in enumerate(mesh.points)}
+    cells = (tuple(map(int, cell)) for block in mesh.cells for cell in block.data)
+    return MeshGeometry(file, nodes, dict(enumerate(cells)))
+
+
+def _of_cells(mesh: Any, points: Array, part: NDArray[np.int64]) -> Iterator[Group]:
+    """A group for each block of cells that has a known field."""
+    for k, block in enumerate(mesh.cells):
+        fields = _fields({name: data[k] for name, data in mesh.cell_data.items()})
+        if fields:
+            corners = points[np.asarray(block.data)]
+            x, y = corners[..., 0].mean(axis=1), corners[..., 1].mean(axis=1)
+            surface = set(fields) <= set(TRACTIONS)
+            widths = np.ptp(corners[..., 0], axis=1) if surface else ()
+            yield Group({"x": x, "y": y, **fields}, widths, part[np.asarray(block.data)[:, 0]])
+
+
+def _fields(data: dict[str, Any]) -> dict[str, Array]:
+    """The quantities in arrays of one component, and in the components of others."""
+    fields: dict[str, Array] = {}
+    for name, given in data.items():
+        values = np.asarray(given, dtype=float)
+        values = values.reshape(len(values), -1)
+        for component, column in zip(_components(name, values.shape[1]), values.T, strict=False):
+            if meaning(component) in QUANTITIES:
+                fields.setdefault(meaning(component), column)
+    return fields
+
+
+def _components(name: str, count: int) -> tuple[str, ...]:
+    if count == 1:
+        return (name,)
+    if name.lower() == "contact":
+        return _CONTACT
+    letters = _LETTERS.get(count, ()) if name.lower() in _TENSORS else ()
+    return tuple(f"s{pair}" for pair in letters)

@@ -1,0 +1,115 @@
+"""What a file of a finite-element code holds, before anything is chosen from it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+Labels = NDArray[np.int64]
+
+
+@dataclass(frozen=True, eq=False)
+class Group:
+    """Quantities that are given at the same n points.
+
+    columns      x, y where the file has it, and quantities, each (n,)
+    widths       (n,) lengths along x of the element faces whose means the values are, () for nodes
+    bodies       (n,) number of the connected part of the mesh, 0 being the lowest; () if not known
+    """
+
+    columns: dict[str, Array]
+    widths: Array | tuple[()] = ()
+    bodies: Labels | tuple[()] = ()
+
+    def chosen(self, mask: NDArray[np.bool_]) -> Group:
+        """The points of the mask."""
+        return Group(
+            {name: values[mask] for name, values in self.columns.items()},
+            self.widths[mask] if isinstance(self.widths, np.ndarray) else (),
+            self.bodies[mask] if isinstance(self.bodies, np.ndarray) else (),
+        )
+
+
+@dataclass(frozen=True, eq=False)
+class Raw:
+    """The groups of a file; columns that are passed over, and notes on what was done to the rest.
+
+    top          height of the highest point of each part of the mesh, by number; () if not known
+    """
+
+    file: str
+    groups: tuple[Group, ...]
+    others: tuple[str, ...] = ()
+    notes: tuple[str, ...] = ()
+    tops: tuple[float, ...] = ()
+
+
+@dataclass(frozen=True, eq=False)
+class MeshGeometry:
+    """The nodes of a mesh, its elements as labels of nodes, and which of them are plane."""
+
+    file: str
+    nodes: dict[int, tuple[float, float]]
+    elements: dict[int, tuple[int, ...]]
+    plane: frozenset[int] = frozenset()
+
+    def points(self, labels: Iterable[int]) -> Array:
+        """Coordinates (n, 2) of nodes. ValueError for a label without coordinates."""
+        try:
+            return np.array([self.nodes[label] for label in labels], dtype=float).reshape(-1, 2)
+        except KeyError as missing:
+            raise ValueError(
+                f"{self.file} has no node {missing.args[0]}: give the input deck of the same run, "
+                "or, as CalculiX adds nodes to plane elements, a .frd written with OUTPUT=3D"
+            ) from None
+
+    def corners(self, element: int) -> tuple[int, ...]:
+        """Labels of the nodes of an element. ValueError for an element that is not there."""
+        if element not in self.elements:
+            raise ValueError(
+                f"{self.file} has no element {element}: give the input deck of the same run, "
+                "with its *ELEMENT lines"
+            )
+        return self.elements[element]
+
+    def bodies(self) -> dict[int, int]:
+        """The number of the connected part that each node belongs to, 0 for the lowest part."""
+        from scipy.sparse import coo_array  # noqa: PLC0415 -- for meshes only
+        from scipy.sparse.csgraph import connected_components  # noqa: PLC0415
+
+        index = {label: k for k, label in enumerate(self.nodes)}
+        pairs = [
+            (index[nodes[0]], index[node])
+            for nodes in self.elements.values()
+            for node in nodes[1:]
+            if nodes[0] in index and node in index
+        ]
+        if not pairs:
+            return {}
+        rows, columns = np.array(pairs).T
+        graph = coo_array((np.ones(len(rows)), (rows, columns)), shape=(len(index), len(index)))
+        _, part = connected_components(graph, directed=False)
+        heights = np.array([y for _, y in self.nodes.values()])
+        used = [p for p in range(part.max() + 1) if np.count_nonzero(part == p) > 1]
+        order = sorted(used, key=lambda p: float(heights[part == p].mean()))
+        rank = {int(p): k for k, p in enumerate(order)}
+        return {label: rank[int(part[k])] for label, k in index.items() if int(part[k]) in rank}
+
+    def tops(self, bodies: dict[int, int]) -> tuple[float, ...]:
+        """The height of the highest node of each part."""
+        highest = [-np.inf] * (max(bodies.values(), default=-1) + 1)
+        for label, body in bodies.items():
+            highest[body] = max(highest[body], self.nodes[label][1])
+        return tuple(highest)
+
+
+def means(labels: Sequence[int], values: Array) -> tuple[Labels, Array]:
+    """The labels in ascending order, once each, and the means of the rows that each has."""
+    unique, inverse = np.unique(np.asarray(labels, dtype=np.int64), return_inverse=True)
+    total = np.zeros((len(unique), values.shape[1]))
+    np.add.at(total, inverse, values)
+    return unique, total / np.bincount(inverse)[:, None]

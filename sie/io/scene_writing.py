@@ -1,0 +1,207 @@
+"""A scene as the tables of a scene file, and these as TOML text or as values for JSON.
+
+The tables are what `scene_file` reads: reading them gives an equal scene, to the last digit.
+Numbers keep all digits of `repr`. The heights of a trace stand in the tables, not the name of its
+file.
+
+>>> from sie import Parabola, Scene
+>>> scene = Scene(profile=Parabola(100.0), modulus=80e3, normal_load=50.0)
+>>> print(toml_text(tables_of(scene)), end="")
+[profile]
+kind = "parabola"
+radius = 100.0
+<BLANKLINE>
+[pair]
+modulus = 80000.0
+<BLANKLINE>
+[load]
+normal_load = 50.0
+"""
+
+from __future__ import annotations
+
+import inspect
+import json
+from collections.abc import Iterator, Mapping
+from dataclasses import fields
+from typing import Any
+
+import numpy as np
+
+from sie.problem.material import Body, Elastic
+from sie.problem.scene import Scene
+from sie.profiles.base import Mirrored, Profile, Raised, Shifted, Sum, Tilted
+from sie.profiles.expression import Expression
+from sie.profiles.from_function import FromFunction
+from sie.profiles.kinds import KINDS
+from sie.profiles.polynomials import Piecewise
+from sie.profiles.row import Periodic, Row
+from sie.profiles.sampled import Sampled
+from sie.profiles.shapes import Wedge
+
+from .scene_file import MOST_BYTES, from_tables
+from .scene_tables import TABLES
+
+Tables = dict[str, Any]
+
+INFINITIES = ("Infinity", "-Infinity")
+
+# The attributes of a profile that hold parameters of another name.
+HELD_BY: Mapping[type, Mapping[str, str]] = {
+    Piecewise: {"breaks": "ends", "pieces": "coefficients"},
+    FromFunction: {"slope": "function", "breaks": "declared", "domain": "ends"},
+    Sampled: {"x": "points", "h": "heights"},
+    Wedge: {"slope": "rise"},
+}
+# From the outermost modifier to the innermost.
+MODIFIED = ((Raised, "raised", "dz"), (Shifted, "shifted", "dx"), (Tilted, "tilted", "tilt"))
+
+
+def scene_of(tables: Mapping[str, Any]) -> Scene:
+    """The scene of tables. ValueError for none, or for a path of loads."""
+    if not isinstance(tables, Mapping):
+        raise ValueError(f"{tables!r} are no tables: give a dict, like that of Scene.to_dict()")
+    try:
+        file = from_tables(_with_infinities(tables))
+    except RecursionError:
+        raise ValueError("the tables are nested too deeply for those of a scene") from None
+    if file.path:
+        raise ValueError(
+            "[load] has a path, which is more than one scene: give normal_load, tangential_load "
+            "and bulk_stress, or read the file by sie.io.scene_file"
+        )
+    return file.scene
+
+
+def _with_infinities(value: Any) -> Any:
+    """The same as TOML has it: numbers for JSON's texts of infinity, and lists for arrays."""
+    if isinstance(value, Mapping):
+        strange = [key for key in value if not isinstance(key, str)]
+        if strange:
+            raise ValueError(f"the key {strange[0]!r} is not text: give the names of a scene file")
+        return {key: _with_infinities(v) for key, v in value.items()}
+    if isinstance(value, (np.ndarray, np.generic)):
+        return value.tolist()
+    if isinstance(value, (list, tuple)):
+        return [_with_infinities(v) for v in value]
+    return float(value) if isinstance(value, str) and value in INFINITIES else value
+
+
+def tables_of(scene: Scene) -> Tables:
+    """The tables of a scene. ValueError if a scene file cannot name its profile."""
+    given = {f.name: getattr(scene, f.name) for f in fields(scene)}
+    given = {f.name: given[f.name] for f in fields(scene) if given[f.name] != f.default}
+    if scene.modulus is not None and scene.beta == 0.0:
+        del given["dundurs"]  # beside a modulus it is 0 if it is not given
+    tables: Tables = {"profile": _profile(scene.profile)}
+    if scene.body is not None:
+        tables["body"] = _body(scene.body)
+        if scene.indenter != scene.body:
+            tables["indenter"] = _body(scene.indenter)
+    for name in ("pair", "load"):
+        tables[name] = {key: given[key] for key in TABLES[name] if key in given}
+    tables = {name: table for name, table in tables.items() if table}
+    if from_tables(tables).scene != scene:
+        raise ValueError(
+            f"{scene.profile!r} cannot be named in a scene file, which mirrors, tilts, shifts and "
+            "raises each term in this order before it adds them: build the profile in this order"
+        )
+    return tables
+
+
+def toml_text(tables: Mapping[str, Any]) -> str:
+    """The tables as TOML. ValueError where a scene file would be too long to be read."""
+    text = "\n".join(_lines(tables, "")).lstrip("\n") + "\n"
+    if len(text.encode()) > MOST_BYTES:
+        raise ValueError(
+            f"the scene has more than {MOST_BYTES / 1e6:g} MB as text: write the trace to a file "
+            "of columns, and name it by path"
+        )
+    return text
+
+
+# -- profiles and bodies -------------------------------------------------------------------------
+
+
+def _profile(profile: Profile) -> Tables:
+    if isinstance(profile, Periodic):
+        return {**_profile(profile.profile), "period": profile.repeats}
+    first, *others = profile.terms if isinstance(profile, Sum) else (profile,)
+    plus = {"plus": [_term(term) for term in others]} if others else {}
+    return {**_term(first), **plus}
+
+
+def _term(profile: Profile) -> Tables:
+    """One term of a profile: what it is, then its modifiers in the order of a scene file."""
+    modifiers: Tables = {}
+    for modified, name, amount in MODIFIED:
+        if isinstance(profile, (Raised, Shifted, Tilted)) and type(profile) is modified:
+            modifiers[name] = getattr(profile, amount)
+            profile = profile.profile
+    if isinstance(profile, Mirrored):
+        modifiers["mirrored"] = True
+        profile = profile.profile
+    if isinstance(profile, Row):
+        return {"kind": "row", **modifiers, "of": [_term(one) for one in profile.profiles]}
+    return {**_unmoved(profile), **modifiers}
+
+
+def _unmoved(profile: Profile) -> Tables:
+    kind = next((name for name, make in KINDS.items() if type(profile) is make), None)
+    if kind is None or not isinstance(getattr(profile, "function", Expression("x")), Expression):
+        raise ValueError(
+            f"{profile!r} cannot be named in a scene file: give a profile of the kinds that "
+            "`sie example` lists, a function as a formula in text"
+        )
+    table: Tables = {"kind": kind}
+    for parameter in inspect.signature(type(profile)).parameters.values():
+        held_by = HELD_BY.get(type(profile), {}).get(parameter.name, parameter.name)
+        value = _plain(getattr(profile, held_by, parameter.default))
+        if value != _plain(parameter.default):
+            table[parameter.name] = value
+    return table
+
+
+def _plain(value: Any) -> Any:
+    """Lists in place of tuples and arrays, and the text of a formula."""
+    if isinstance(value, Expression):
+        return value.text
+    if isinstance(value, np.ndarray):
+        return value.tolist()
+    return [_plain(v) for v in value] if isinstance(value, (tuple, list)) else value
+
+
+def _body(body: Body | None) -> Tables | str:
+    if not isinstance(body, Elastic):
+        return "rigid"
+    plane = {} if body.plane == "strain" else {"plane": body.plane}
+    return {"young": body.young, "poisson": body.poisson, **plane}
+
+
+# -- TOML ----------------------------------------------------------------------------------------
+
+
+def _lines(table: Mapping[str, Any], place: str) -> Iterator[str]:
+    """The lines of a table: its values first, then the tables in it under their headers."""
+    inner: dict[str, Any] = {}
+    for key, value in table.items():
+        if isinstance(value, Mapping) or (value and _are_tables(value)):
+            inner[key] = value
+        else:
+            yield f"{key} = {_value(value)}"
+    for key, value in inner.items():
+        header = f"[{place}{key}]" if isinstance(value, Mapping) else f"[[{place}{key}]]"
+        for one in [value] if isinstance(value, Mapping) else value:
+            yield from ("", header, *_lines(one, f"{place}{key}."))
+
+
+def _are_tables(value: Any) -> bool:
+    return isinstance(value, list) and all(isinstance(one, Mapping) for one in value)
+
+
+def _value(value: Any) -> str:
+    if isinstance(value, list):
+        return f"[{', '.join(map(_value, value))}]"
+    if isinstance(value, str):  # the escapes of JSON are those of TOML
+        return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
+    return {True: "true", False: "false"}[value] if isinstance(value, bool) else repr(value)

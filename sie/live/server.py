@@ -1,0 +1,88 @@
+"""The page served on this machine, by the standard library."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from http import HTTPStatus
+from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
+from typing import Any
+from urllib.parse import parse_qsl, urlsplit
+
+from sie.errors import ContactError
+from sie.problem.scene import Scene
+
+from .answer import PARTS, Setting, answer
+from .page import bokeh_script, served
+
+HOST = "127.0.0.1"  # no other machine is answered
+
+
+class LiveServer(ThreadingHTTPServer):
+    """A server of one page and of the answers that it asks for.
+
+    Raises
+    ------
+    OSError
+        If the port is taken.
+    ImportError
+        If Bokeh is not installed.
+    """
+
+    def __init__(self, file: Scene | None = None, port: int = 0) -> None:
+        self.file = file
+        self.contents = {
+            "/": ("text/html; charset=utf-8", served(file).encode()),
+            "/bokeh.js": ("text/javascript", bokeh_script()),
+        }
+        super().__init__((HOST, port), _Handler)
+
+    @property
+    def address(self) -> str:
+        """Where a browser finds the page."""
+        return f"http://{HOST}:{self.server_port}/"
+
+
+class _Handler(BaseHTTPRequestHandler):
+    """Answers one request: the page, its script, or a setting's answer."""
+
+    server: LiveServer
+
+    def do_GET(self) -> None:
+        """Send what the path names."""
+        path = urlsplit(self.path)
+        try:
+            if path.path == "/answer":
+                self._send(HTTPStatus.OK, "application/json", self._answer(path.query))
+            elif path.path in self.server.contents:
+                self._send(HTTPStatus.OK, *self.server.contents[path.path])
+            else:
+                self._send(HTTPStatus.NOT_FOUND, "text/plain", b"there is no such page")
+        except (ValueError, ContactError) as mistake:
+            self._send(HTTPStatus.BAD_REQUEST, "text/plain", str(mistake).encode())
+        except (BrokenPipeError, ConnectionResetError):
+            pass  # the page has moved on to another setting
+
+    def _answer(self, query: str) -> bytes:
+        words = dict(parse_qsl(query))
+        part = words.pop("part", "contact")
+        if part not in PARTS:
+            raise ValueError(f'there is no part "{part}": give one of {", ".join(PARTS)}')
+        return json.dumps(answer(Setting.of_words(words, self.server.file), part)).encode()
+
+    def _send(self, status: HTTPStatus, kind: str, content: bytes) -> None:
+        self.send_response(status)
+        self.send_header("Content-Type", kind)
+        self.send_header("Content-Length", str(len(content)))
+        self.end_headers()
+        self.wfile.write(content)
+
+    def log_message(self, format: str, *args: Any) -> None:
+        """Write nothing: requests are of no interest."""
+
+
+def serve(file: Scene | None, port: int, announce: Callable[[str], None]) -> None:
+    """Serve the page until Ctrl-C; `announce` is called with its address."""
+    with LiveServer(file, port) as server:
+        announce(server.address)
+        server.serve_forever(poll_interval=0.1)

@@ -1,0 +1,62 @@
+"""One panel on axes that a user gives, or on axes of their own, which a notebook shows."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from matplotlib.axes import Axes
+
+from sie.history import History
+from sie.io.scene_file import Units
+from sie.messages import suggestion
+from sie.solution import Solution
+from sie.unit_labels import labels
+
+from . import contact_plot, loop_plot, stress_plot, style
+
+HEIGHT = 2.2  # inches
+
+
+def of_solution(solution: Solution, axes: Axes | None, what: str, units: Any) -> Axes:
+    """A panel of a solution. ValueError for what it has not, before anything is drawn."""
+    kinds = (*contact_plot.PANELS, "stress")
+    if what not in kinds:
+        raise ValueError(f"what = {what!r} is not known: {suggestion(str(what), kinds)}")
+    if what in ("shear", "slip") and not solution.carries_shear:
+        raise ValueError(f"what = {what!r}: this contact carries no shear; draw its pressure")
+    labels = _labels(units)
+    axes = _axes(axes)
+    if what == "stress":
+        stress_plot.draw(axes, solution, labels)
+    else:
+        contact_plot.panel(solution, what, axes, labels)
+    return axes
+
+
+def of_history(history: History, axes: Axes | None, units: Any) -> Axes:
+    """The loop of Q over the shift along a path. ValueError where there is none."""
+    labels, loop = _labels(units), contact_plot.loop_along(history)
+    if loop is None:
+        raise ValueError(
+            "the path has no loop: give several points with a tangential load, and P > 0 at the "
+            "first; where the slip of a point is not known, draw history[k].plot()"
+        )
+    axes = _axes(axes)
+    loop_plot.draw(axes, loop, labels)
+    style.plain(axes)
+    return axes
+
+
+def _axes(given: Axes | None) -> Axes:
+    if given is None:
+        figure = style.Picture(HEIGHT)
+        return figure.add_subplot(axes_class=style.ShownAxes)
+    if not isinstance(given, Axes):
+        raise ValueError(
+            f"ax = {given!r} is not an axes of Matplotlib: give one of plt.subplots(), or none"
+        )
+    return given
+
+
+def _labels(units: Any) -> Units:
+    return units if isinstance(units, Units) else Units(**labels(units))

@@ -1,0 +1,182 @@
+"""Options stand in any order, help names the exit codes, and what is not asked for is not said."""
+
+import logging
+import os
+import shutil
+import subprocess
+from itertools import chain, permutations
+
+import pytest
+
+import sie
+from sie import progress_bar
+from sie.cli import main
+from sie.command_parser import COMMANDS
+from sie.io import scene_file
+from sie.stages import LOG
+
+MESH = "x,p\n-1,240\n0,166\n1,240\n"
+
+
+@pytest.fixture(autouse=True)
+def folder(tmp_path, monkeypatch):
+    """A folder with scene.toml, punch (a scene too) and fem.csv."""
+    monkeypatch.chdir(tmp_path)
+    for name in ("scene.toml", "punch"):
+        (tmp_path / name).write_text(scene_file.example("rounded-flat"))
+    (tmp_path / "fem.csv").write_text(MESH)
+    return tmp_path
+
+
+OPTIONS = [["--want", "edges", "check"], ["--tol", "1e-12"], ["--json"]]
+
+
+@pytest.mark.parametrize("scene", ["scene.toml", "punch"])
+@pytest.mark.parametrize("parts", permutations([*OPTIONS, ["SCENE"]]), ids=str)
+def test_solve_takes_its_scene_and_options_in_any_order(parts, scene, capsys):
+    assert main(["solve", scene, *chain(*OPTIONS)]) == 0
+    expected = capsys.readouterr()
+    words = [scene if word == "SCENE" else word for part in parts for word in part]
+    assert main(["solve", *words]) == 0
+    assert capsys.readouterr() == expected
+
+
+@pytest.mark.parametrize("place", range(6))
+@pytest.mark.parametrize("other", range(6))
+def test_compare_takes_its_two_files_anywhere_among_the_options(place, other, capsys):
+    options = [["--tol", "10"], ["--json"], ["--log", "info"]]
+    assert main(["compare", "scene.toml", "fem.csv", "--tol", "10", "--json"]) == 0
+    expected = capsys.readouterr().out
+    parts = [*options[: place % 4], ["scene.toml"], *options[place % 4 :]]
+    after = place % 4 + 1 + other % (len(parts) - place % 4)
+    parts.insert(after, ["fem.csv"])
+    assert main(["compare", *chain(*parts)]) == 0
+    assert capsys.readouterr().out == expected
+
+
+def test_a_name_that_is_to_be_written_is_no_scene(capsys):
+    assert main(["solve", "--json", "out.json", "--want", "edges"]) == 2
+    assert "give the scene file first" in capsys.readouterr().err
+
+
+def test_a_file_too_many_is_refused(capsys):
+    assert main(["compare", "scene.toml", "fem.csv", "punch"]) == 2
+    assert '"punch" is not understood' in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("command", [[], *([name] for name in COMMANDS)], ids=str)
+def test_help_names_the_exit_codes_within_80_columns(command, capsys):
+    assert main([*command, "--help"]) == 0
+    out = capsys.readouterr().out
+    codes = out.partition("exit codes:")[2].split("\n  ")
+    assert [line.split()[0] for line in codes if line[:1].isdigit()] == [
+        "0",
+        "1",
+        "2",
+        "130",
+        "141",
+    ]
+    assert max(map(len, out.splitlines())) <= 80
+
+
+def test_quiet_prints_nothing_and_writes_the_files(folder, capsys):
+    assert main(["solve", "scene.toml", "--quiet", "--csv", "out.csv"]) == 0
+    assert main(["compare", "scene.toml", "fem.csv", "--quiet", "--tol", "10"]) == 0
+    assert main(["compare", "scene.toml", "fem.csv", "--quiet"]) == 1
+    assert capsys.readouterr() == ("", "")
+    assert (folder / "out.csv").stat().st_size > 0
+
+
+def test_quiet_leaves_what_goes_to_standard_output(capsys):
+    main(["solve", "scene.toml", "--json"])
+    printed = capsys.readouterr().out
+    assert main(["solve", "scene.toml", "--json", "--quiet"]) == 0
+    assert capsys.readouterr().out == printed
+
+
+def test_quiet_leaves_a_refusal(capsys):
+    assert main(["solve", "none.toml", "--quiet"]) == 2
+    assert capsys.readouterr().err.count("\n") == 1
+
+
+def test_the_log_says_what_is_read_computed_and_written_on_standard_error(capsys):
+    main(["solve", "scene.toml", "--csv", "out.csv"])
+    printed = capsys.readouterr().out
+    assert main(["solve", "scene.toml", "--csv", "out.csv", "--log", "debug"]) == 0
+    out, err = capsys.readouterr()
+    assert out == printed
+    assert "read scene.toml: Scene(" in err and "pressure: " in err and "wrote out.csv: " in err
+    assert all(line.startswith("sie: ") for line in err.splitlines())
+
+
+def test_the_log_of_a_command_ends_with_it(capsys):
+    before = (LOG.level, list(LOG.handlers))
+    main(["solve", "scene.toml", "--log", "debug", "--want", "edges"])
+    main(["solve", "none.toml", "--log", "info"])
+    assert (LOG.level, LOG.handlers) == before
+
+
+def test_another_level_of_the_log_is_refused(capsys):
+    assert main(["solve", "scene.toml", "--log", "all"]) == 2
+    assert capsys.readouterr().err.count("\n") == 1
+
+
+def test_a_program_gets_the_stages_by_python_s_logging(caplog):
+    solution = sie.solve(scene_file.read("scene.toml").scene)
+    with caplog.at_level(logging.DEBUG, logger="sie"):
+        assert solution.edges == solution.edges
+    assert [record.getMessage().split(":")[0] for record in caplog.records].count("normal") == 1
+
+
+def test_the_library_says_nothing_by_itself(capfd):
+    sie.solve(scene_file.read("scene.toml").scene).check()
+    assert capfd.readouterr() == ("", "")
+
+
+@pytest.mark.parametrize("options", [["--history", "-"], ["--want", "shear"]])
+def test_a_long_path_shows_a_bar_on_a_terminal(options, folder, monkeypatch, capsys):
+    pytest.importorskip("tqdm")
+    (folder / "cycle.toml").write_text(scene_file.example("fretting-cycle"))
+    monkeypatch.setattr(progress_bar, "PATIENCE", 0.0)
+    monkeypatch.setattr(progress_bar.sys.stderr, "isatty", lambda: True)
+    assert main(["solve", "cycle.toml", *options]) == 0
+    assert "turning points:" in capsys.readouterr().err
+
+
+# -- completion -----------------------------------------------------------------------------------
+
+
+def completed(script, words):
+    """What bash offers for the last of the words."""
+    line = " ".join(words)
+    code = (
+        f"source {script}; COMP_WORDS=({line}); COMP_CWORD={len(words) - 1}; "
+        f"COMP_LINE='{line}'; _shtab_sie; echo ${{COMPREPLY[@]}}"
+    )
+    done = subprocess.run(["bash", "-c", code], capture_output=True, text=True, check=True)
+    return done.stdout.split()
+
+
+@pytest.mark.skipif(not shutil.which("bash") or os.name == "nt", reason="no bash")
+def test_bash_completes_commands_options_names_and_files(folder, capsys):
+    pytest.importorskip("shtab")
+    assert main(["completion", "bash"]) == 0
+    (folder / "sie.bash").write_text(capsys.readouterr().out)
+    assert completed("sie.bash", ["sie", "com"]) == ["compare", "completion"]
+    assert completed("sie.bash", ["sie", "solve", "--w"]) == ["--want"]
+    assert completed("sie.bash", ["sie", "solve", "--want", "e"]) == ["edges", "energy"]
+    assert completed("sie.bash", ["sie", "example", "rou"]) == ["rounded-flat"]
+    assert "scene.toml" in completed("sie.bash", ["sie", "solve", "sc"])
+
+
+@pytest.mark.parametrize("shell", ["zsh", "tcsh"])
+def test_other_shells_have_a_script_too(shell, capsys):
+    pytest.importorskip("shtab")
+    assert main(["completion", shell]) == 0
+    assert "sie" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("shell", ["bahs", "cmd", ""])
+def test_another_shell_is_refused(shell, capsys):
+    assert main(["completion", shell]) == 2
+    assert capsys.readouterr().err.count("\n") == 1

@@ -1,0 +1,146 @@
+"""Cycles on the command line: the table of turning points, what --want cycle answers, and what is
+refused.
+"""
+
+import json
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import sie
+from sie.cli import main
+from sie.io import scene_file
+from sie.io.report import table
+
+CYCLE = """
+[profile]
+kind = "parabola"
+radius = 100.0
+[body]
+young = 115e3
+poisson = 0.32
+[load]
+friction = 0.5
+columns = ["P", "Q", "sigma"]
+path = [[50.0, 0.0, 0.0], [50.0, 20.0, 10.0], [50.0, -10.0, -5.0], [50.0, 20.0, 10.0]]
+"""
+MATERIAL = """
+[fatigue]
+findley_k = 0.3
+shear_limit = 100.0
+fatemi_socie_k = 0.5
+yield_stress = 900.0
+depth = [0.02]
+parts = 1
+"""
+
+
+@pytest.fixture
+def solve(tmp_path, monkeypatch, capsys):
+    """A function that solves a scene for its cycle: status, what was printed, and JSON."""
+    monkeypatch.chdir(tmp_path)
+
+    def run(text, *more):
+        Path("cycle.toml").write_text(text)
+        status = main(["solve", "cycle.toml", "--want", "cycle", *more])
+        return status, *capsys.readouterr()
+
+    return run
+
+
+@pytest.fixture(scope="module")
+def cycle():
+    file = scene_file.parse(CYCLE)
+    return sie.Cycle(sie.follow(file.scene, file.load_path)[1:])
+
+
+def test_json_has_slip_energy_stresses_and_parameters_of_the_last_cycle(solve, cycle):
+    status, out, _ = solve(CYCLE + MATERIAL, "--json")
+    found = json.loads(out)["cycle"]
+    assert (status, found["from"], found["to"], found["states"]) == (0, 1, 3, 3)
+    first, _, last = cycle.states
+    assert found["energy"] == pytest.approx(last.energy_lost - first.energy_lost, rel=1e-12)
+    x = np.linspace(*first.edges, 401)
+    for name, values in {
+        "slip_amplitude": cycle.slip_range(x).amplitude,
+        "friction_work": cycle.friction_work(x),
+        "ruiz": cycle.ruiz(x),
+    }.items():
+        value = found[name]["value"]
+        assert values.max() <= value * (1.0 + 1e-9) and value < values.max() * 1.05
+    xx = found["surface"]["xx"]
+    assert xx["range"] == pytest.approx(cycle.range(xx["x"], 0.0)["xx"].range, rel=1e-12)
+    assert xx["range"] == pytest.approx(xx["highest"] - xx["lowest"], rel=1e-12)
+    for name, worst in {
+        "swt": cycle.swt(),
+        "findley": cycle.findley(k=0.3),
+        "fatemi_socie": cycle.fatemi_socie(k=0.5, yield_stress=900.0),
+    }.items():
+        surface, below = found[name]
+        assert surface["value"] == pytest.approx(worst.value, rel=1e-9)
+        assert math.radians(surface["angle"]) == pytest.approx(worst.angle, abs=1e-5)
+        assert (surface["y"], below["y"]) == (0.0, 0.02)
+
+
+def test_the_report_fits_in_eighty_columns(solve):
+    _, out, _ = solve(CYCLE + MATERIAL, "shear")
+    assert max(map(len, out.splitlines())) <= 80
+    for word in ("slip amplitude", "Ruiz' κ2", "range of σ_xx", "SWT", "Findley", "Fatemi-Socie"):
+        assert f"\n{word}" in out
+    assert "of the limit, 100 MPa" in out
+
+
+def test_steps_are_divided_unless_parts_is_one(solve):
+    pair = CYCLE.replace("[body]\nyoung = 115e3\npoisson = 0.32", "[pair]\nmodulus = 64e3")
+    _, out, _ = solve(pair + "[fatigue]\nparts = 3\n", "--json")
+    assert json.loads(out)["cycle"]["states"] == 7
+
+
+def test_without_constants_of_the_material_no_parameter_is_named(solve):
+    pair = CYCLE.replace("[body]\nyoung = 115e3\npoisson = 0.32", "[pair]\nmodulus = 64e3")
+    status, out, _ = solve(pair)
+    assert status == 0 and "range of σ_xx" in out
+    assert not {"SWT", "Findley", "Fatemi-Socie"} & set(out.split())
+
+
+def test_without_tension_the_report_says_so_in_place_of_a_plane(solve):
+    pressed = CYCLE[: CYCLE.index("friction")] + "path = [[50.0, 0.0], [80.0, 0.0], [50.0, 0.0]]\n"
+    status, out, _ = solve(pressed + "[fatigue]\nparts = 1\n")
+    assert status == 0 and "SWT             0 on the surface: no plane is in tension" in out
+
+
+def test_a_sharp_edge_is_answered_by_depth(solve):
+    flat = CYCLE.replace('"parabola"\nradius = 100.0', '"flat"\nhalf_width = 1.0')
+    flat = flat.replace('columns = ["P", "Q", "sigma"]\n', "").replace(", 10.0]", "]")
+    flat = flat.replace(", 0.0]", "]").replace(", -5.0]", "]")
+    status, out, _ = solve(flat + MATERIAL, "--json")
+    surface, below = json.loads(out)["cycle"]["swt"]
+    assert status == 0 and "infinite at x = " in surface["reason"] and below["value"] > 0.0
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        (CYCLE.replace(", [50.0, 20.0, 10.0]]", "]"), "does not come back to the loads (50, -10"),
+        (CYCLE[: CYCLE.index("columns")] + "normal_load = 50.0\n", "give [load] path"),
+        (CYCLE + "[fatigue]\nyield_stress = 900.0\n", "give fatemi_socie_k"),
+        (CYCLE + "[fatigue]\nshear_limit = 900.0\n", "give findley_k"),
+        (CYCLE + "[fatigue]\nfindley_k = -0.3\n", "[fatigue] findley_k = -0.3"),
+        (CYCLE + "[fatigue]\ndepth = [0.1, 0.0]\n", "[fatigue] depth = 0"),
+        (CYCLE + "[fatigue]\nparts = 0\n", "parts = 0 is not a number from 1 to 100"),
+        (CYCLE + "[fatigue]\nfindley = 0.3\n", 'did you mean "findley_k"'),
+    ],
+)
+def test_a_cycle_that_cannot_be_answered_is_refused_in_a_sentence(text, said, solve):
+    status, out, err = solve(text, "--csv", "out.csv")
+    assert (status, out, err.count("\n")) == (2, "", 1) and said in err
+    assert not Path("out.csv").exists()
+
+
+@pytest.mark.parametrize("value", [1.0, -1.23456789e-105, -123456.789])
+def test_a_table_is_at_most_eighty_columns_wide(value):
+    names = ["P", "Q", "σ", "moment", "stick from", "to", "energy (N)"]
+    lines = table(names, [[value] * 7] * 2).splitlines()
+    assert len(lines) == 3 and max(map(len, lines)) <= 80

@@ -1,0 +1,141 @@
+"""Axes go in and come out; a notebook shows pictures, and a solution as a table with one."""
+
+import re
+import sys
+from html import escape
+
+import numpy as np
+import pytest
+
+import sie
+from sie.io.scene_file import example, parse
+
+matplotlib = pytest.importorskip("matplotlib")
+from matplotlib.figure import Figure  # noqa: E402
+
+PUNCH = sie.solve(parse(example("rounded-flat")).scene)
+SHEARED = sie.solve(parse(example("partial-slip")).scene)
+FRETTING = parse(example("fretting-cycle"))
+HISTORY = sie.follow(FRETTING.scene, FRETTING.load_path)
+PNG = b"\x89PNG"
+
+
+@pytest.fixture
+def axes():
+    return Figure().subplots()
+
+
+@pytest.mark.parametrize("what", ["pressure", "gap", "shear", "slip", "stress"])
+def test_a_solution_is_drawn_on_given_axes(what, axes):
+    assert SHEARED.plot(axes, what=what) is axes
+    assert axes.get_xlabel() == "$x$ (mm)" and axes.get_ylabel()
+
+
+def test_what_is_drawn_is_the_pressure(axes):
+    x, p = next(
+        line for line in PUNCH.plot(axes).lines if line.get_label() == "pressure"
+    ).get_data()
+    np.testing.assert_allclose(p, PUNCH.pressure(x), rtol=1e-12, atol=1e-10)
+
+
+def test_a_history_is_drawn_on_given_axes(axes):
+    assert HISTORY.plot(axes) is axes
+    assert axes.get_ylabel() == "$Q$ (N/mm)"
+
+
+def test_units_are_labels(axes):
+    PUNCH.plot(axes, units={"length": "in", "stress": "psi"})
+    assert axes.get_xlabel() == "$x$ (in)" and axes.get_ylabel() == "$p$ (psi)"
+
+
+@pytest.mark.parametrize("draw", [PUNCH.plot, HISTORY.plot])
+def test_axes_of_their_own_are_shown_in_a_notebook(draw):
+    assert draw()._repr_png_().startswith(PNG)
+
+
+def test_a_picture_is_shown_in_a_notebook():
+    assert sie.plots.picture(PUNCH)._repr_png_().startswith(PNG)
+
+
+@pytest.mark.parametrize(
+    ("given", "said"),
+    [
+        ({"what": "presure"}, 'did you mean "pressure"'),
+        ({"what": "shear"}, "carries no shear"),
+        ({"ax": 3}, "is not an axes"),
+        ({"units": "mm"}, "are no labels"),
+        ({"units": {"lenght": "mm"}}, "are no labels"),
+        ({"units": {"length": 1}}, "are no labels"),
+    ],
+)
+def test_a_bad_request_is_refused_in_a_sentence(given, said):
+    with pytest.raises(ValueError, match=said):
+        PUNCH.plot(**given)
+
+
+def test_a_path_without_a_loop_is_refused():
+    with pytest.raises(ValueError, match="has no loop"):
+        sie.follow(FRETTING.scene, sie.Path([(500.0, 100.0)])).plot()
+
+
+def test_pictures_change_no_setting_and_leave_pyplot_alone():
+    before, loaded = dict(matplotlib.rcParams), "matplotlib.pyplot" in sys.modules
+    PUNCH.plot()._repr_png_()
+    assert dict(matplotlib.rcParams) == before
+    assert ("matplotlib.pyplot" in sys.modules) == loaded
+
+
+# -- the table ------------------------------------------------------------------------------------
+
+
+def test_a_solution_is_a_table_and_a_picture():
+    html = SHEARED._repr_html_()
+    assert html.count("<tr>") >= 8 and html.count('src="data:image/png;base64,') == 1
+    x1, x2 = SHEARED.edges
+    assert f"x1 = {x1:.6g} mm" in html and f"x2 = {x2:.6g} mm" in html
+    assert "stick" in html and "certificate" in html
+    assert not re.search(r"nan|None|\n\n", html.partition("<img")[0])
+
+
+def test_without_matplotlib_a_solution_is_its_table(monkeypatch):
+    monkeypatch.setitem(sys.modules, "sie.plots.contact_plot", None)
+    html = PUNCH._repr_html_()
+    assert "<table>" in html and "<img" not in html
+
+
+def test_a_scene_without_an_answer_is_shown_as_the_sentence_that_says_why():
+    rising = sie.FromFunction("1 + (x<9)")
+    none = sie.solve(sie.Scene(profile=rising, modulus=1.0, half_width=0.1))
+    with pytest.raises(sie.ContactError) as refused:
+        _ = none.edges
+    html = none._repr_html_()
+    assert escape(str(refused.value)) in html and "<table>" not in html
+    assert "1 + (x&lt;9)" in html
+
+
+# -- a real kernel --------------------------------------------------------------------------------
+
+CELLS = [
+    "import sie; from sie.io.scene_file import example, parse",
+    "file = parse(example('fretting-cycle')); sie.solve(file.scene)",
+    "sie.follow(file.scene, file.load_path).plot()",
+    "from sie import progress_bar; progress_bar.PATIENCE = 0.0\n"
+    "found = sie.sweep(file.scene, {'normal_load': [500.0, 600.0]})",
+]
+
+
+def test_a_kernel_shows_the_table_the_pictures_and_the_bar():
+    nbclient, nbformat = pytest.importorskip("nbclient"), pytest.importorskip("nbformat")
+    pytest.importorskip("ipykernel")
+    cells = [nbformat.v4.new_code_cell(cell) for cell in CELLS]
+    notebook = nbformat.v4.new_notebook(cells=cells)
+    nbclient.NotebookClient(notebook, timeout=120, kernel_name="python3").execute()
+    outputs = [cell.outputs for cell in notebook.cells]
+    shown = outputs[1][0].data["text/html"]
+    assert "<table>" in shown and "data:image/png" in shown
+    assert "image/png" in outputs[2][0].data
+    try:
+        import tqdm  # noqa: F401, PLC0415
+    except ImportError:
+        return
+    assert any("sweep" in str(output) for output in outputs[3])

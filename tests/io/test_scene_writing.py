@@ -1,0 +1,168 @@
+"""A scene is written as the tables of a scene file, as JSON and as TOML, and reads back equal."""
+
+import json
+import tomllib
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from strategies import between, chains, parabolas, polynomials, powers, rounded_flats, texts, wedges
+
+import sie
+from sie.io.export import strict_json
+from sie.io.scene_file import example, example_names, parse
+from sie.io.scene_schema import schema
+from sie.io.scene_writing import toml_text
+
+SCHEMA = schema()
+
+flats = st.builds(sie.Flat, half_width=between(0.5, 3.0))
+traces = st.builds(
+    lambda n, rise, smoothing: sie.Sampled(
+        np.linspace(-1.0, 1.0, n), rise * np.linspace(-1.0, 1.0, n) ** 2, smoothing
+    ),
+    st.integers(9, 30), between(0.1, 1.0), st.sampled_from([0.0, 1e-9, "gcv"]),
+)  # fmt: skip
+
+kinds = st.one_of(
+    parabolas, rounded_flats, wedges, powers, polynomials, chains(), texts, flats, traces
+)
+
+
+@st.composite
+def terms(draw, kinds=kinds):
+    """A profile of a kind, moved as a scene file moves it."""
+    profile = draw(kinds)
+    profile = profile.mirrored() if draw(st.booleans()) else profile
+    for move in ("tilted", "shifted", "raised"):
+        profile = getattr(profile, move)(draw(st.one_of(st.just(0.0), between(-0.1, 0.1))))
+    return profile
+
+
+@st.composite
+def nameable(draw):
+    """Any profile that a scene file can name."""
+    form = draw(st.sampled_from(["term", "sum", "row", "wave"]))
+    if form == "row":
+        indenters = st.lists(
+            terms(st.one_of(parabolas, rounded_flats, chains(), flats)), max_size=2
+        )
+        return sie.Row([sie.Wedge(0.5), *draw(indenters)]).shifted(0.5)
+    profile = draw(terms())
+    if form == "sum":
+        for term in draw(st.lists(terms(), min_size=1, max_size=2)):
+            profile = profile + term
+    return sie.Periodic(draw(parabolas).shifted(0.25), 4.0) if form == "wave" else profile
+
+
+bodies = st.one_of(
+    st.just({"body": sie.Elastic(2.1e5, 0.3), "indenter": sie.RIGID}),
+    st.just({"body": sie.RIGID, "indenter": sie.Elastic(1.1e5, 0.34, plane="stress")}),
+    st.just({"body": sie.Elastic(70.0, 0.1), "indenter": sie.Elastic(7.0, 0.5), "dundurs": 0.0}),
+    st.just({"modulus": 3.5, "dundurs": -0.1, "poisson": 0.2, "coupling": "goodman"}),
+    st.builds(lambda E: {"modulus": E}, between(0.1, 10.0)),
+)
+loads = st.one_of(
+    st.builds(lambda P: {"normal_load": P}, between(0.1, 10.0)),
+    st.just({"half_width": 0.125, "tilt": -1e-3}),
+    st.just({"normal_load": 1e-9, "moment": -3.0, "friction": 0.3, "tangential_load": 1e-10}),
+    st.just({"normal_load": 2.0, "friction": 0.3, "sliding": -1, "bulk_stress": 5.0}),
+)
+
+
+@given(profile=nameable(), of=bodies, load=loads)
+def test_a_scene_reads_back_equal_from_its_dict_from_json_and_from_toml(profile, of, load):
+    scene = sie.Scene(profile=profile, **of, **load)
+    tables = scene.to_dict()
+    assert sie.Scene.from_dict(tables) == scene
+    assert sie.Scene.from_dict(json.loads(strict_json(tables))) == scene
+    assert parse(scene.to_toml()).scene == scene
+    assert tomllib.loads(scene.to_toml()) == tables
+
+
+@settings(max_examples=10)
+@given(profile=nameable(), of=bodies, load=loads)
+def test_the_schema_accepts_every_scene_that_is_written(profile, of, load):
+    jsonschema = pytest.importorskip("jsonschema")
+    tables = sie.Scene(profile=profile, **of, **load).to_dict()
+    jsonschema.Draft7Validator(SCHEMA).validate(tables)
+
+
+@pytest.mark.parametrize("name", example_names())
+def test_the_scene_of_an_example_reads_back_equal_from_json_and_from_toml(name):
+    scene = parse(example(name)).scene
+    assert sie.Scene.from_dict(json.loads(strict_json(scene.to_dict()))) == scene
+    assert parse(scene.to_toml()).scene == scene
+
+
+def test_the_infinite_friction_of_full_stick_reads_back_from_json():
+    scene = sie.Scene(profile=sie.Flat(1.0), modulus=1.0, normal_load=1.0, friction=np.inf)
+    assert sie.Scene.from_dict(json.loads(strict_json(scene.to_dict()))) == scene
+
+
+def test_a_long_trace_reads_back_from_its_dict_and_is_refused_as_text():
+    x = np.linspace(-1.0, 1.0, 30_001)
+    scene = sie.Scene(profile=sie.Sampled(x, x**2), modulus=1.0, normal_load=0.1)
+    assert sie.Scene.from_dict(scene.to_dict()) == scene
+    with pytest.raises(ValueError, match="1 MB as text: write the trace to a file"):
+        scene.to_toml()
+
+
+def half(x):
+    return 0.5 * x
+
+
+@pytest.mark.parametrize(
+    "profile",
+    [
+        sie.FromFunction(half),
+        (sie.Parabola(1.0) + sie.Wedge(0.1)).shifted(1.0),
+        sie.Parabola(1.0).shifted(1.0).tilted(0.5),
+    ],
+)
+def test_a_profile_that_no_scene_file_can_name_is_refused(profile):
+    scene = sie.Scene(profile=profile, modulus=1.0, normal_load=1.0)
+    with pytest.raises(ValueError, match="cannot be named in a scene file"):
+        scene.to_dict()
+
+
+def test_arrays_stand_for_lists_in_a_dict():
+    x = np.linspace(-1.0, 1.0, 9)
+    trace = {"kind": "sampled", "x": x, "h": tuple(x**2)}
+    loads = {"normal_load": np.float64(0.25)}
+    scene = sie.Scene.from_dict({"profile": trace, "pair": {"modulus": 1.0}, "load": loads})
+    assert scene == sie.Scene(profile=sie.Sampled(x, x**2), modulus=1.0, normal_load=0.25)
+
+
+NESTED = {}
+for _ in range(5000):
+    NESTED = {"profile": NESTED}
+
+
+@pytest.mark.parametrize(
+    ("tables", "said"),
+    [
+        ({}, "there is no"),
+        (3, "are no tables"),
+        ({"profile": {3: 1}, "load": {}}, "the key 3 is not text"),
+        (NESTED, "nested too deeply"),
+        ({"profile": {"kind": "parabole", "radius": 1.0}, "load": {}}, "did you mean"),
+        (
+            {
+                "profile": {"kind": "wedge", "slope": 1.0},
+                "pair": {"modulus": 1.0},
+                "load": {"path": [[1.0, 0.0]]},
+            },
+            "more than one scene",
+        ),
+    ],
+)
+def test_tables_of_no_scene_are_refused(tables, said):
+    with pytest.raises(ValueError, match=said):
+        sie.Scene.from_dict(tables)
+
+
+def test_text_is_escaped_as_toml_escapes_it():
+    strange = {"title": 'a "b" \\ \t ü \x7f\u2028', "t": {"flag": True, "n": [1, -0.0, 1e22]}}
+    assert tomllib.loads(toml_text(strange)) == strange

@@ -1,0 +1,163 @@
+"""The live page's answers are those of the solver, and a browser shows them at two widths."""
+
+import json
+import math
+import shutil
+import signal
+import subprocess
+import sys
+import threading
+import urllib.error
+import urllib.request
+
+import numpy as np
+import pytest
+
+import sie
+from sie.cli import main
+from sie.io.scene_file import example
+from sie.live.answer import PARTS, Setting, answer
+from sie.live.controls import LIVE, OF_FILE, SAVED, shapes
+
+pytest.importorskip("bokeh", reason="the live page needs the extra `live`")
+from sie.live.page import saved
+from sie.live.server import LiveServer
+
+SHAPES = shapes(None)
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+def test_the_page_shows_what_the_solver_answers(shape):
+    setting = Setting(shape=shape, tilt=0.25, share=-0.5)
+    shown, solution = answer(setting, "contact"), sie.solve(setting.scene)
+    inside = slice(5, -5)
+    exact = solution.pressure(np.array(shown["x"][inside]))
+    finite = np.isfinite(exact)
+    found = np.array(shown["p"][inside])
+    # x has five digits on the page
+    assert np.abs(found - exact)[finite].max() < 0.01 * exact[finite].max()
+    assert np.allclose(shown["stick"], solution.stick, rtol=1e-4)
+
+
+@pytest.mark.parametrize("part", PARTS)
+@pytest.mark.parametrize("shape", SHAPES)
+def test_an_answer_is_json_without_nan_or_infinity(shape, part):
+    text = json.dumps(answer(Setting(shape=shape, share=1.0), part), allow_nan=False)
+    assert "refusal" not in text
+
+
+def test_a_setting_without_an_answer_gives_the_sentence_of_the_refusal():
+    (sentence,) = answer(Setting(shape="parabola", beta=0.3, bulk=0.5), "contact").values()
+    assert "bulk" in sentence
+
+
+@pytest.mark.parametrize("words", [{"shape": "cone"}, {"speed": "1"}, {"load": "much"}])
+def test_words_that_the_page_does_not_send_are_refused(words):
+    with pytest.raises(ValueError):
+        Setting.of_words(words)
+
+
+def test_the_sliders_change_the_scene_of_a_file():
+    scene = sie.Scene(profile=sie.Parabola(2.0), modulus=3.0, poisson=0.3, normal_load=0.7)
+    setting = Setting.of_words({"load": "2", "friction": "0.4", "share": "0.5"}, scene)
+    assert setting.shape == OF_FILE
+    assert setting.scene.normal_load == 1.4
+    assert math.isclose(setting.scene.tangential_load, 0.5 * 0.4 * 1.4)
+
+
+@pytest.fixture(scope="module")
+def server():
+    with LiveServer() as running:
+        threading.Thread(target=running.serve_forever, args=(0.02,), daemon=True).start()
+        yield running
+        running.shutdown()
+
+
+def test_a_query_that_is_no_setting_is_a_bad_request(server):
+    with pytest.raises(urllib.error.HTTPError) as refusal:
+        urllib.request.urlopen(server.address + "answer?load=heavy")
+    refusal.value.close()
+    assert refusal.value.code == 400
+
+
+def test_the_command_serves_the_scene_of_a_file_until_it_is_interrupted(tmp_path):
+    scene = tmp_path / "scene.toml"
+    scene.write_text(example("wedge"), encoding="utf-8")
+    command = [sys.executable, "-u", "-m", "sie", "live", str(scene), "--no-browser"]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as running:
+        try:
+            address = running.stdout.readline().split()[0]
+            with urllib.request.urlopen(address + "answer?share=0.5") as reply:
+                assert json.load(reply)["stick"]
+        finally:
+            running.send_signal(signal.SIGINT)
+        assert running.wait() == 130
+
+
+@pytest.mark.parametrize("mistake", [["--port", "70000"], ["--port", "x"], ["no-such.toml"]])
+def test_a_mistake_is_refused_before_anything_is_served(mistake, capsys):
+    assert main(["live", "--no-browser", *mistake]) == 2
+    assert mistake[-1] in capsys.readouterr().err
+
+
+@pytest.fixture(scope="module")
+def browser():
+    playwright = pytest.importorskip("playwright.sync_api", reason="Playwright is not installed")
+    chromium = shutil.which("chromium") or shutil.which("chromium-browser")
+    if chromium is None:
+        pytest.skip("chromium is not installed")
+    with playwright.sync_playwright() as running:
+        yield running.chromium.launch(executable_path=chromium, args=["--no-sandbox"])
+
+
+def opened(browser, address, width):
+    page = browser.new_page(viewport={"width": width, "height": 900})
+    page.mistakes = []
+    page.on("pageerror", lambda mistake: page.mistakes.append(str(mistake)))
+    page.on("request", lambda request: page.mistakes.append(request.url)
+            if not request.url.startswith((address, "data:", "blob:")) else None)  # fmt: skip
+    page.goto(address)
+    page.wait_for_function("document.body.dataset.shown", timeout=120_000)
+    return page
+
+
+def moved(page, name, key="ArrowRight"):
+    """The table's text after one step of a slider by the keyboard."""
+    before = page.evaluate("document.body.dataset.settled")
+    page.focus(f"#{name}")
+    page.keyboard.press(key)
+    page.wait_for_function(f"document.body.dataset.settled != '{before}'", timeout=120_000)
+    return page.inner_text("#numbers") + page.inner_text("#status")
+
+
+@pytest.mark.parametrize("width", [390, 1280])
+def test_every_slider_moves_the_answer_by_the_keyboard(server, browser, width):
+    page = opened(browser, server.address, width)
+    for control in LIVE:
+        before = page.inner_text("#numbers")
+        assert moved(page, control.name) != before, control.name
+        moved(page, control.name, "ArrowLeft")
+        assert page.inner_text("#numbers") == before, control.name
+    for shape in SHAPES[1:]:
+        before = page.evaluate("document.body.dataset.settled")
+        page.select_option("#shape", shape)
+        page.wait_for_function(f"document.body.dataset.settled != '{before}'", timeout=120_000)
+        assert page.inner_text("#status") == ""
+    assert page.evaluate("document.documentElement.scrollWidth") <= width
+    assert not page.mistakes
+    page.close()
+
+
+def test_a_saved_page_works_from_a_file_and_is_small(browser, tmp_path):
+    first = {control.name: control.start for control in SAVED}
+    name = "|".join(["rounded flat", *(f"{value:g}" for value in first.values())])
+    setting = Setting(shape="rounded flat", **first)
+    text = saved({name: {part: answer(setting, part) for part in PARTS}})
+    place = tmp_path / "live.html"
+    place.write_text(text, encoding="utf-8")
+    assert len(text.encode()) < 0.6e6  # without the other answers
+    page = opened(browser, place.as_uri(), 390)
+    assert f"{setting.scene.normal_load:g}" in page.inner_text("#numbers")
+    assert page.locator("canvas").count() >= 4
+    assert not page.mistakes
+    page.close()
