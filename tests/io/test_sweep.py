@@ -6,6 +6,7 @@ import builtins
 import os
 import sys
 import threading
+import types
 from concurrent.futures import (
     BrokenExecutor,
     Executor,
@@ -443,6 +444,14 @@ def test_a_bar_is_shown_for_long_work_on_a_terminal_only(monkeypatch, capsys):
     assert "/3" in capsys.readouterr().err
     assert threading.active_count() == before
     sie.sweep(SCENE, over={"normal_load": LOADS}, progress=False)
+    assert capsys.readouterr().err == ""
+
+
+def test_a_program_that_imports_a_kernel_and_runs_none_shows_no_bar(monkeypatch, capsys):
+    pytest.importorskip("tqdm")
+    monkeypatch.setitem(sys.modules, "ipykernel", types.ModuleType("ipykernel"))
+    monkeypatch.setattr(progress_bar, "PATIENCE", 0.0)
+    sie.sweep(SCENE, over={"normal_load": LOADS})
     assert capsys.readouterr().err == ""
 
 
