@@ -275,6 +275,17 @@ def test_a_second_zone_of_slip_is_refused_with_the_loads_at_which_it_opens():
     assert 0.0 < refused.value.reached["share"] < 0.01 and refused.value.reached["step"] == 2
 
 
+def test_the_loads_at_which_a_second_zone_opens_are_told_to_a_millionth_of_the_step():
+    """Up to there one zone sticks, and beyond it two do."""
+    points = [(1, -0.29, 0.13), (1, 0.04, -0.17), (1, -0.24, 0.37), (1, 0.32, -0.26)]
+    with pytest.raises(sie.ContactError, match="second zone of slip opens") as refused:
+        followed(HERTZ, points)
+    share, (start, end) = refused.value.reached["share"], np.array(points[-2:])
+    for further, zones in ((-1e-6, 1), (1e-6, 2)):
+        at = tuple(start + (share + further) * (end - start))
+        assert len(followed(HERTZ, [*points[:-1], at])[-1].stick) == zones
+
+
 def test_slip_at_points_that_a_marched_step_brings_into_contact_is_refused():
     solution = followed(LOPSIDED, TOGETHER)[3]
     with pytest.raises(sie.ContactError, match="was marched, and brings x"):
