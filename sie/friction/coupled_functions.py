@@ -115,7 +115,7 @@ class FlatFunctions:
 
     @cached_property
     def S_beside_c(self) -> Table:
-        """S on c <= t <= c^(1/2) to rounding of numbers of order one, which suffices for p."""
+        """S on c <= t <= c^(1/2) to rounding of A, which suffices for p."""
         return self._near_c(self._difference)
 
     @cached_property
@@ -264,10 +264,7 @@ class FlatFunctions:
 
     @cached_property
     def _difference(self) -> Function:
-        """S as N - A n, whose error is rounding of numbers of order one.
-
-        It serves where p needs S.
-        """
+        """S as N - A n, whose error is rounding of numbers of order one: where p needs S."""
         punch, theta = self.punch, self.theta
         aG = self._a * punch.square * (self._scale / math.pi) * punch.kernel_of_one
         slip = self._slip_points(2.0 - 2.0 * theta, 2.0 * theta)
