@@ -57,7 +57,14 @@ from .profiles.placed_traces import explained
 from .profiles.slope import Slope
 from .stages import stage as cached_property  # its first reading is logged
 from .stress.half_plane import Stress, Tractions
-from .stress.yield_limit import Criterion, Peak, YieldPoint, elastic_limit, peak_tension
+from .stress.yield_limit import (
+    Criterion,
+    Peak,
+    YieldPoint,
+    elastic_limit,
+    peak_tension,
+    refuse_unknown_criterion,
+)
 from .traction.base import ZERO, Density, on_line
 from .traction.combination import scaled
 from .traction.of_slope import SlopeDensity
@@ -747,6 +754,7 @@ class Solution:
         >>> round(found.y / found.half_width, 2)
         0.7
         """
+        refuse_unknown_criterion(criterion)
         refuse_unknown_poisson(self.scene)
         return elastic_limit(self.tractions, self.normal_load, criterion)
 

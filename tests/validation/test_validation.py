@@ -345,7 +345,7 @@ def test_the_truth_of_sliding_agrees_with_the_closed_form():
 def test_the_shortest_of_some_calls_hides_what_a_busy_machine_adds(monkeypatch):
     """On a clock that only the two programs move; every third call is disturbed."""
     now, calls = [0.0], [0]
-    monkeypatch.setattr("validation.harness.timing.time.perf_counter", lambda: now[0])
+    monkeypatch.setattr("validation.harness.timing.time.process_time", lambda: now[0])
 
     def work(seconds):
         calls[0] += 1
