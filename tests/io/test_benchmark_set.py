@@ -25,6 +25,8 @@ CYLINDER = {"radius": mp.mpf(50), "modulus": ONE_BODY / 2}
 PUNCH = {"half_flat": mp.mpf(1), **CYLINDER}
 FEET = {"normal_load": P, "distance": mp.mpf(1) / 2, **CYLINDER}
 SHEARED = {"normal_load": P, "tangential_load": Q, "friction": F}
+# c/b, by `analytic.spence` in a context of 25 digits: too slow for a test
+STICK_OF_SPENCE = 0.689086556525865868839616
 EPS = 1e-14
 
 
@@ -124,6 +126,12 @@ def test_the_shear_is_that_of_cattaneo(texts):
     b = hertz.half_width(normal_load=P, **CYLINDER, lib=mp)
     c = cattaneo.stick_half_width(half_width=b, **SHEARED, lib=mp)
     agrees(table, "q", lambda x: cattaneo.shear(x, half_width=b, **SHEARED, lib=mp), [c, b])
+
+
+def test_the_stick_zone_is_that_of_spence_in_25_digits(texts):
+    answer, _ = numbers(texts, "spence")
+    b, c = answer["edges"][1], answer["shear"]["stick"][0][1]
+    assert c / b == pytest.approx(STICK_OF_SPENCE, rel=1e-13)
 
 
 def test_the_stick_zone_and_the_load_are_those_of_spence(texts):
