@@ -45,7 +45,7 @@ def test_every_file_that_a_package_reads_is_in_its_data(package):
 
 def test_the_source_distribution_has_what_the_recipe_tests():
     rules = (ROOT / "MANIFEST.in").read_text(encoding="utf-8").split()
-    always = ["README.md", "pyproject.toml"]
+    always = ["MANIFEST.in", "README.md", "pyproject.toml"]
     for name in RECIPE["tests"][1]["files"]["source"]:
         assert (ROOT / name).exists()
         assert name.rstrip("/") in [*rules, *always]
