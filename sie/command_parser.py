@@ -20,6 +20,7 @@ COMMANDS = {
     "plan": "what would be computed, what would be skipped, and why",
     "live": "serve a page with sliders: the contact of a scene, or of an example",
     "example": "print a commented scene file to start from",
+    "benchmark-set": "write contacts with exact references, by which other codes are measured",
     "schema": "print the JSON Schema of scene files, by which an editor completes their keys",
     "completion": "print a script by which a shell completes commands, options and files",
 }
@@ -139,6 +140,9 @@ def parser() -> argparse.ArgumentParser:
     commands["live"].add_argument("--no-browser", action="store_true", help=about)
     commands["example"].add_argument(
         "name", nargs="?", metavar="NAME", help="the kind of profile; without it, the list"
+    )
+    commands["benchmark-set"].add_argument(
+        "folder", metavar="DIR", help="where to write them: a new or an empty directory"
     )
     commands["completion"].add_argument("shell", metavar="SHELL", help="bash, zsh or tcsh")
     return parser

@@ -26,6 +26,8 @@ def script(shell: str) -> str:
     for action in _actions(whole):
         if action.dest in FILES:
             vars(action)["complete"] = shtab.FILE
+        elif action.dest == "folder":
+            vars(action)["complete"] = shtab.DIRECTORY
         elif action.dest == "want":
             action.choices = WANTS
         elif action.dest == "name":
