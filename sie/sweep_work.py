@@ -7,7 +7,7 @@ tangential loads is solved once. The answers do not depend on which points are a
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from concurrent.futures import BrokenExecutor, CancelledError
+from concurrent.futures import CancelledError
 from dataclasses import replace
 from operator import attrgetter
 from time import perf_counter
@@ -19,6 +19,7 @@ from .errors import ContactError
 from .problem.scene import Scene
 from .solution import Solution, solve
 from .sweep_result import Answer
+from .workers import is_death
 
 Point = dict[str, Any]
 Wanted = Callable[[Solution], Any]
@@ -99,7 +100,7 @@ def reason(problem: Exception) -> str:
     """The message of an error, after its class if it is none of this package."""
     if isinstance(problem, CancelledError):
         return "the executor was closed before it computed this chunk: ask for these points again"
-    if isinstance(problem, BrokenExecutor) or type(problem).__name__ == "KilledWorker":
+    if is_death(problem):
         return (
             "the process that computed this chunk died: its memory was exhausted, or a function "
             "that is wanted crashed; ask for these points alone, or with a smaller chunk"

@@ -4,10 +4,11 @@ Tasks are taken one by one while others run, as their size may depend on what is
 to the executor for each that is done; so any number of workers has work after a few rounds, and
 nobody needs to know the number.
 
-A worker process that dies breaks its whole pool: every task that the pool still holds fails,
-further submissions fail too, and which task was the cause is not known. These tasks run again, each
-in a pool of one process; only a task whose own process dies then has no result. Executors of other
-kinds (threads, Dask, MPI) replace their workers themselves: what they report is the outcome.
+A worker process that dies breaks a whole `ProcessPoolExecutor`: every task that the pool still
+holds fails, further submissions fail too, and which task was the cause is not known. These tasks
+run again, each in a pool of one process. Dask starts another worker and gives it the tasks of the
+first; it gives up those that were on four workers that died, of which any may be the cause. These
+run again one after the other. Only a task whose own process dies then has no result.
 """
 
 from __future__ import annotations
@@ -40,30 +41,42 @@ def outcomes(task: Task, take: Take, executor: Executor, left: list[Outcome]) ->
     When the generator is closed, what is done but was not given yet goes to `left`, and the rest is
     cancelled.
     """
-    if not isinstance(executor, ProcessPoolExecutor):
-        yield from _together(task, take, executor, left)
-        return
-    lost: list[Given] = []
+    pool = executor if isinstance(executor, ProcessPoolExecutor) else None
     taken: dict[Any, Any] = {}
+    lost: list[Given] = []
 
-    def take_unless_broken() -> Given | None:
-        given = None if lost else take()
-        if given:
-            taken[given[0]] = given[1]
+    def take_noted() -> Given | None:
+        given = None if pool and lost else take()
+        taken.update([given] if given else ())
         return given
 
-    for name, future in _together(task, take_unless_broken, executor, left):
+    for name, future in _together(task, take_noted, executor, left):
         argument = taken.pop(name)
-        if _broke(future):
+        if _died(future):
             lost.append((name, argument))
         else:
             yield name, future
-    if lost:
-        again = lost[::-1]
-        yield from _alone(task, lambda: again.pop() if again else take(), executor, left)
+    again = iter(lost)
+
+    def take_again() -> Given | None:
+        return next(again, None) or take()
+
+    if lost and pool:
+        yield from _alone(task, take_again, pool, left)
+    elif lost:
+        yield from _together(task, take_again, executor, left, first=1, then=1)
 
 
-def _together(task: Task, take: Take, executor: Executor, left: list[Outcome]) -> Outcomes:
+def _together(
+    task: Task,
+    take: Take,
+    executor: Executor,
+    left: list[Outcome],
+    *,
+    first: int = FIRST_ROUND,
+    then: int = 2,
+) -> Outcomes:
+    """The outcomes of tasks that run beside each other; for each that is done, `then` follow."""
     pending: dict[Future[Any], Any] = {}
     done: SimpleQueue[Future[Any]] = SimpleQueue()
 
@@ -74,11 +87,11 @@ def _together(task: Task, take: Take, executor: Executor, left: list[Outcome]) -
             future.add_done_callback(done.put)
 
     try:
-        submit(FIRST_ROUND)
+        submit(first)
         while pending:
             future = done.get()
             yield pending.pop(future), future
-            submit(2)
+            submit(then)
     finally:
         left += [
             (name, future)
@@ -93,7 +106,7 @@ def _alone(task: Task, take: Take, broken: ProcessPoolExecutor, left: list[Outco
     free = [_pool_of_one(broken)]
     try:
         first = _submitted(free[0], int, 0)
-        if _broke(first):  # no process can start: to try one for each task would only take long
+        if _died(first):  # no process can start: to try one for each task would only take long
             yield from ((name, first) for name, _ in iter(take, None))
             return
         while True:
@@ -105,7 +118,7 @@ def _alone(task: Task, take: Take, broken: ProcessPoolExecutor, left: list[Outco
                 return
             for future in wait(running, return_when=FIRST_COMPLETED).done:
                 name, pool = running.pop(future)
-                free += [] if _broke(future) else [pool]
+                free += [] if _died(future) else [pool]
                 yield name, future
     finally:
         left += [(name, future) for future, (name, _) in running.items() if future.done()]
@@ -128,6 +141,11 @@ def _submitted(executor: Executor, task: Task, argument: Any) -> Future[Any]:
         return failed
 
 
-def _broke(future: Future[Any]) -> bool:
-    """Whether a task failed with its pool; waits until it is done."""
-    return isinstance(future.exception(), BrokenExecutor)
+def _died(future: Future[Any]) -> bool:
+    """Whether a task failed as its worker died, or with its pool; waits until it is done."""
+    return not future.cancelled() and is_death(future.exception())
+
+
+def is_death(problem: BaseException | None) -> bool:
+    """Whether an executor raised this as a worker died; Dask has a class of its own for that."""
+    return isinstance(problem, BrokenExecutor) or type(problem).__name__ == "KilledWorker"
