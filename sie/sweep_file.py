@@ -87,8 +87,10 @@ def _writer(path: Path) -> Callable[[Any], None]:
 
 
 def _write_netcdf(data: Any, path: Path) -> None:
+    # Objects are text here; not all versions of the libraries find that out themselves.
+    text = {n: v.astype(str) for n, v in data.variables.items() if v.dtype == object}
     with TemporaryDirectory() as folder:
-        data.to_netcdf(Path(folder, path.name))
+        data.assign(text).to_netcdf(Path(folder, path.name))
         files.write_files({path: Path(folder, path.name).read_bytes()})
 
 

@@ -1,7 +1,10 @@
 """A sweep on the processes of a cluster gives bitwise what one process gives, and loses nothing."""
 
 import os
+import shutil
 import signal
+import subprocess
+import sys
 from concurrent.futures import Executor, Future
 
 import numpy as np
@@ -13,6 +16,7 @@ from sie import sweep_chunks, sweep_work
 SCENE = sie.Scene(
     profile=sie.Parabola(1.0), modulus=1.0, normal_load=1.0, friction=0.5, tangential_load=0.1
 )
+MPIEXEC = shutil.which("mpiexec")
 SCENES = {"normal_load": np.linspace(0.5, 2.0, 40), "friction": np.linspace(0.3, 1.0, 50)}
 
 
@@ -97,6 +101,31 @@ def test_chunks_that_were_on_a_dying_worker_run_again_one_after_the_other():
     found = arrays(sie.sweep(SCENE, {"normal_load": loads}, "half_width", executor, chunk=1))
     assert np.isfinite(found["half_width"]).tolist() == [True, True, False, True]
     assert "died" in found["reason"][2] and len(executor.asked) == 6
+
+
+SCRIPT = """
+from mpi4py.futures import MPIPoolExecutor
+import sie, test_clusters
+
+if __name__ == "__main__":
+    with MPIPoolExecutor() as pool:
+        found = sie.sweep(test_clusters.SCENE, test_clusters.SCENES, "half_width", pool, chunk=500)
+    test_clusters.np.save("half_width", test_clusters.np.asarray(found["half_width"]))
+"""
+
+
+@pytest.mark.skipif(not MPIEXEC, reason="needs mpiexec")
+def test_an_mpi_executor_gives_bitwise_the_serial_answers(tmp_path):
+    pytest.importorskip("mpi4py", reason="needs mpi4py")
+    (tmp_path / "many.py").write_text(SCRIPT)
+    subprocess.run(
+        [MPIEXEC, "-n", "2", sys.executable, "-m", "mpi4py.futures", "many.py"],
+        cwd=tmp_path,
+        env=os.environ | {"PYTHONPATH": os.pathsep.join(sys.path)},
+        check=True,
+    )
+    serial = sie.sweep(SCENE, SCENES, "half_width")
+    assert (np.load(tmp_path / "half_width.npy") == np.asarray(serial["half_width"])).all()
 
 
 # -- the size of chunks ----------------------------------------------------------------------------
