@@ -24,7 +24,7 @@ from .certificate.result import RETREAT, Certificate, ShearCertificate
 from .certificate.shear_check import goodman_certificate, shear_certificate
 from .certificate.trace_noise import TraceReport, trace_reports
 from .contact.gap import gap
-from .contact.inequalities import slope_rises, verify_inequalities
+from .contact.inequalities import slope_rises, slope_rises_far, verify_inequalities
 from .contact.known_contact import Edges, Normal
 from .contact.normal import contact_under, normal_contact
 from .contact.pressure import pressure
@@ -231,7 +231,8 @@ class Solution:
         """True where p >= 0 and gap >= 0; otherwise InequalityError is raised."""
         found, density = self.unverified, self.density
         slope = found.slope(self.scene.profile)
-        rises = found.series is not None or slope_rises(density, slope)
+        series = found.series is not None and slope_rises_far(density.contact, slope)
+        rises = series or slope_rises(density, slope)
         if not ("convexity" in self.economy and rises):
             verify_inequalities(density, slope)
         return True
