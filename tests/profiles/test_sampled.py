@@ -585,7 +585,7 @@ def test_stresses_in_the_body_are_compared_whichever_way_y_points(mesh, tmp_path
     [
         ({"x": [0, 0.1], "z": [1, 1]}, "has the columns x, z"),
         ({"x": [0, 0.1], "y": [-1, 1], "sxx": [1, 1]}, "on one side of y = 0"),
-        ({"x": [0, 0.1], "y": [1, 2], "p": [1, 1]}, "0 points of p on the surface"),
+        ({"x": [0, 0.1], "y": [1, 2], "p": [1, 1]}, "no points of p on the surface"),
         ({"x": [100, 101], "p": [1, 1]}, "units of length, or the origins"),
     ],
 )
