@@ -3,6 +3,8 @@
 import re
 from pathlib import Path
 
+from docutils import nodes
+
 import sie
 from sie.live.answer import saved_answers
 from sie.live.page import saved
@@ -92,6 +94,16 @@ def _as_restructured_text(*event):
     lines[:] = out
 
 
+NUMBER = re.compile(r"[-+−]?[\d.]+(e[-+]?\d+)?( \D{1,4})?")
+
+
+def _mark_numbers(app, doctree):
+    """The cells of tables that hold a number alone get the class `number`."""
+    for entry in doctree.findall(nodes.entry):
+        if NUMBER.fullmatch(entry.astext().strip()):
+            entry["classes"].append("number")
+
+
 def _save_live_page(app, failure):
     """The page of `sie live` with its answers inside, beside the site's own pages."""
     if failure is None and app.builder.name == "html":
@@ -100,5 +112,6 @@ def _save_live_page(app, failure):
 
 
 def setup(app):
+    app.connect("doctree-read", _mark_numbers)
     app.connect("build-finished", _save_live_page)
     app.connect("autodoc-process-docstring", _as_restructured_text, priority=100)

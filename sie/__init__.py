@@ -55,7 +55,8 @@ from .stress.fatigue import CriticalPlane
 from .stress.fretting import Cycle
 from .stress.half_plane import Stress
 from .stress.yield_limit import Peak, YieldPoint
-from .sweep import QUANTITIES, Interrupted, sweep
+from .sweep import Interrupted, sweep
+from .sweep_work import QUANTITIES
 from .traction.base import ZERO, Density
 from .traction.combination import scaled, superposed
 

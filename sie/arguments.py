@@ -119,6 +119,20 @@ def reals(name: str, values: Any) -> NDArray[np.float64]:
     raise ValueError(f"{name} is not an array of real numbers: give positions as floats")
 
 
+def of_one_shape(
+    x: NDArray[np.float64], y: NDArray[np.float64]
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Positions and depths broadcast against each other. ValueError if their shapes do not fit."""
+    try:
+        x, y = np.broadcast_arrays(x, y)
+    except ValueError:
+        raise ValueError(
+            f"x of shape {x.shape} and y of shape {y.shape} do not fit: give a depth for each "
+            "position, or one for all"
+        ) from None
+    return x, y
+
+
 def complexes(name: str, values: Any) -> NDArray[np.complex128]:
     """`values` as an array of complex numbers; ValueError unless they are numbers, inf or nan."""
     refuse_masked(name, values)

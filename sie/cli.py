@@ -10,6 +10,7 @@
     sie live [scene.toml]           a page with sliders, served on this machine
         [--port N] [--no-browser]
     sie example [NAME]              a commented scene file; without NAME, the list of them
+    sie benchmark-set DIR           contacts with exact references, to measure other codes by
     sie schema                      the JSON Schema of scene files, for editors
     sie completion bash             a script by which the shell completes commands (needs shtab)
 
@@ -218,6 +219,18 @@ def _example(arguments: argparse.Namespace) -> int:
     return CERTIFIED
 
 
+def _benchmark_set(arguments: argparse.Namespace) -> int:
+    """Write the set into a new or an empty folder: all of its files, or none."""
+    from .io.benchmark_set import benchmark_set  # noqa: PLC0415
+
+    folder = files.empty_folder(arguments.folder)
+    texts = benchmark_set({"csv": export.csv_text, "json": export.json_text})
+    contents = {folder / name: text.encode() for name, text in texts.items()}
+    with files.making_folder(folder):
+        _give(contents, f"wrote {len(contents)} files, see {folder / 'README.md'}\n")
+    return CERTIFIED
+
+
 def _schema(_arguments: argparse.Namespace) -> int:
     from .io.scene_schema import schema_text  # noqa: PLC0415
 
@@ -239,6 +252,7 @@ COMMANDS = {
     "plan": _plan,
     "live": _live,
     "example": _example,
+    "benchmark-set": _benchmark_set,
     "schema": _schema,
     "completion": _completion,
 }

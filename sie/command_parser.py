@@ -18,16 +18,12 @@ COMMANDS = {
     "solve": "solve a scene and print, draw or write the answer",
     "compare": "a mesh result against the exact one: error norms, best shift, a picture",
     "plan": "what would be computed, what would be skipped, and why",
-    "live": "serve a page with sliders on this machine: the contact of a scene, or of an example",
+    "live": "serve a page with sliders: the contact of a scene, or of an example",
     "example": "print a commented scene file to start from",
+    "benchmark-set": "write contacts with exact references, by which other codes are measured",
     "schema": "print the JSON Schema of scene files, by which an editor completes their keys",
     "completion": "print a script by which a shell completes commands, options and files",
 }
-OPTIONS = (
-    "--want", "--plot", "--csv", "--json", "--field", "--grid", "--points", "--tol",
-    "--deck", "--surface", "--body", "--port", "--no-browser", "--quiet", "--log", "--help",
-    "--version",
-)  # fmt: skip
 # The files that a command reads, in the order of the command line.
 FILES = {
     "solve": ("scene",),
@@ -35,6 +31,7 @@ FILES = {
     "compare": ("scene", "mesh"),
     "live": ("scene",),
 }
+POSITIONAL = ("command", "scene", "mesh", "name", "shell")
 LEVELS = ("info", "debug")
 EXIT_CODES = """exit codes:
   0    solved
@@ -69,7 +66,7 @@ def parse(argv: Sequence[str]) -> argparse.Namespace:
     arguments, unknown = parser().parse_known_args(argv)
     _order_files(arguments, argv, unknown)
     if unknown:
-        near = nearest(unknown[0], OPTIONS)
+        near = nearest(unknown[0], _options(arguments))
         remedy = f"did you mean {near}?" if near else f"`sie {arguments.command} --help` explains"
         raise ValueError(f'"{unknown[0]}" is not understood: {remedy}')
     return arguments
@@ -83,13 +80,21 @@ def _order_files(arguments: argparse.Namespace, argv: Sequence[str], unknown: li
     while unknown and len(files) < len(names) and not unknown[0].startswith("-"):
         files.append(unknown.pop(0))
     words, output = getattr(arguments, "want", None) or [], getattr(arguments, "json", None) or ""
-    if len(files) < len(names) and len(words) > 1 and _names_a_file(words[-1]):
-        files.append(words.pop())
+    taken = [word for word in words if _names_a_file(word)]
+    if len(files) < len(names) and len(words) > 1 and taken:
+        files.append(taken[-1])
+        words.remove(taken[-1])
     if len(files) < len(names) and _names_a_file(output) and not output.endswith(".json"):
         files.append(output)
         arguments.json = STANDARD
     for name, file in zip(names, sorted(files, key=list(argv).index), strict=False):
         setattr(arguments, name, file)
+
+
+def _options(arguments: argparse.Namespace) -> list[str]:
+    """The options of the command that was given."""
+    names = [name for name in vars(arguments) if name not in POSITIONAL]
+    return [f"--{name.replace('_', '-')}" for name in (*names, "help")]
 
 
 def _names_a_file(word: str) -> bool:
@@ -121,7 +126,9 @@ def parser() -> argparse.ArgumentParser:
         commands[name].add_argument("--log", metavar="LEVEL", choices=LEVELS, help=about)
     for name in ("solve", "plan"):
         about = f"what to answer: {', '.join(WANTS)} ({', '.join(UNASKED)})"
-        commands[name].add_argument("--want", nargs="+", metavar="WHAT", help=about)
+        commands[name].add_argument(
+            "--want", nargs="+", action="extend", metavar="WHAT", help=about
+        )
     _add_outputs_of_solve(commands["solve"])
     _add_mesh_and_outputs(commands["compare"])
     for name in ("solve", "compare"):
@@ -133,6 +140,9 @@ def parser() -> argparse.ArgumentParser:
     commands["live"].add_argument("--no-browser", action="store_true", help=about)
     commands["example"].add_argument(
         "name", nargs="?", metavar="NAME", help="the kind of profile; without it, the list"
+    )
+    commands["benchmark-set"].add_argument(
+        "folder", metavar="DIR", help="where to write them: a new or an empty directory"
     )
     commands["completion"].add_argument("shell", metavar="SHELL", help="bash, zsh or tcsh")
     return parser

@@ -68,6 +68,22 @@ def writable(path: str | Path) -> Path:
     return path
 
 
+def empty_folder(path: str | Path) -> Path:
+    """The path, if it is a folder without files or one can be made there; ValueError if not."""
+    path = Path(path)
+    if not path.exists():
+        return writable(path)
+    if not path.is_dir():
+        raise ValueError(f"{path} is no directory: give the name of a new or an empty one")
+    if not os.access(path, os.W_OK | os.X_OK):
+        raise ValueError(f"{path} cannot be written, permission is denied: choose another place")
+    count = len(list(path.iterdir()))
+    if count:
+        noun = "file" if count == 1 else "files"
+        raise ValueError(f"{path} has {count} {noun}: give the name of a new or an empty directory")
+    return path
+
+
 def same(one: str | int | Path, other: str | int | Path) -> bool:
     """Whether both are one file, or would be one once written.
 
@@ -126,6 +142,21 @@ def writing(contents: Mapping[Path, bytes]) -> Iterator[None]:
             _discard(part)
         for folder in {place.parent for place in parts}:
             _remove_stale(folder)
+
+
+@contextmanager
+def making_folder(path: Path) -> Iterator[None]:
+    """Make the folder if there is none; it is removed again if the block leaves it empty."""
+    made = not path.exists()
+    if made:
+        with _named([path]):
+            path.mkdir()
+    try:
+        yield
+    finally:
+        if made:
+            with suppress(OSError):  # it has files
+                path.rmdir()
 
 
 @contextmanager

@@ -32,7 +32,7 @@ class _NoBar:
 
 def bar(name: str, total: int, wanted: bool = True) -> Bar:
     """A bar for so many points."""
-    notebook = "ipykernel" in sys.modules
+    notebook = _in_notebook()
     seen = notebook or (sys.stderr is not None and sys.stderr.isatty())
     if not (wanted and seen and find_spec("tqdm")):
         return _NoBar()
@@ -44,6 +44,12 @@ def bar(name: str, total: int, wanted: bool = True) -> Bar:
     threadless = type("tqdm", (tqdm,), {"monitor_interval": 0})
     made: Bar = threadless(desc=name, total=total, delay=PATIENCE, leave=False)
     return made
+
+
+def _in_notebook() -> bool:
+    """Whether a kernel runs this; a program that only imports ipykernel has none."""
+    shell = getattr(sys.modules.get("IPython"), "get_ipython", lambda: None)()
+    return hasattr(shell, "kernel")
 
 
 def counted(name: str, items: Iterable[T], total: int) -> Iterator[T]:

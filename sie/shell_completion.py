@@ -10,7 +10,7 @@ from .io.scene_file import example_names
 from .messages import suggestion
 from .problem.request import WANTS
 
-FILES = ("scene", "mesh", "plot", "csv", "json", "field")
+FILES = ("scene", "mesh", "deck", "plot", "csv", "json", "field")
 
 
 def script(shell: str) -> str:
@@ -26,6 +26,8 @@ def script(shell: str) -> str:
     for action in _actions(whole):
         if action.dest in FILES:
             vars(action)["complete"] = shtab.FILE
+        elif action.dest == "folder":
+            vars(action)["complete"] = shtab.DIRECTORY
         elif action.dest == "want":
             action.choices = WANTS
         elif action.dest == "name":

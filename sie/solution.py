@@ -24,7 +24,7 @@ from .certificate.result import RETREAT, Certificate, ShearCertificate
 from .certificate.shear_check import goodman_certificate, shear_certificate
 from .certificate.trace_noise import TraceReport, trace_reports
 from .contact.gap import gap
-from .contact.inequalities import slope_rises, verify_inequalities
+from .contact.inequalities import slope_rises, slope_rises_far, verify_inequalities
 from .contact.known_contact import Edges, Normal
 from .contact.normal import contact_under, normal_contact
 from .contact.pressure import pressure
@@ -57,7 +57,14 @@ from .profiles.placed_traces import explained
 from .profiles.slope import Slope
 from .stages import stage as cached_property  # its first reading is logged
 from .stress.half_plane import Stress, Tractions
-from .stress.yield_limit import Criterion, Peak, YieldPoint, elastic_limit, peak_tension
+from .stress.yield_limit import (
+    Criterion,
+    Peak,
+    YieldPoint,
+    elastic_limit,
+    peak_tension,
+    refuse_unknown_criterion,
+)
 from .traction.base import ZERO, Density, on_line
 from .traction.combination import scaled
 from .traction.of_slope import SlopeDensity
@@ -224,7 +231,8 @@ class Solution:
         """True where p >= 0 and gap >= 0; otherwise InequalityError is raised."""
         found, density = self.unverified, self.density
         slope = found.slope(self.scene.profile)
-        rises = found.series is not None or slope_rises(density, slope)
+        series = found.series is not None and slope_rises_far(density.contact, slope)
+        rises = series or slope_rises(density, slope)
         if not ("convexity" in self.economy and rises):
             verify_inequalities(density, slope)
         return True
@@ -747,6 +755,7 @@ class Solution:
         >>> round(found.y / found.half_width, 2)
         0.7
         """
+        refuse_unknown_criterion(criterion)
         refuse_unknown_poisson(self.scene)
         return elastic_limit(self.tractions, self.normal_load, criterion)
 

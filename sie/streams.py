@@ -22,8 +22,8 @@ PIECE = 4096
 PLAIN = {
     ord(fancy): plain
     for fancy, plain in zip(
-        "▁▂▃▄▅▆▇█│└─↑∫σβλμµν²×−≤≥",
-        (*"..::--##|+-^", "int ", *"sbluun2x-", "<=", ">="),
+        "▁▂▃▄▅▆▇█│└─↑∫σβλμµνκ²×−≤≥°",
+        (*"..::--##|+-^", "int ", *"sbluunk2x-", "<=", ">=", " deg"),
         strict=True,
     )
 }

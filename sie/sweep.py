@@ -7,70 +7,46 @@
 a function of the named parameters that returns a Scene. Points are taken in chunks of neighbours,
 last name fastest, so that what does not change between two of them (a normal problem under many
 tangential loads) is solved once. Any `concurrent.futures.Executor` will do: a process pool, Dask's
-`client.get_executor()`, `mpi4py.futures.MPIPoolExecutor()`. A scene without an answer leaves nan
-and the sentence that says why.
+`client.get_executor(pure=False)`, `mpi4py.futures.MPIPoolExecutor()`. A scene without an answer
+leaves nan and the sentence that says why.
 """
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from concurrent.futures import BrokenExecutor, Executor, Future
+from concurrent.futures import Executor, Future
 from contextlib import closing
-from dataclasses import dataclass, field, fields, replace
+from dataclasses import dataclass, fields
 from functools import partial
 from numbers import Integral
-from operator import attrgetter
-from typing import Any, NamedTuple, cast
+from pathlib import Path
+from typing import Any, cast
 
 import numpy as np
 
 from . import arguments
-from .errors import ContactError
 from .problem.scene import Scene
 from .progress_bar import Bar, bar
-from .solution import Solution, solve
+from .solution import Solution
+from .sweep_chunks import Chunks
+from .sweep_file import SweepFile
 from .sweep_result import Answer, labelled
+from .sweep_work import (
+    DEFAULT,
+    QUANTITIES,
+    Part,
+    Point,
+    Wanted,
+    Work,
+    answer_at,
+    answers_of,
+    reason,
+)
 from .unit_labels import labels
-from .workers import outcomes
+from .workers import Outcome, outcomes
 
-Point = dict[str, Any]
-Wanted = Callable[[Solution], Any]
-
-DEFAULT = ("half_width", "centre", "normal_load", "moment", "tilt")
-# The number of chunks, at least, where the size of the pool is not known.
-CHUNKS, LONGEST_CHUNK = 64, 256
-
-
-def _elastic_limit(solution: Solution) -> dict[str, float]:
-    found = solution.elastic_limit()
-    return {
-        "elastic_limit": found.ratio,
-        "elastic_limit_load": found.load,
-        "elastic_limit_x": found.x,
-        "elastic_limit_y": found.y,
-    }
-
-
-def _peak_tension(solution: Solution) -> dict[str, float]:
-    found = solution.peak_tension()
-    return {"peak_tension": found.value, "peak_tension_x": found.x}
-
-
-def _edges(solution: Solution) -> dict[str, float]:
-    return dict(zip(("x1", "x2"), solution.edges, strict=True))
-
-
-QUANTITIES: dict[str, Wanted] = {
-    **{name: attrgetter(name) for name in DEFAULT},
-    **{name: attrgetter(name) for name in ("contact_length", "gap_volume")},
-    "patches": lambda s: float(len(s.patches)),
-    "edges": _edges,
-    "shear_load": lambda s: s.shear.resultant,
-    "elastic_limit": _elastic_limit,
-    "peak_tension": _peak_tension,
-    "error": lambda s: s.check().error,
-}
+NOT_YET: Answer = ({}, "not computed yet")
+INTERRUPTED: Answer = ({}, "interrupted")
 
 
 class Interrupted(KeyboardInterrupt):
@@ -97,6 +73,7 @@ def sweep(
     *,
     tol: float = 1e-13,
     chunk: int | None = None,
+    to: str | Path | None = None,
     progress: bool = True,
     units: Mapping[str, str] | None = None,
 ) -> Any:
@@ -119,7 +96,12 @@ def sweep(
     tol : float, optional
         As in `solve`.
     chunk : int, optional
-        Points in a chunk.
+        Points in a chunk; if it is not given, chunks are sized by the measured time of a scene, to
+        take a worker some tenths of a second.
+    to : str or Path, optional
+        A new file that holds the result and grows while the work goes on; "x.nc" is written as
+        NetCDF, "x.zarr" as Zarr, by xarray. It is readable at any moment, also after this process
+        was killed; points that are not done are nan with the reason "not computed yet".
     progress : bool, optional
         Whether a bar is drawn, on a terminal or in a notebook, if tqdm is installed (the extra
         `cli`) and the work takes more than a second.
@@ -136,9 +118,11 @@ def sweep(
     Raises
     ------
     ValueError
-        For names that are not known, before any work is done.
+        For names that are not known, or a file that cannot be written, before any work is done.
     Interrupted
         In place of KeyboardInterrupt, with all that was found.
+    OSError
+        If the file could not be written at the end; its attribute `result` has the result.
 
     Examples
     --------
@@ -149,21 +133,27 @@ def sweep(
     [0.56419, 1.128379]
     """
     axes, named = _axes(scene, over), labels(units)
-    wanted = _wanted(want)
-    points = list(_points(axes))
-    size = _chunk_size(chunk, len(points), executor)
-    chunks = [points[i : i + size] for i in range(0, len(points), size)]
-    run = _Run(Work(scene, wanted, tol), chunks, bar("sweep", len(points), progress))
+    wanted, points = _wanted(want), list(_points(axes))
+    chunks, file = Chunks(len(points), _chunk_size(chunk)), SweepFile(to)
+    run = _Run(
+        Work(scene, wanted, tol),
+        points,
+        chunks,
+        bar("sweep", len(points), progress),
+        lambda answers: file.grow(lambda: labelled(axes, wanted, answers, named)),
+        [NOT_YET] * len(points),
+    )
     try:
         if executor is None:
             run.here()
         else:
             run.through(executor)
     except KeyboardInterrupt:
-        raise Interrupted(labelled(axes, wanted, run.answers(), named)) from None
+        stopped = [INTERRUPTED if answer is NOT_YET else answer for answer in run.answers]
+        raise Interrupted(file.finish(labelled(axes, wanted, stopped, named))) from None
     finally:
         run.bar.close()
-    return labelled(axes, wanted, run.answers(), named)
+    return file.finish(labelled(axes, wanted, run.answers, named))
 
 
 # -- the grid --------------------------------------------------------------------------------------
@@ -209,14 +199,12 @@ def _points(axes: dict[str, list[Any]]) -> Iterator[Point]:
         yield {name: values[i] for (name, values), i in zip(axes.items(), index, strict=True)}
 
 
-def _chunk_size(chunk: int | None, points: int, executor: Executor | None) -> int:
-    if chunk is not None:
-        if isinstance(chunk, bool) or not isinstance(chunk, Integral) or chunk < 1:
-            raise ValueError(
-                f"chunk = {chunk!r} is not a number of points: give a whole number > 0"
-            )
-        return int(chunk)
-    return 1 if executor is None else min(max(math.ceil(points / CHUNKS), 1), LONGEST_CHUNK)
+def _chunk_size(chunk: int | None) -> int | None:
+    if chunk is None:
+        return None
+    if isinstance(chunk, bool) or not isinstance(chunk, Integral) or chunk < 1:
+        raise ValueError(f"chunk = {chunk!r} is not a number of points: give a whole number > 0")
+    return int(chunk)
 
 
 def _wanted(want: str | Iterable[str] | Mapping[str, Wanted]) -> dict[str, str | Wanted]:
@@ -242,125 +230,50 @@ def _wanted(want: str | Iterable[str] | Mapping[str, Wanted]) -> dict[str, str |
 # -- the work --------------------------------------------------------------------------------------
 
 
-class Work(NamedTuple):
-    """The question at every point."""
-
-    scene: Scene | Callable[..., Scene]
-    wanted: dict[str, str | Wanted]
-    tol: float
-
-
 @dataclass
 class _Run:
-    """The chunks of a sweep and their answers, also after an interruption."""
+    """The points of a sweep and their answers, also after an interruption."""
 
     work: Work
-    chunks: list[list[Point]]
+    points: list[Point]
+    chunks: Chunks
     bar: Bar
-    found: dict[int, list[Answer]] = field(default_factory=dict)
+    grow: Callable[[list[Answer]], None]
+    answers: list[Answer]
 
     def here(self) -> None:
         last: Solution | None = None
-        for k, chunk in enumerate(self.chunks):
-            self.found[k] = []
-            last = _answer_into(self.found[k], self.work, chunk, last)
-            self.bar.update(len(chunk))
+        for k, point in enumerate(self.points):
+            self.answers[k], last = answer_at(self.work, point, last)
+            self.bar.update(1)
+            self.grow(self.answers)
 
     def through(self, executor: Executor) -> None:
-        left: dict[int, Future[list[Answer]]] = {}
+        left: list[Outcome] = []
+        task = partial(answers_of, self.work, self.chunks.limit)
         try:
-            task, chunks = partial(answers_of, self.work), dict(enumerate(self.chunks))
-            with closing(outcomes(task, chunks, executor, left)) as done:
-                for k, future in done:
-                    self._keep(k, future)
-                    self.bar.update(len(self.chunks[k]))
+            with closing(outcomes(task, self._taken, executor, left)) as done:
+                for chunk, future in done:
+                    self.bar.update(self._keep(chunk, future))
+                    self.grow(self.answers)
         finally:
-            for k, future in left.items():
-                self._keep(k, future)
+            for chunk, future in left:
+                self._keep(chunk, future)
 
-    def _keep(self, k: int, future: Future[list[Answer]]) -> None:
-        """The answers of a chunk, or why there are none.
+    def _taken(self) -> tuple[range, list[Point]] | None:
+        """The next chunk and its points."""
+        chunk = self.chunks.take()
+        return None if chunk is None else (chunk, [self.points[k] for k in chunk])
+
+    def _keep(self, chunk: range, future: Future[Part]) -> int:
+        """The number of points of a chunk that have an answer now, or the reason for none.
 
         A process may have died, or a function could not be sent to another process.
         """
         try:
-            self.found[k] = future.result()
+            answers, seconds = future.result()
+            self.chunks.measured(chunk, len(answers), seconds)
         except Exception as problem:  # whatever an executor raises
-            self.found[k] = [({}, _reason(problem))] * len(self.chunks[k])
-
-    def answers(self) -> list[Answer]:
-        """One answer for each point."""
-        answers: list[Answer] = []
-        for k, chunk in enumerate(self.chunks):
-            have = self.found.get(k, [])
-            answers += [*have, *[({}, "interrupted")] * (len(chunk) - len(have))]
-        return answers
-
-
-def answers_of(work: Work, chunk: list[Point]) -> list[Answer]:
-    """The answers of one chunk: what a worker runs."""
-    answers: list[Answer] = []
-    _answer_into(answers, work, chunk, None)
-    return answers
-
-
-def _answer_into(
-    answers: list[Answer], work: Work, chunk: list[Point], last: Solution | None
-) -> Solution | None:
-    """Appends the answer of each point; returns the last solution."""
-    for point in chunk:
-        try:
-            last = _solution(work.scene, point, work.tol, last)
-            answers.append((_values(last, work.wanted), ""))
-        # a user's function may raise any error: one point must not lose the others
-        except Exception as problem:
-            answers.append(({}, _reason(problem)))
-    return last
-
-
-def _reason(problem: Exception) -> str:
-    """The message of an error, after its class if it is none of this package."""
-    if isinstance(problem, BrokenExecutor):
-        return (
-            "the process that computed this chunk died: its memory was exhausted, or a function "
-            "that is wanted crashed; ask for these points alone, or with a smaller chunk"
-        )
-    return (
-        str(problem)
-        if isinstance(problem, (ContactError, ValueError))
-        else f"{type(problem).__name__}: {problem}"
-    )
-
-
-def _solution(scene: Any, point: Point, tol: float, last: Solution | None) -> Solution:
-    """The solution at a point, with the stages of the last one that cannot have changed."""
-    if not isinstance(scene, Scene):
-        return solve(scene(**point), tol=tol)
-    changes = {name: value for name, value in point.items() if "." not in name}
-    of_profile = {
-        name.removeprefix("profile."): value for name, value in point.items() if "." in name
-    }
-    if of_profile:
-        changes["profile"] = replace(changes.get("profile", scene.profile), **of_profile)
-    base = last if last is not None else solve(replace(scene), tol=tol)
-    return base.with_(**changes)
-
-
-def _values(solution: Solution, wanted: dict[str, Any]) -> dict[str, Any]:
-    values: dict[str, Any] = {}
-    for name, quantity in wanted.items():
-        value = (QUANTITIES[quantity] if isinstance(quantity, str) else quantity)(solution)
-        values |= value if isinstance(value, Mapping) else {name: value}
-    return {name: _floats(name, value) for name, value in values.items()}
-
-
-def _floats(name: str, value: Any) -> Any:
-    if type(value) is float:
-        return np.float64(value)
-    try:
-        array = np.asarray(value)
-        if array.dtype.kind in "biuf":
-            return array.astype(float)
-    except ValueError:  # lists of unequal lengths
-        pass
-    raise ValueError(f"{name} is neither a number nor an array of numbers: {type(value).__name__}")
+            answers = [({}, reason(problem))] * len(chunk)
+        self.answers[chunk.start : chunk.start + len(answers)] = answers
+        return len(answers)

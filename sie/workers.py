@@ -1,83 +1,127 @@
 """Tasks in an executor: each outcome as soon as it is there, whatever happens to a worker.
 
-A worker process that dies breaks its whole pool: every task that the pool still holds fails,
-further submissions fail too, and which task was the cause is not known. These tasks run again, each
-in a pool of one process; only a task whose own process dies then has no result. Executors of other
-kinds (threads, Dask, MPI) replace their workers themselves: what they report is the outcome.
+Tasks are taken one by one while others run, as their size may depend on what is done. Two are given
+to the executor for each that is done; so any number of workers has work after a few rounds, and
+nobody needs to know the number.
+
+A worker process that dies breaks a whole `ProcessPoolExecutor`: every task that the pool still
+holds fails, further submissions fail too, and which task was the cause is not known. These tasks
+run again, each in a pool of one process. Dask starts another worker and gives it the tasks of the
+first; it gives up those that were on four workers that died, of which any may be the cause. These
+run again one after the other. Only a task whose own process dies then has no result.
 """
 
 from __future__ import annotations
 
-from collections import deque
-from collections.abc import Callable, Generator, Mapping
+from collections.abc import Callable, Generator
 from concurrent.futures import (
     FIRST_COMPLETED,
     BrokenExecutor,
     Executor,
     Future,
     ProcessPoolExecutor,
-    as_completed,
     wait,
 )
+from itertools import islice
+from queue import SimpleQueue
 from typing import Any
 
-Tasks = Mapping[int, Any]
 Task = Callable[[Any], Any]
-Outcomes = Generator[tuple[int, Future[Any]]]
+Given = tuple[Any, Any]  # what names a task for the caller, and the argument of the task
+Take = Callable[[], Given | None]
+Outcome = tuple[Any, Future[Any]]
+Outcomes = Generator[Outcome]
+
+FIRST_ROUND = 8  # tasks that the executor gets before one is done
 
 
-def outcomes(task: Task, of: Tasks, executor: Executor, left: dict[int, Future[Any]]) -> Outcomes:
-    """(number, future) of each task, in the order in which they are done.
+def outcomes(task: Task, take: Take, executor: Executor, left: list[Outcome]) -> Outcomes:
+    """(name, future) of each task, in the order in which they are done.
 
     When the generator is closed, what is done but was not given yet goes to `left`, and the rest is
     cancelled.
     """
-    lost = {}
-    for k, future in _together(task, of, executor, left):
-        if isinstance(executor, ProcessPoolExecutor) and _broke(future):
-            lost[k] = of[k]
+    pool = executor if isinstance(executor, ProcessPoolExecutor) else None
+    taken: dict[Any, Any] = {}
+    lost: list[Given] = []
+
+    def take_noted() -> Given | None:
+        given = None if pool and lost else take()
+        taken.update([given] if given else ())
+        return given
+
+    for name, future in _together(task, take_noted, executor, left):
+        argument = taken.pop(name)
+        if _died(future):
+            lost.append((name, argument))
         else:
-            yield k, future
-    if lost and isinstance(executor, ProcessPoolExecutor):
-        yield from _alone(task, lost, executor, left)
+            yield name, future
+    again = iter(lost)
+
+    def take_again() -> Given | None:
+        return next(again, None) or take()
+
+    if lost and pool:
+        yield from _alone(task, take_again, pool, left)
+    elif lost:
+        yield from _together(task, take_again, executor, left, first=1, then=1)
 
 
-def _together(task: Task, of: Tasks, executor: Executor, left: dict[int, Future[Any]]) -> Outcomes:
-    pending: dict[Future[Any], int] = {}
-    try:
-        for k, argument in of.items():
-            pending[_submitted(executor, task, argument)] = k
-        for future in as_completed(list(pending)):
-            yield pending.pop(future), future
-    finally:
-        left |= {
-            k: future for future, k in pending.items() if not future.cancel() and future.done()
-        }
-
-
-def _alone(
-    task: Task, of: Tasks, broken: ProcessPoolExecutor, left: dict[int, Future[Any]]
+def _together(
+    task: Task,
+    take: Take,
+    executor: Executor,
+    left: list[Outcome],
+    *,
+    first: int = FIRST_ROUND,
+    then: int = 2,
 ) -> Outcomes:
+    """The outcomes of tasks that run beside each other; for each that is done, `then` follow."""
+    pending: dict[Future[Any], Any] = {}
+    done: SimpleQueue[Future[Any]] = SimpleQueue()
+
+    def submit(most: int) -> None:
+        for name, argument in islice(iter(take, None), most):
+            future = _submitted(executor, task, argument)
+            pending[future] = name
+            future.add_done_callback(done.put)
+
+    try:
+        submit(first)
+        while pending:
+            future = done.get()
+            yield pending.pop(future), future
+            submit(then)
+    finally:
+        left += [
+            (name, future)
+            for future, name in pending.items()
+            if not future.cancel() and future.done()
+        ]
+
+
+def _alone(task: Task, take: Take, broken: ProcessPoolExecutor, left: list[Outcome]) -> Outcomes:
     """The same with as many processes as the broken pool had, each the only one of its pool."""
-    waiting = deque(of.items())
-    running: dict[Future[Any], tuple[int, ProcessPoolExecutor]] = {}
+    running: dict[Future[Any], tuple[Any, ProcessPoolExecutor]] = {}
     free = [_pool_of_one(broken)]
     try:
         first = _submitted(free[0], int, 0)
-        if _broke(first):  # no process can start: to try one for each task would only take long
-            yield from ((k, first) for k in of)
+        if _died(first):  # no process can start: to try one for each task would only take long
+            yield from ((name, first) for name, _ in iter(take, None))
             return
-        while waiting or running:
-            while waiting and len(running) < broken._max_workers:  # type: ignore[attr-defined]
-                k, argument = waiting.popleft()
+        while True:
+            room = broken._max_workers - len(running)  # type: ignore[attr-defined]
+            for name, argument in islice(iter(take, None), room):
                 pool = free.pop() if free else _pool_of_one(broken)
-                running[_submitted(pool, task, argument)] = k, pool
+                running[_submitted(pool, task, argument)] = name, pool
+            if not running:
+                return
             for future in wait(running, return_when=FIRST_COMPLETED).done:
-                k, pool = running.pop(future)
-                free += [] if _broke(future) else [pool]
-                yield k, future
+                name, pool = running.pop(future)
+                free += [] if _died(future) else [pool]
+                yield name, future
     finally:
-        left |= {k: future for future, (k, _) in running.items() if future.done()}
+        left += [(name, future) for future, (name, _) in running.items() if future.done()]
         for pool in (*free, *(pool for _, pool in running.values())):
             pool.shutdown(wait=False, cancel_futures=True)
 
@@ -97,6 +141,11 @@ def _submitted(executor: Executor, task: Task, argument: Any) -> Future[Any]:
         return failed
 
 
-def _broke(future: Future[Any]) -> bool:
-    """Whether a task failed with its pool; waits until it is done."""
-    return isinstance(future.exception(), BrokenExecutor)
+def _died(future: Future[Any]) -> bool:
+    """Whether a task failed as its worker died, or with its pool; waits until it is done."""
+    return not future.cancelled() and is_death(future.exception())
+
+
+def is_death(problem: BaseException | None) -> bool:
+    """Whether an executor raised this as a worker died; Dask has a class of its own for that."""
+    return isinstance(problem, BrokenExecutor) or type(problem).__name__ == "KilledWorker"

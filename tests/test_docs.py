@@ -50,6 +50,44 @@ def test_every_file_that_a_document_names_exists(document):
         assert place.exists() or place.stem == "KIND", place
 
 
+def listed(page):
+    """The pages in the tables of contents of a page, by their paths without a suffix."""
+    text = page.read_text(encoding="utf-8")
+    entries = re.findall(r"```\{toctree\}\n(.*?)```", text, flags=re.DOTALL)
+    names = [
+        re.sub(r".*<(.*)>", r"\1", line.strip())
+        for block in entries
+        for line in block.splitlines()
+        if line.strip() and not line.startswith(":")
+    ]
+    return {(page.parent / name).resolve() for name in names}
+
+
+def test_every_page_of_the_site_stands_in_a_table_of_contents():
+    pages = sorted((ROOT / "docs").rglob("*.md"))
+    pages = [page for page in pages if not {"_build", "built-gallery"} & {*page.parts}]
+    contents = set().union(*map(listed, pages))
+    lost = [page for page in pages if page.with_suffix("") not in contents]
+    assert lost == [ROOT / "docs" / "index.md"]
+
+
+def test_the_reference_has_every_public_name():
+    page = (ROOT / "docs" / "api" / "index.md").read_text(encoding="utf-8")
+    listed = {line.strip().strip("`").removeprefix("sie.") for line in page.splitlines()}
+    assert {*sie.__all__} - listed <= {"__version__"}
+
+
+EXPLANATION = sorted(
+    {*(ROOT / "docs" / "explanation").glob("*.md")} - {ROOT / "docs" / "explanation" / "index.md"}
+)
+
+
+@pytest.mark.parametrize("page", EXPLANATION, ids=lambda path: path.stem)
+def test_every_page_of_the_explanation_ends_with_three_exercises_or_more(page):
+    exercises = page.read_text(encoding="utf-8").split("\n## Exercises\n")[1]
+    assert len(re.findall(r"^\d+\. ", exercises, flags=re.MULTILINE)) >= 3
+
+
 def test_the_picture_of_the_architecture_is_that_of_the_imports():
     script = runpy.run_path(str(ROOT / "docs" / "draw_architecture.py"))
     drawn = (ROOT / "docs" / "architecture.svg").read_text(encoding="utf-8")

@@ -22,8 +22,8 @@ def test_the_three_snippets_run_one_after_the_other(capsys):
 def test_the_commands_install_extras_that_exist():
     project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
     extras = re.findall(r'pip install -e "\.\[(\w+)\]"', README)
-    # The two commands, and what the validation races against
-    assert extras == ["plot", "test", "peers"]
+    # The two commands, what the validation races against, and the site
+    assert extras == ["plot", "test", "peers", "docs"]
     assert set(extras) <= set(project["optional-dependencies"])
     assert "sie" in project["scripts"]
 

@@ -18,7 +18,7 @@ from pathlib import Path
 
 from sie.files import write_files
 from validation import readme
-from validation.harness.report import Section, machine, number, page
+from validation.harness.report import Section, machine, number, page, way_to_code
 from validation.harness.running import run
 
 # Modules of this package, in the order of the page.
@@ -85,8 +85,9 @@ def contents(
         "topics": {s.name: s.found.as_json() for s in sections},
     }
     text = json.dumps(numbers, indent=1, ensure_ascii=False, allow_nan=False) + "\n"
+    html = page(sections, seconds, given.quick, way_to_code(given.out))
     files = {
-        given.out / "report.html": page(sections, seconds, given.quick).encode(),
+        given.out / "report.html": html.encode(),
         given.out / "report.json": text.encode(),
     }
     return files | (readme.files(numbers) if given.readme else {})

@@ -1,8 +1,9 @@
 """The inequalities of contact: p >= 0 where the bodies touch, gap >= 0 beside.
 
 One patch of contact [x1, x2] is the answer only where both hold. They follow from h' that rises all
-over. For other profiles they are verified at many points inside the contact and out to `FAR`
-half-widths beside it, and a violation is an `InequalityError` that says where.
+over. For other profiles they are verified at many points inside the contact, and beside it at many
+points and where the gap is least: its slope changes sign there, however far the contact is. A
+violation is an `InequalityError` that says where.
 """
 
 from __future__ import annotations
@@ -21,9 +22,14 @@ from .gap import gap, gap_slope
 Array = NDArray[np.float64]
 Intervals = tuple[tuple[float, float], ...]
 
+OUT = 1.0 + 1e-9  # of a reach: what is at it is within it
 # Tension or overlap below this fraction of the peak is rounding.
 TOLERATED = 1e-11
-FAR = 1e3  # half-widths, how far out the gap is tested
+FAR = 1e3  # half-widths, how far out the gap is tested at least
+FARTHEST = 1e140  # half-widths, how far out the slope of an indenter without ends is
+DENSE = 20  # places for each factor 10 of the distance from an edge, at which the slope is
+EVEN = 1000  # places on an indenter between its ends
+HALVINGS = 60  # of the interval in which the gap is least
 STEEP = 1e6  # times the slopes in the contact
 SCAN = 40
 # Distances from an edge, in half-widths.
@@ -49,7 +55,73 @@ def slope_rises(density: SlopeDensity, slope: Slope) -> bool:
     return (
         bool((H[1:] >= H[:-1] - rounding).all())
         and min(density.k1, density.k2) >= 0.0 < density.resultant
+        and slope_rises_far(contact, slope)
     )
+
+
+def slope_rises_far(contact: Interval, slope: Slope) -> bool:
+    """Whether h' rises from place to place on the whole indenter beside the contact."""
+    with np.errstate(all="ignore"):  # a function may overflow out there
+        return all(not _falls(slope(x)).any() for x in _far(contact, slope))
+
+
+def _far(contact: Interval, slope: Slope) -> tuple[Array, Array]:
+    """Places beside the contact on the whole indenter, ascending: left of it and right of it."""
+    lo, hi = slope.domain
+    breaks = slope.breaks[np.isfinite(slope.breaks)]
+    decades = np.log10(FARTHEST) + 6.0
+    distance = contact.r * np.geomspace(1e-6, FARTHEST, int(DENSE * decades))
+    even = np.linspace(lo, hi, EVEN) if np.isfinite(lo) and np.isfinite(hi) else breaks
+    sides = (
+        (contact.x1 - distance[::-1], (lo, contact.x1)),
+        (contact.x2 + distance, (contact.x2, hi)),
+    )
+    left, right = (
+        np.unique(np.clip(np.concatenate((x, even, breaks)), *ends)) for x, ends in sides
+    )
+    return left, right
+
+
+def _falls(H: Array) -> NDArray[np.bool_]:
+    """Whether a slope falls from one place to the next by more than its rounding."""
+    return np.asarray(H[1:] - H[:-1] < -ROUNDING * np.abs(H[:-1]))
+
+
+def _least_gaps(density: SlopeDensity, slope: Slope) -> tuple[Array, float, float]:
+    """Where the gap may be least beside the contact, and how far out left and right that is.
+
+    Beyond the last place where h' falls the gap has at most one minimum more, as the pull of the
+    contact falls with the distance.
+    """
+    contact = density.contact
+    found: list[Array] = []
+    reach = []
+    for x, side in zip(_far(contact, slope), (-1.0, 1.0), strict=True):
+        outwards = x[1:] if side > 0.0 else x[-2::-1]
+        outwards = outwards[side * (outwards - (contact.x2 if side > 0.0 else contact.x1)) > 0.0]
+        with np.errstate(all="ignore"):
+            H = side * slope(outwards)
+            last = np.flatnonzero(_falls(H))
+        end = int(last[-1]) + 2 if last.size else 0
+        rises = np.flatnonzero(H[end:] > density.slope_scale)
+        end = min(end + (int(rises[0]) + 1 if rises.size else 0), len(H))
+        outwards = outwards[:end]
+        reach.append(float(np.abs(outwards[-1:] - contact.m).max(initial=0.0)))
+        if last.size and end > 1:
+            found.append(_minima(outwards, side, density, slope))
+    return np.concatenate((*found, np.zeros(0))), reach[0], reach[1]
+
+
+def _minima(x: Array, side: float, density: SlopeDensity, slope: Slope) -> Array:
+    """The places among x, outwards on one side, between which the gap's slope turns positive."""
+    opening = side * gap_slope(x, density, slope)
+    k = np.flatnonzero((opening[:-1] < 0.0) & (opening[1:] >= 0.0))
+    falls, rises = x[k], x[k + 1]
+    for _ in range(HALVINGS if k.size else 0):
+        middle = 0.5 * (falls + rises)
+        opens = side * gap_slope(middle, density, slope) >= 0.0
+        falls, rises = np.where(opens, falls, middle), np.where(opens, middle, rises)
+    return rises
 
 
 def verify_inequalities(density: SlopeDensity, slope: Slope) -> None:
@@ -97,8 +169,10 @@ def relative_gaps(density: SlopeDensity, slope: Slope) -> tuple[Array, Array]:
     """
     contact, r = density.contact, density.contact.r
     x = _beside(contact, slope)
-    if _opens_everywhere(x, density, slope):
+    if _opens_everywhere(x, density, slope) and slope_rises_far(contact, slope):
         return x, np.zeros(len(x))
+    least, *reach = _least_gaps(density, slope)
+    x = np.concatenate((x, least))
     # A function may overflow out there; from where it opens that steeply on, the gap is not tested
     outward = np.sign(x - contact.m)
     opens = ~(
@@ -108,6 +182,7 @@ def relative_gaps(density: SlopeDensity, slope: Slope) -> tuple[Array, Array]:
     left, right = (
         np.abs(x[opens & (outward == side)] - contact.m).min(initial=np.inf) for side in (-1.0, 1.0)
     )
+    left, right = max(left, reach[0] * OUT), max(right, reach[1] * OUT)
     x = x[np.abs(x - contact.m) < np.where(outward > 0.0, right, left)]
     if not x.size:
         return x, x
@@ -125,7 +200,9 @@ def relative_gaps(density: SlopeDensity, slope: Slope) -> tuple[Array, Array]:
         ),
         density.resultant / density.half_modulus * 1e-3,
     )
-    return x, values / scale
+    # a difference of heights is no more exact than they are
+    rounding = ROUNDING * float(values[np.isfinite(values)].max(initial=0.0))
+    return x, np.where(np.abs(values) > rounding, values, np.maximum(values, 0.0)) / scale
 
 
 def intervals_below(x: Array, values: Array) -> Intervals:

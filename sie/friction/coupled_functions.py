@@ -72,7 +72,7 @@ class FlatFunctions:
         p[~edge] = self.A(t[~edge], e[~edge])
         slip = ~edge & (e < self.rest)
         chi = self.weight(t[slip], e[slip], from_c[slip])
-        p[slip] -= self.sine * chi * self.S(t[slip], e[slip])
+        p[slip] -= self.sine * chi * self.S_beside_c(t[slip], e[slip])
         return p
 
     def shear_deficit(self, t: Array, e: Array, from_c: Array) -> Array:
@@ -114,6 +114,11 @@ class FlatFunctions:
         return Table(ZERO, self._middle, (self.c, self.beyond), self._S)
 
     @cached_property
+    def S_beside_c(self) -> Table:
+        """S on c <= t <= c^(1/2) to rounding of A, which suffices for p."""
+        return self._near_c(self._difference)
+
+    @cached_property
     def Psi(self) -> Table:
         return self._near_edge(self._Psi)
 
@@ -129,7 +134,7 @@ class FlatFunctions:
             S = self.S(t.ravel(), e.ravel()).reshape(t.shape)
             return factor * (((t + self.c) / (e * (1.0 + t))) ** self.h * S) @ w
 
-        return Table((self.c, self.rest), self._middle, (2.0 * self.c, self.beyond), mean)
+        return self._near_c(mean)
 
     @cached_property
     def slip_near_edge(self) -> tuple[Table, Table]:
@@ -163,6 +168,10 @@ class FlatFunctions:
     def _middle(self) -> tuple[float, float]:
         """c^(1/2), as (t, 1 - t)."""
         return self.middle, self.beyond
+
+    def _near_c(self, function: Function) -> Table:
+        """A table on c <= t <= c^(1/2) of a function that is singular at -c and 1."""
+        return Table((self.c, self.rest), self._middle, (2.0 * self.c, self.beyond), function)
 
     def _near_edge(self, function: Function) -> Table:
         """A table on c^(1/2) <= t <= 1 of a function that is singular at c and smooth at 1."""
@@ -255,10 +264,7 @@ class FlatFunctions:
 
     @cached_property
     def _difference(self) -> Function:
-        """S as N - A n, whose error is rounding of numbers of order one.
-
-        It serves where p needs S.
-        """
+        """S as N - A n, whose error is rounding of numbers of order one: where p needs S."""
         punch, theta = self.punch, self.theta
         aG = self._a * punch.square * (self._scale / math.pi) * punch.kernel_of_one
         slip = self._slip_points(2.0 - 2.0 * theta, 2.0 * theta)

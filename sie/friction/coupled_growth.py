@@ -44,7 +44,8 @@ NEGLIGIBLE = 256.0 * EPS
 NO_LESS = 0.7  # of what a panel missed before it was cut
 MOST = 300  # panels: beyond, none is cut
 CUT = 0.4  # of a panel: where it is cut
-FOLDS = 2.5  # of the distance from a kink: how much it grows on a panel, as a logarithm
+FOLDS = 3.0  # of the distance from a kink: how much it grows on a panel, as a logarithm
+SHORTER = 0.5 * LONGEST  # of a panel of v: beside the kernel its integrand has all of the series
 NEAR = 0.5  # of a panel's length: nearer it is integrated on panels that shrink towards x
 
 
@@ -195,18 +196,10 @@ def _up_to(flat: FlatFunctions, panel: GrowthPanel, part: float, x: Array, beyon
     """The same over a part of the panel."""
     length = np.full(len(x), part)
     kink = np.full(len(x), panel.behind)
-    owner, ahead, left, weight = graded(length, kink, beyond, (panel.power, 0.0), _longest(panel))
+    owner, ahead, left, weight = graded(length, kink, beyond, (panel.power, 0.0), SHORTER)
     at = panel.origin + x[owner][:, None]
     t, rest = (panel.origin + panel.lo + ahead) / at, (beyond[owner][:, None] + left) / at
     return totals(owner, flat.outside(t, rest) * panel(ahead) * weight, len(x))
-
-
-def _longest(panel: GrowthPanel) -> float:
-    """The length of a panel of integrals over a part of this one.
-
-    Where P' is a polynomial of s, it varies faster in the logarithm of a distance.
-    """
-    return LONGEST if panel.behind < math.inf else 0.5 * LONGEST
 
 
 def load_slope(
@@ -230,7 +223,7 @@ def _own(flat: FlatFunctions, panel: GrowthPanel, x: Array, ahead: Array) -> Arr
     """The matrix that takes the series to ∫P' ρ D(ρ) ds from lo to each x of the panel."""
     to_c = (panel.origin + x) * (flat.rest / flat.c)
     kink = np.full(len(x), panel.behind)
-    owner, inside, left, weight = graded(ahead, kink, to_c, (panel.power, -flat.h), _longest(panel))
+    owner, inside, left, weight = graded(ahead, kink, to_c, (panel.power, -flat.h), SHORTER)
     at = panel.origin + x[owner][:, None]
     values = flat.outside((panel.origin + panel.lo + inside) / at, left / at) * weight
     if panel.power:

@@ -151,45 +151,53 @@ def _width(
     growth: tuple[GrowthPanel, ...], widest: float, sharp: bool, scene: Scene
 ) -> tuple[float, float, float]:
     """b beyond the flat base, P and what a corner at the end of the indenter carries of it."""
-
-    def load(ahead: float) -> float:
-        return sum(panel.load(ahead) for panel in growth)
-
     if not growth:
         assert scene.normal_load is not None
         return widest, scene.normal_load, scene.normal_load
     farthest = widest - growth[0].origin
     if scene.normal_load is None:
-        return farthest, load(farthest), 0.0
-    P, most = scene.normal_load, load(farthest * WIDER)
+        return farthest, _load(growth, farthest), 0.0
+    P, most = scene.normal_load, _load(growth, farthest * WIDER)
     if most >= P:
-        return _root(growth, load, P, farthest * WIDER), P, 0.0
+        return _root(growth, P, farthest * WIDER), P, 0.0
     if sharp:
-        return farthest, P, P - load(farthest)
+        return farthest, P, P - _load(growth, farthest)
     raise LoadError(
         f"the coupled contact of half-width {widest:.6g} carries {most:.6g} of {P:.6g}: "
         "friction should not make it softer; give dundurs = 0 to neglect β"
     )
 
 
-def _root(
-    growth: tuple[GrowthPanel, ...], load: Callable[[float], float], P: float, farthest: float
-) -> float:
+def _load(growth: tuple[GrowthPanel, ...], ahead: float) -> float:
+    """∫P' ds as far as that beyond the flat base."""
+    return sum(panel.load(ahead) for panel in growth)
+
+
+def _root(growth: tuple[GrowthPanel, ...], P: float, farthest: float) -> float:
     """The distance from the first place of contact at which ∫P' = P, to relative accuracy."""
-    hi = farthest
-    while load(0.5 * hi) > P and hi > TINIEST * farthest:
-        hi *= 0.5
-    lo = 0.5 * hi
-    ends = load(lo) / P - 1.0, load(hi) / P - 1.0
-    if ends[1] <= 0.0:
+    before = 0.0  # the load of the panels that are passed whole
+    for panel in growth:
+        whole = panel.load(min(panel.hi, farthest))
+        if before + whole >= P or panel is growth[-1]:
+            break
+        before += whole
+    missing, hi = P - before, min(panel.hi, farthest)
+    if before + whole <= P:
         return hi
+    lo = panel.lo or 0.5 * hi
+    while panel.load(lo) > missing and hi > TINIEST * farthest:
+        lo, hi = 0.5 * lo, lo
+    ends = panel.load(lo) / P - missing / P, panel.load(hi) / P - missing / P
     root = false_position(
-        lambda a: load(a) / P - 1.0, lo, hi, ends, lambda a, b, missed: abs(missed) <= NEARLY
+        lambda a: (panel.load(a) - missing) / P,
+        lo,
+        hi,
+        ends,
+        lambda a, b, missed: abs(missed) <= NEARLY,
     )
     for _ in range(NEWTONS):
-        panel = next(p for p in growth if root <= p.hi or p is growth[-1])
         rate = float(panel(np.array([root - panel.lo]))[0])
-        missed = P - load(root)
+        missed = missing - panel.load(root)
         if not abs(missed) < rate * (hi - lo):
             break
         root += missed / rate

@@ -16,7 +16,7 @@ from .coupled_tables import APART, stretched
 Array = NDArray[np.float64]
 
 NODES = 16
-LONGEST = 2.5  # of a panel of v: with NODES the error is (π/1.25 + 2.7)^-32
+LONGEST = 4.0  # of a panel of v: with NODES the error is (π/2 + 1.86)^-32
 GROWTH = 2.0  # a panel's length over its distance from the singularity; with 12 nodes that is 1e-13
 FAR = 1e300  # stands for no singularity
 

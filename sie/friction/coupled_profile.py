@@ -190,7 +190,7 @@ class Superposition:
     @cached_property
     def _pressure_kernels(self) -> tuple[Kernel, ...]:
         f = self.flat
-        chi, A, S, Psi = f.weight, f.A, f.S, f.Psi
+        chi, A, S, Psi = f.weight, f.A, f.S_beside_c, f.Psi
         return (
             self._near_edge(lambda t, e, d: f.sine * chi(t, e, d) * Psi(t, e), -f.h),
             Kernel(lambda t, e, d: A(t, e), 0.0, f.middle, f.beyond / f.middle),

@@ -37,7 +37,8 @@ FAINT = 1e-15  # of the largest traction times b: what a short panel may miss
 ROUGH, SAME = 1e-8, 0.8
 LEAST = 1e-300  # of a panel, to an edge where the traction may be infinite
 NEAR = 3.0  # the Bernstein ellipse inside which the recurrence replaces Gauss-Legendre
-TOGETHER = 2**18  # entries of a matrix that are computed at once
+TOGETHER = 2**16  # entries of a matrix that are computed at once
+DISTANT = 1e100  # half-widths: beyond it squares overflow
 
 
 class Panels(NamedTuple):
@@ -220,38 +221,52 @@ class HalfPotential:
 
     def __call__(self, z: Complex, derivative: bool) -> tuple[Complex, Complex]:
         """Both; the derivative is 0 where it is not asked for."""
-        y, mass = self.quadrature
-        F, dF = np.empty_like(z), np.zeros_like(z)
-        step = max(1, TOGETHER // len(y))
-        for i in range(0, len(z), step):
-            inverse = 1.0 / (z[i : i + step, None] - y)
-            F[i : i + step] = inverse @ mass
-            if derivative:
-                dF[i : i + step] = -(inverse * inverse) @ mass
         p = self.panels
         middle, half = 0.5 * (p.lo + p.hi), 0.5 * (p.hi - p.lo)
-        reach = 0.5 * (NEAR + 1.0 / NEAR) * half
-        for k in range(len(middle)):
-            near = np.flatnonzero(np.abs(z - middle[k]) <= reach[k])
-            if near.size:
-                self._replace(k, near, z[near], F, dF if derivative else None)
+        near = np.abs(z[:, None] - middle) <= 0.5 * (NEAR + 1.0 / NEAR) * half
+        F, dF = np.empty_like(z), np.zeros_like(z)
+        step = max(1, TOGETHER // p.series.size)
+        for i in range(0, len(z), step):
+            part = slice(i, i + step)
+            F[part], dF[part] = self._of_far_panels(z[part], near[part], derivative)
+        for k in np.flatnonzero(near.any(axis=0)).tolist():
+            own = np.flatnonzero(near[:, k])
+            with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+                if k == len(p.lo) - 1:
+                    value, slope = _edge_panel(p.series[k], p.power, z[own], p.lo[k], p.hi[k])
+                else:
+                    value, slope = _inner_panel(p.series[k], z[own], p.lo[k], p.hi[k])
+            F[own] += value
+            if derivative:
+                dF[own] += slope
         return F / math.pi, dF / math.pi
 
-    def _replace(
-        self, k: int, near: NDArray[np.intp], z: Complex, F: Complex, dF: Complex | None
-    ) -> None:
-        """Panel k by recurrence in place of the far rule."""
-        p, (y, mass) = self.panels, self.quadrature
-        own = slice(k * DEGREE, (k + 1) * DEGREE)
-        inverse = 1.0 / (z[:, None] - y[own])
-        with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-            if k == len(p.lo) - 1:
-                value, slope = _edge_panel(p.series[k], p.power, z, p.lo[k], p.hi[k])
-            else:
-                value, slope = _inner_panel(p.series[k], z, p.lo[k], p.hi[k])
-        F[near] += value - inverse @ mass[own]
-        if dF is not None:
-            dF[near] += slope + (inverse * inverse) @ mass[own]
+    def _of_far_panels(
+        self, z: Complex, near: NDArray[np.bool_], derivative: bool
+    ) -> tuple[Complex, Complex | float]:
+        """The integrals by the rule of all panels that are not near, in real arithmetic.
+
+        Complex division takes several times as long.
+        """
+        (y, mass), b = self.quadrature, self.panels.hi[-1]
+        if np.abs(z).max(initial=0.0) > DISTANT * b:
+            inverse = 1.0 / (z[:, None] - y)
+            inverse.reshape(*near.shape, DEGREE)[near] = 0.0
+            return inverse @ mass, -(inverse * inverse) @ mass
+        x, depth = (z.real[:, None] - y) / b, z.imag / b
+        square = x * x
+        square += (depth * depth)[:, None]
+        square.reshape(*near.shape, DEGREE)[near] = np.inf
+        inverse = np.divide(1.0, square, out=square)
+        x *= inverse
+        sums = inverse @ mass
+        F = (x @ mass - 1j * depth * sums) / b
+        if not derivative:
+            return F, 0.0
+        x *= inverse
+        inverse *= inverse
+        across = depth * (inverse @ mass) + 1j * (x @ mass)
+        return F, (2.0 * depth * across - sums) / b**2
 
 
 def _inner_panel(c: Array, z: Complex, lo: float, hi: float) -> tuple[Complex, Complex]:

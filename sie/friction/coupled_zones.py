@@ -371,7 +371,8 @@ class StickProblem:
 
 def _from_others(x: Array, j: int) -> Array:
     """The weights with which a polynomial at the nodes but x_j gives that at x_j."""
-    apart = x[:, None] - x
+    # They do not depend on the unit; products of lengths such as 1e-30 underflow
+    apart = (x[:, None] - x) / np.ptp(x)
     np.fill_diagonal(apart, 1.0)
     weights = 1.0 / np.delete(apart, j, axis=1).prod(axis=1)
     weights *= np.delete(apart[j], j).prod() / apart[j]

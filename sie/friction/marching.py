@@ -35,7 +35,16 @@ from .slip_onset import Onset, onsets
 from .step_conditions import TESTED
 from .stuck_contact import BothStick, both_stick
 from .travelling_zone import Travelled, travelled
-from .trial_step import EXCEEDED, ISLAND, GoesOn, Marchable, Signs, Trial, excess
+from .trial_step import (
+    EXCEEDED,
+    ISLAND,
+    GoesOn,
+    Marchable,
+    Signs,
+    Trial,
+    excess,
+    first_share,
+)
 from .turning_point import TurningPoint
 
 MOST_PARTS = 200  # of a step, in which a stick zone travels by ρ
@@ -83,9 +92,8 @@ def at_constant_pressure(trial: Trial) -> tuple[MarchedStep, ...]:
     start, done = trial.start, 0.0
     while done < 1.0:
         now = parts[-1] if parts else None
-        trial = replace(
-            trial, held=now.held if now else trial.held, start=start.towards(trial.end, done)
-        )
+        held = now.held if now else trial.held
+        trial = replace(trial, held=held, start=start.towards(trial.end, done), begun=done)
         travels = isinstance(now, Travelled) and not now.at_edge
         ways = None if travels else _ways(trial)
         if ways is not None and not isinstance(now, Receded):
@@ -95,13 +103,31 @@ def at_constant_pressure(trial: Trial) -> tuple[MarchedStep, ...]:
         else:
             part = travelled(trial.held, trial.held.pressure, trial.friction, trial.shear(1.0))
             share = part.share
-            if excess(part, part.stick)[0] > EXCEEDED:
-                raise trial.refusal(ISLAND, share)
+            if _exceeds(part):
+                raise _opened(trial, part)
             parts.append(part)
         done = 1.0 if share == 1.0 else done + (1.0 - done) * share
         if len(parts) > MOST_PARTS:
             raise ContactError(f"the stick zone travels by more than {MOST_PARTS} half-widths")
     return tuple(parts)
+
+
+def _exceeds(part: Travelled) -> bool:
+    return excess(part, part.stick)[0] > EXCEEDED
+
+
+def _opened(trial: Trial, part: Travelled) -> ContactError:
+    """The refusal of a second zone of slip in a stick zone that travels."""
+
+    def exceeds(share: float) -> bool:
+        loads = trial.shear(share)
+        return _exceeds(travelled(trial.held, trial.held.pressure, trial.friction, loads))
+
+    end = "right" if part.direction > 0.0 else "left"
+    return trial.refusal(
+        f"{ISLAND} while the {end} end of the stick zone advances",
+        first_share(exceeds, 0.0, part.share),
+    )
 
 
 def while_pressure_changes(trial: Trial) -> tuple[MarchedStep, ...]:
@@ -110,7 +136,7 @@ def while_pressure_changes(trial: Trial) -> tuple[MarchedStep, ...]:
     parts: list[MarchedStep] = []
     ways, share, edges = onsets(trial.held, change, trial.friction), 0.0, None
     while share < 1.0:
-        trial = replace(trial, start=change.loads(share))
+        trial = replace(trial, start=change.loads(share), begun=share)
         if any(not all(way.signs) for way in ways) and (edges is None or share >= edges.hi):
             edges = course(change, share)
         part, until, then = _passed(trial, edges or change, share, ways)
@@ -153,9 +179,18 @@ def _growing(trial: Trial, edges: Course, share: float) -> EdgeSticks | BothStic
         part = both_stick(trial.held, edges, share)
     for tested in TESTED if part.share - share > AT_ONCE else ():
         now = part.until(share + tested * (part.share - share))
-        if excess(now, part.stick)[1] > EXCEEDED:
-            raise trial.refusal(ISLAND, (now.share - share) / (1.0 - share))
+        if _opens(now, part):
+
+            def opens(at: float, part: EdgeSticks | BothStick = part) -> bool:
+                return _opens(part.until(at), part)
+
+            at = first_share(opens, share, now.share)
+            raise trial.refusal(ISLAND, (at - share) / (1.0 - share))
     return part
+
+
+def _opens(state: MarchedStep, end: MarchedStep) -> bool:
+    return excess(state, end.stick)[1] > EXCEEDED
 
 
 def _ways(trial: Trial) -> tuple[Signs, GoesOn] | None:

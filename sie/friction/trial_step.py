@@ -13,6 +13,7 @@ Tested on the way are
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import Protocol
@@ -33,7 +34,7 @@ from .step_conditions import SLACK, TESTED, inside, opens
 # Places in the stick zone at which |q| <= f p is tested, how near to its ends as powers of 10, and
 # by how much of the largest f p it may be missed.
 SCANNED, NEAREST, EXCEEDED = 200, -7.0, 1e-9
-HALVINGS = 10  # to the loads at which what is refused happens
+LOCATED = 1e-7  # of a step: so well it is known where in it what is refused happens
 
 ISLAND = "the shear in the stick zone reaches f p, and a second zone of slip opens there"
 TRY = "this is not covered; change P, Q, σ and tilt in other proportions"
@@ -76,6 +77,7 @@ class Trial:
     held       what it starts from
     signs      the signs of slip to the left and the right of the stick zone
     goes_on    whether each end goes on from where it was, and does not begin at the edge of contact
+    begun      the share of the whole step at its start
     """
 
     contacts: Marchable
@@ -84,6 +86,7 @@ class Trial:
     end: Loads
     signs: Signs = (0.0, 0.0)
     goes_on: GoesOn = (False, False)
+    begun: float = 0.0
 
     def with_signs(self, signs: Signs, goes_on: GoesOn) -> Trial:
         return replace(self, signs=signs, goes_on=goes_on)
@@ -177,19 +180,25 @@ class Trial:
         self, before: Receded | None, end: Receded, shares: tuple[float, float]
     ) -> ContactError:
         """The refusal of what is wrong, with the loads at which it first is."""
-        (low, high), said = shares, ""
-        for _ in range(HALVINGS):
-            middle = 0.5 * (low + high)
-            now = self._solved(middle)
-            said = self._problem(before, now, end, (shares[0], middle))
-            low, high = (low, middle) if said else (middle, high)
-        said = self._problem(before, self._solved(high), end, (shares[0], high))
-        return self.refusal(said, high)
+
+        def said(share: float) -> str:
+            return self._problem(before, self._solved(share), end, (shares[0], share))
+
+        first = first_share(lambda share: bool(said(share)), *shares)
+        return self.refusal(said(first), first)
 
     def refusal(self, said: str, share: float) -> ContactError:
         """The refusal of what is wrong after a share of the step."""
-        loads = self.start.towards(self.end, share)
-        return ContactError(f"{said}, at {loads}: {TRY}", share=share, loads=tuple(loads))
+        loads, whole = self.start.towards(self.end, share), 1.0 - (1.0 - self.begun) * (1.0 - share)
+        return ContactError(f"{said}, at {loads}: {TRY}", share=whole, loads=tuple(loads))
+
+
+def first_share(wrong: Callable[[float], bool], low: float, high: float) -> float:
+    """The share of a step from which on something is wrong, as it is at the higher one."""
+    while high - low > LOCATED:
+        middle = 0.5 * (low + high)
+        low, high = (low, middle) if wrong(middle) else (middle, high)
+    return high
 
 
 def excess(state: MarchedStep, sticks: Interval) -> tuple[float, float]:

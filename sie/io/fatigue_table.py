@@ -18,6 +18,12 @@ from typing import Any
 from sie import arguments
 
 DEPTHS = (0.01, 0.1)
+# Constants, each with one that it needs beside it.
+TOGETHER = (
+    ("shear_limit", "findley_k"),
+    ("fatemi_socie_k", "yield_stress"),
+    ("yield_stress", "fatemi_socie_k"),
+)
 PARTS, MOST_PARTS, MOST_DEPTHS = 4, 100, 100
 
 
@@ -38,11 +44,7 @@ def fatigue_of(values: Mapping[str, Any]) -> Fatigue:
     for name in ("findley_k", "shear_limit", "fatemi_socie_k", "yield_stress"):
         if name in values:
             arguments.positive(f"[fatigue] {name}", values[name])
-    for name, other in (
-        ("shear_limit", "findley_k"),
-        ("fatemi_socie_k", "yield_stress"),
-        ("yield_stress", "fatemi_socie_k"),
-    ):
+    for name, other in TOGETHER:
         if name in values and other not in values:
             raise ValueError(f"[fatigue] has {name} without {other}: give {other} = ... too")
     depth = values.get("depth", ())

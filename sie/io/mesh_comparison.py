@@ -114,7 +114,8 @@ def _mirrored(solution: Solution, mesh: Mesh) -> Mesh:
     t = r * np.linspace(0.05, 0.95, 10)
     p, opposite = solution.pressure(centre + t), solution.pressure(centre - t)
     if solution.tangential_load or np.abs(p - opposite).max() > SAME * np.abs(p).max():
-        note = f"{side}: load is that of this half, as the contact is not symmetric"
+        why = "has a tangential load" if solution.tangential_load else "is not symmetric"
+        note = f"{side}: load is that of this half, as the contact {why}"
         return replace(mesh, notes=(*mesh.notes, note))
     fields = {name: _with_image(name, field, centre) for name, field in mesh.fields.items()}
     return replace(mesh, fields=fields, notes=(*mesh.notes, f"{side}: mirrored"))

@@ -100,7 +100,7 @@ class Difference:
     @property
     def suspicion(self) -> str:
         """The cause of a factor far from 1, if it explains over half of the difference."""
-        if FACTORS[0] <= self.factor <= FACTORS[1] or self.l2_scaled > abs(self.factor):
+        if FACTORS[0] <= self.factor <= FACTORS[1] or self.l2_scaled >= abs(self.factor):
             return ""
         if -FACTORS[1] <= self.factor <= -FACTORS[0]:
             return "are the signs the same?"

@@ -118,7 +118,7 @@ def _placed(raw: Raw, surface: float | None, body: str) -> Mesh:
         if len(x) < 2 or (name in TRACTIONS and x[0] == x[-1]):
             where = " on the surface, y = 0, where it is compared" if name in TRACTIONS else ""
             raise ValueError(
-                f"{raw.file} holds {len(x)} points of {name}{where}: "
+                f"{raw.file} holds {len(x) or 'no'} point{'s' * (len(x) != 1)} of {name}{where}: "
                 "a comparison needs at least two; --surface gives the height of the surface"
             )
     return Mesh(raw.file, fields, raw.others, tuple(notes))

@@ -6,7 +6,7 @@ line is
 
     #:schema scene.schema.json
 
-Numbers that make no contact problem are refused when the file is read.
+Numbers that make no contact problem, and units of another kind, are refused when the file is read.
 """
 
 from __future__ import annotations
@@ -25,7 +25,8 @@ from sie.profiles.kinds import KINDS
 from sie.profiles.row import Periodic
 from sie.profiles.sampled import Sampled
 
-from . import toml_values
+from . import quantities, toml_values
+from .fatigue_table import TOGETHER
 from .scene_tables import (
     LOADS,
     MODIFIERS,
@@ -60,10 +61,14 @@ SHAPES: Mapping[toml_values.Reader, Json] = {
     toml_values.flag_or_pair: {"anyOf": [FLAG, PAIR]},
     toml_values.columns: {"type": "array", "items": COLUMN, "minItems": 2, "maxItems": 2},
 }
+# A number with a unit, which the reader hands to pint, and the keys that may have one.
+QUANTITY = r"^\s*[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d{1,3})?\s*[^\s\d.,+-]"
+DIMENSIONED = {name for table in quantities.TABLES.values() for name in table} | {"path"}
 POSITIVE: Json = {"type": "number", "exclusiveMinimum": 0.0}
 # The keys of which less is accepted than their reader takes.
 LIMITED: Mapping[str, Json] = {
     "plane": {"enum": [*get_args(Plane)]},
+    "depth": {"anyOf": [NUMBER, NUMBERS]},
     "parity": {"enum": [*get_args(Parity)]},
     "coupling": {"enum": [*COUPLINGS]},
     "smoothing": {"anyOf": [NUMBER, {"enum": ["gcv"]}]},
@@ -94,6 +99,7 @@ def schema() -> Json:
                 "profile": {"anyOf": _kinds(_of_the_whole())},
                 **{name: _table(name) for name in TABLES if name not in ("body", "indenter")},
                 "load": _load(),
+                "fatigue": _table("fatigue") | {"dependencies": {k: [v] for k, v in TOGETHER}},
                 "body": {"$ref": "#/definitions/body"},
                 "indenter": {"$ref": "#/definitions/body"},
             },
@@ -174,11 +180,22 @@ def _any_of(names: tuple[str, ...]) -> Json:
 
 def _values(readers: Mapping[str, toml_values.Reader], descriptions: Mapping[str, str]) -> Json:
     """What each key takes, with its description where there is one."""
+    shapes = {name: LIMITED.get(name, SHAPES[reader]) for name, reader in readers.items()}
     return {
-        name: LIMITED.get(name, SHAPES[reader])
+        name: (_or_quantity(shape) if name in DIMENSIONED else shape)
         | ({"description": descriptions[name]} if name in descriptions else {})
-        for name, reader in readers.items()
+        for name, shape in shapes.items()
     }
+
+
+def _or_quantity(shape: Any) -> Any:
+    """The shape with a number and its unit in place of any number."""
+    if isinstance(shape, list):
+        return [_or_quantity(one) for one in shape]
+    if shape.get("type") == "number":
+        return shape | {"type": ["number", "string"], "pattern": QUANTITY}
+    inner = {key: _or_quantity(shape[key]) for key in ("items", "anyOf") if key in shape}
+    return shape | inner
 
 
 def _descriptions(described: Any) -> dict[str, str]:

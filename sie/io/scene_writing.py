@@ -39,7 +39,10 @@ from sie.profiles.row import Periodic, Row
 from sie.profiles.sampled import Sampled
 from sie.profiles.shapes import Wedge
 
-from .scene_file import MOST_BYTES, from_tables
+from . import scene_tables
+from .fatigue_table import Fatigue
+from .path_table import LOADS
+from .scene_file import MOST_BYTES, SceneFile, Units, from_tables
 from .scene_tables import TABLES
 
 Tables = dict[str, Any]
@@ -107,6 +110,39 @@ def tables_of(scene: Scene) -> Tables:
             "raises each term in this order before it adds them: build the profile in this order"
         )
     return tables
+
+
+def tables_of_file(file: SceneFile) -> Tables:
+    """The tables of a scene file: those of its scene, title, want, units, path and [fatigue].
+
+    ValueError if a scene file cannot name its profile.
+    """
+    tables: Tables = {"title": file.title, "want": list(file.want)}
+    tables["units"] = _not_default(file.units, Units())
+    tables |= tables_of(file.scene)
+    if file.path:
+        tables["load"] = _with_path(tables["load"], file)
+    tables["fatigue"] = _not_default(file.fatigue, Fatigue())
+    return {name: value for name, value in tables.items() if value}
+
+
+def _not_default(given: Any, default: Any) -> Tables:
+    """The fields of a record that differ from those of another."""
+    return {
+        f.name: _plain(getattr(given, f.name))
+        for f in fields(given)
+        if getattr(given, f.name) != getattr(default, f.name)
+    }
+
+
+def _with_path(load: Tables, file: SceneFile) -> Tables:
+    """[load] with the path in place of the loads of its last point."""
+    load = {k: v for k, v in load.items() if k not in scene_tables.LOADS}
+    turned = next((name for name in ("tilt", "moment") if getattr(file, name)), None)
+    if turned is None:
+        return load | {"path": [list(point) for point in file.path]}
+    rows = zip(file.path, getattr(file, turned), strict=True)
+    return load | {"path": [[*p, turn] for p, turn in rows], "columns": [*LOADS, turned]}
 
 
 def toml_text(tables: Mapping[str, Any]) -> str:

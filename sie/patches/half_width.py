@@ -35,6 +35,7 @@ CLOSE = 4.0  # factor of the load: up to this the patches of one load are a star
 CLOSEST = 1.01  # ... and up to this the only one
 FIRST, MOST = 4.0, 1e4  # the first and the largest factor of the load towards a bracket
 OUTSIDE = 8  # steps one way without a bracket
+LIGHTEST = 1e-4  # of the first load: from below it no lighter one is tried
 STARTS = 16.0 ** np.array([0, -1, 1, -2, 2, -4, 4, -6, 6])  # at which the first contact is sought
 LOADS = 100
 # Parts of a step and of a bracket, where the search for patches fails next to an event.
@@ -92,14 +93,14 @@ def contact_of_half_width(problem: Problem, ways: Ways) -> tuple[Problem, Found]
     """
     search = Search(problem, ways)
     now, factor, last, outside = search.first(), FIRST, np.inf, 0
-    sizes = [np.inf] * SLOW
+    sizes, lightest = [np.inf] * SLOW, LIGHTEST * now.load
     for _ in range(LOADS):
         step = now.step(search.r)
         if search.reached(now, step, last) and now.found is not None:
             return changed(problem, load=now.load), now.found
         ends, last = search.bracketed(now), abs(step)
         if ends is None:
-            if outside == OUTSIDE:
+            if outside == OUTSIDE or (step < 0.0 and now.load < lightest):
                 break
             most, outside = np.log(factor), outside + 1
             now = search.outside(now, float(np.clip(step, -most, most)))

@@ -51,9 +51,10 @@ def _axes(given: Axes | None) -> Axes:
     if given is None:
         figure = style.Picture(HEIGHT)
         return figure.add_subplot(axes_class=style.ShownAxes)
-    if not isinstance(given, Axes):
+    if not isinstance(given, Axes) or given.name != "rectilinear":
         raise ValueError(
-            f"ax = {given!r} is not an axes of Matplotlib: give one of plt.subplots(), or none"
+            f"ax = {given!r} is not an axes of Matplotlib with x and y: give one of "
+            "plt.subplots(), or none"
         )
     return given
 

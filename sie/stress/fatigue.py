@@ -111,7 +111,7 @@ def at_points(
         x = np.reshape(
             [_worst_x(states, criterion, depth) for depth in y.ravel().tolist()], y.shape
         )
-    x, y = np.broadcast_arrays(arguments.reals("x", x), arguments.reals("y", y))
+    x, y = arguments.of_one_shape(arguments.reals("x", x), arguments.reals("y", y))
     if not x.size:
         return CriticalPlane(*(np.zeros(x.shape) for _ in fields(CriticalPlane)))
     h, unit = _in_unit(_history(states, x.ravel(), y.ravel()))

@@ -123,6 +123,7 @@ class Cycle:
         for state in states:
             if not callable(getattr(state, "stress", None)):
                 raise ValueError(f"{state!r} is not a solution: give {remedy}")
+        object.__setattr__(self, "states", states)  # a generator gives them once only
 
     @cached_property
     def size(self) -> int:
@@ -148,10 +149,9 @@ class Cycle:
         ValueError
             If Poisson's ratio, which σ_zz needs, is not given.
         """
-        shape = np.broadcast_shapes(np.shape(x), np.shape(y))
-        out = np.zeros((self.size, *shape, 3, 3))
-        for tensor, state in zip(out, self.states, strict=True):
-            s = state.stress(x, y)
+        stresses = [state.stress(x, y) for state in self.states]
+        out = np.zeros((self.size, *stresses[0].xx.shape, 3, 3))
+        for tensor, s in zip(out, stresses, strict=True):
             tensor[..., 0, 0], tensor[..., 1, 1], tensor[..., 2, 2] = s.xx, s.yy, s.zz
             tensor[..., 0, 1] = tensor[..., 1, 0] = s.xy
         return out

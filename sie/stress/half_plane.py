@@ -154,7 +154,7 @@ class Stress:
 
     def __init__(self, tractions: Tractions, x: ArrayLike, y: ArrayLike) -> None:
         self.tractions = tractions
-        self.x, self.y = np.broadcast_arrays(*(_real(name, v) for name, v in (("x", x), ("y", y))))
+        self.x, self.y = arguments.of_one_shape(_real("x", x), _real("y", y))
         above = self.y < 0.0
         if above.any():
             raise ValueError(

@@ -88,6 +88,12 @@ class Peak(NamedTuple):
     x: float
 
 
+def refuse_unknown_criterion(criterion: object) -> None:
+    """Raises ValueError unless a criterion is one of CRITERIA."""
+    if not arguments.among(criterion, CRITERIA):
+        raise ValueError(f'criterion = "{criterion}" is not known: give "mises" or "tresca"')
+
+
 def elastic_limit(
     tractions: Tractions, normal_load: float, criterion: Criterion = "mises"
 ) -> YieldPoint:
@@ -95,8 +101,7 @@ def elastic_limit(
 
     ValueError for an unknown criterion, or if Poisson's ratio is needed and missing.
     """
-    if not arguments.among(criterion, CRITERIA):
-        raise ValueError(f'criterion = "{criterion}" is not known: give "mises" or "tresca"')
+    refuse_unknown_criterion(criterion)
     kappa = tractions.out_of_plane
     found: list[tuple[float, tuple[Maximum, ...]]] = []
     if criterion == "mises":

@@ -131,7 +131,7 @@ def test_moments_about_a_distant_origin_are_certified_to_the_rounding_of_x(place
 def test_the_equation_is_measured_away_from_the_points_of_its_rule(load):
     """Beside one the difference of two pressures is rounding, and its quotient large."""
     scene = sie.Scene(profile=sie.Periodic(trace(60, 4), 2.05), modulus=1.0, normal_load=load)
-    rule, places = certificate._measure(sie.solve(scene).in_patches.pressure)
+    rule, places = certificate.measured_on(sie.solve(scene).in_patches.pressure)
     x, at = np.sort(rule.points.x), places.points.x
     k = np.searchsorted(x, at)
     between = (at - x[k - 1]) / (x[k] - x[k - 1])

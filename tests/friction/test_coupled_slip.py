@@ -18,7 +18,9 @@ from sie.friction import coupled_flat
 from sie.friction.coupled_flat import flat_punch
 from sie.friction.coupled_functions import flat_functions
 from sie.friction.coupled_growth import power_law_moment
-from sie.friction.coupled_traction import on_panels, resolved_panels
+from sie.friction.coupled_traction import DEGREE, HalfPotential, Panels, on_panels, resolved_panels
+from sie.friction.coupled_zones import NODES, _from_others
+from sie.numerics.gauss_jacobi import gauss_jacobi
 
 # Half-width of the stick zone and b p(0)/P of a flat punch, and P R/(E* b²) M of a parabola, in 32
 # digits of another formulation (mpmath) and by collocation of the printed equations on graded
@@ -336,6 +338,42 @@ def test_potentials_are_those_of_a_plain_quadrature_far_from_the_surface(name):
         step = 1e-4 * r
         difference = (traction.cauchy(z + step) - traction.cauchy(z - step)) / (2.0 * step)
         assert traction.cauchy_derivative(z) == pytest.approx(difference, rel=1e-6)
+
+
+@pytest.mark.parametrize("depth", [1e-3, 1e-13, 1e-200])
+def test_potential_of_a_constant_is_a_logarithm_however_near_a_node_of_its_rule(depth):
+    series = np.zeros((2, DEGREE))
+    series[0, 0] = 1.0
+    half = HalfPotential(Panels(np.array([0.0, 1.0]), np.array([1.0, 2.0]), series, 0.5))
+    z = np.append(half.quadrature[0][:DEGREE], [-0.3, 3.0]) + 1j * depth
+    F, dF = half(z, derivative=True)
+    np.testing.assert_allclose(F, np.log(z / (z - 1.0)) / math.pi, rtol=1e-14)
+    np.testing.assert_allclose(dF, (1.0 / z - 1.0 / (z - 1.0)) / math.pi, rtol=1e-13)
+
+
+def test_potential_far_away_is_the_load_over_the_distance():
+    half = solved(sie.Parabola(1.0)).tractions.pressure._half
+    z = np.array([1e8j, 1e99j, 1e120 + 1e120j])
+    F, dF = half(z, derivative=True)
+    np.testing.assert_allclose(F, 0.5 / (math.pi * z), rtol=1e-7)
+    np.testing.assert_allclose(dF, -0.5 / (math.pi * z * z), rtol=1e-7)
+
+
+@pytest.mark.parametrize("length", [1.0, 1e-40])
+def test_a_value_from_the_other_nodes_of_a_panel_is_that_of_a_polynomial(length):
+    x = gauss_jacobi(NODES, 0.0, 0.0).x
+    others = x**3 - 2.0 * x
+    weights = _from_others(length * x, 4)
+    assert weights @ others == pytest.approx(others[4], rel=1e-12)
+
+
+@pytest.mark.parametrize("pair", [(0.3, 0.3), (0.1, 1.0), (0.5, 10.0)])
+def test_pressure_beside_c_takes_the_function_of_the_shear_to_rounding_of_pressures(pair):
+    flat = flat_functions(*pair)
+    t = np.linspace(flat.c, flat.middle, 5)
+    e = np.linspace(flat.rest, flat.beyond, 5)
+    apart = np.abs(flat.S_beside_c(t, e) - flat.S(t, e))
+    assert (apart <= 1e-13 * flat.A(t, e)).all()
 
 
 def test_surface_stress_is_in_balance_with_the_tractions():

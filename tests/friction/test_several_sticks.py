@@ -1,5 +1,7 @@
 """Steps that leave several stick zones: their equations, against a mesh, and in parts."""
 
+from functools import cache
+
 import numpy as np
 import pytest
 
@@ -19,7 +21,13 @@ PATHS = {
 
 
 def followed(points):
-    return sie.follow(HERTZ, sie.Path([(P0, Q * F, sigma * S) for Q, sigma in points]))
+    return history_of(sie.Path([(P0, Q * F, sigma * S) for Q, sigma in points]))
+
+
+@cache
+def history_of(path):
+    """Tests share what they only read."""
+    return sie.follow(HERTZ, path)
 
 
 @pytest.fixture(scope="module", params=PATHS)

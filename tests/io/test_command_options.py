@@ -54,6 +54,23 @@ def test_compare_takes_its_two_files_anywhere_among_the_options(place, other, ca
     assert capsys.readouterr().out == expected
 
 
+@pytest.mark.parametrize(
+    "words",
+    [
+        ["SCENE", "--want", "gap", "--want", "tension"],
+        ["--want", "gap", "SCENE", "--want", "tension"],
+        ["--want=gap", "--want", "tension", "SCENE"],
+    ],
+    ids=" ".join,
+)
+@pytest.mark.parametrize("scene", ["scene.toml", "punch"])
+def test_want_given_twice_asks_for_both(words, scene, capsys):
+    assert main(["solve", scene, "--want", "gap", "tension"]) == 0
+    expected = capsys.readouterr().out
+    assert main(["solve", *(scene if word == "SCENE" else word for word in words)]) == 0
+    assert capsys.readouterr().out == expected
+
+
 def test_a_name_that_is_to_be_written_is_no_scene(capsys):
     assert main(["solve", "--json", "out.json", "--want", "edges"]) == 2
     assert "give the scene file first" in capsys.readouterr().err
@@ -133,7 +150,7 @@ def test_the_library_says_nothing_by_itself(capfd):
     assert capfd.readouterr() == ("", "")
 
 
-@pytest.mark.parametrize("options", [["--history", "-"], ["--want", "shear"]])
+@pytest.mark.parametrize("options", [["--csv", "-"], ["--want", "shear"]])
 def test_a_long_path_shows_a_bar_on_a_terminal(options, folder, monkeypatch, capsys):
     pytest.importorskip("tqdm")
     (folder / "cycle.toml").write_text(scene_file.example("fretting-cycle"))
@@ -167,6 +184,7 @@ def test_bash_completes_commands_options_names_and_files(folder, capsys):
     assert completed("sie.bash", ["sie", "solve", "--want", "e"]) == ["edges", "energy"]
     assert completed("sie.bash", ["sie", "example", "rou"]) == ["rounded-flat"]
     assert "scene.toml" in completed("sie.bash", ["sie", "solve", "sc"])
+    assert "fem.csv" in completed("sie.bash", ["sie", "compare", "--deck", "fe"])
 
 
 @pytest.mark.parametrize("shell", ["zsh", "tcsh"])

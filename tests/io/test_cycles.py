@@ -111,6 +111,18 @@ def test_without_tension_the_report_says_so_in_place_of_a_plane(solve):
     assert status == 0 and "SWT             0 on the surface: no plane is in tension" in out
 
 
+def test_of_loads_that_do_not_change_the_report_names_what_is_missing_and_no_place(solve):
+    still = CYCLE[: CYCLE.index("columns")] + "path = [[50.0, 10.0], [50.0, 10.0]]\n"
+    status, out, _ = solve(still + MATERIAL)
+    lines = {line[:16].strip(): line[16:] for line in out.splitlines() if line[:1].isalpha()}
+    assert status == 0
+    assert lines["slip amplitude"] == lines["Ruiz' κ1"] == lines["Ruiz' κ2"] == "0"
+    assert lines["range of σ_xx"] == "0: it does not change"
+    assert "no plane is in tension while its strain" in lines["SWT"]
+    assert lines["Fatemi-Socie"].startswith("0 on the surface: no shear changes")
+    assert lines["Findley"].endswith("°")
+
+
 def test_a_sharp_edge_is_answered_by_depth(solve):
     flat = CYCLE.replace('"parabola"\nradius = 100.0', '"flat"\nhalf_width = 1.0')
     flat = flat.replace('columns = ["P", "Q", "sigma"]\n', "").replace(", 10.0]", "]")

@@ -463,7 +463,8 @@ def test_half_a_contact_with_a_tangential_load_is_not_mirrored(tmp_path):
     x = np.arange(0.0, 1.3, 0.04)
     comparison = compared(table("x,p", x, SOLUTION.pressure(x)), tmp_path)
     assert comparison.differences["p"].resultant == pytest.approx(-0.5, abs=0.05)
-    assert any("load is that of this half" in note for note in comparison.mesh.notes)
+    (note,) = (note for note in comparison.mesh.notes if "load is that of this half" in note)
+    assert note.endswith("as the contact has a tangential load")
 
 
 def test_a_path_that_starts_at_one_side_is_shifted_and_not_mirrored(tmp_path):
@@ -497,6 +498,11 @@ def test_the_unit_of_a_stress_is_named(factor, unit, tmp_path):
     difference = compared(table("x,p", X, factor * P), tmp_path).differences["p"]
     assert unit in difference.suspicion
     assert ("signs" in difference.suspicion) == (factor < 0.0)
+
+
+def test_a_result_of_zeros_has_no_other_unit(tmp_path):
+    difference = compared(table("x,p", X, 0.0 * P), tmp_path).differences["p"]
+    assert difference.factor == 0.0 and difference.suspicion == ""
 
 
 def test_the_verdict_names_the_quantities_that_exceed(tmp_path):

@@ -57,6 +57,14 @@ def test_a_picture_is_shown_in_a_notebook():
     assert sie.plots.picture(PUNCH)._repr_png_().startswith(PNG)
 
 
+@pytest.mark.parametrize("projection", ["polar", "3d"])
+def test_axes_without_x_and_y_are_refused(projection):
+    axes = Figure().add_subplot(projection=projection)
+    for draw in (PUNCH.plot, HISTORY.plot):
+        with pytest.raises(ValueError, match="is not an axes of Matplotlib with x and y"):
+            draw(axes)
+
+
 @pytest.mark.parametrize(
     ("given", "said"),
     [

@@ -100,6 +100,7 @@ ACCEPTED = {
     "a path of columns": PAIR
     + WEDGE
     + '[load]\npath = [[1.0, 0.0]]\ncolumns = ["P", "Q"]\nfriction = 0.5\n',
+    "a list of depths": PAIR + WEDGE + LOAD + "[fatigue]\ndepth = [0.01, 0.02, 0.05]\n",
     "a sum that repeats": PAIR
     + LOAD
     + WEDGE
@@ -119,7 +120,9 @@ REFUSED = {
     "a load and a path": PAIR + WEDGE + LOAD + "path = [[1.0, 0.0]]\n",
     "columns without a path": PAIR + WEDGE + LOAD + 'columns = ["P", "Q"]\n',
     "a load that pulls": PAIR + WEDGE + "[load]\nnormal_load = -1\n",
-    "a quantity with its unit": PAIR + WEDGE + '[load]\nnormal_load = "5 N"\n',
+    "a text that is no quantity": PAIR + WEDGE + '[load]\nnormal_load = "much"\n',
+    "a unit where nothing has one": PAIR + WEDGE + LOAD + 'friction = "0.5 mm"\n',
+    "a limit of no parameter": PAIR + WEDGE + LOAD + "[fatigue]\nshear_limit = 3.0\n",
     "another want": 'want = ["edgse"]\n' + PAIR + WEDGE + LOAD,
     "another kind": PAIR + LOAD + '[profile]\nkind = "wedgee"\nslope = 0.1\n',
     "no kind": PAIR + LOAD + "[profile]\nslope = 0.1\n",
@@ -134,6 +137,19 @@ REFUSED = {
 @pytest.mark.parametrize("text", ACCEPTED.values(), ids=ACCEPTED)
 def test_what_a_scene_file_may_hold_is_accepted(text):
     assert accepts(tomllib.loads(text))
+
+
+QUANTITIES = (
+    '[profile]\nkind = "sampled"\nx = ["-1 mm", 0, 1, 2]\nh = [1, "0 um", 1, 4]\nlevelled = true\n'
+    '[body]\nyoung = "115 GPa"\npoisson = 0.3\n'
+    '[load]\nfriction = 0.5\npath = [["50 N/mm", 0.0], [50.0, "+.5e1kN/m"], [50.0, 0.0]]\n'
+    '[fatigue]\nfatemi_socie_k = 0.5\nyield_stress = "900MPa"\ndepth = "20 um"\n'
+)
+
+
+def test_numbers_with_units_are_accepted():
+    pytest.importorskip("pint")
+    assert accepts(tomllib.loads(QUANTITIES)) and parse(QUANTITIES)
 
 
 @pytest.mark.parametrize("text", REFUSED.values(), ids=REFUSED)

@@ -6,6 +6,7 @@ import builtins
 import os
 import sys
 import threading
+import types
 from concurrent.futures import (
     BrokenExecutor,
     Executor,
@@ -14,12 +15,14 @@ from concurrent.futures import (
     ThreadPoolExecutor,
 )
 from dataclasses import replace
+from functools import partial
+from queue import SimpleQueue
 
 import numpy as np
 import pytest
 
 import sie
-from sie import progress_bar, sweep_result, workers
+from sie import progress_bar, sweep_chunks, sweep_result, sweep_work, workers
 
 module = sys.modules["sie.sweep"]  # `sie.sweep` is the function
 SCENE = sie.Scene(profile=sie.RoundedFlat(0.5, 1.0), modulus=1.0, poisson=0.3, normal_load=0.3)
@@ -157,14 +160,25 @@ class Interrupting(Executor):
         return future
 
 
+class InterruptedQueue(SimpleQueue):
+    """Gives so many futures, then the user presses Ctrl-C."""
+
+    def __new__(cls, most):
+        queue = super().__new__(cls)
+        queue.most = most
+        return queue
+
+    def get(self):
+        if not self.most:
+            raise KeyboardInterrupt
+        self.most -= 1
+        return super().get()
+
+
 def test_an_interrupt_loses_nothing(monkeypatch):
     pool = Interrupting()
 
-    def completed(futures):
-        yield from futures[:2]
-        raise KeyboardInterrupt
-
-    monkeypatch.setattr(workers, "as_completed", completed)
+    monkeypatch.setattr(workers, "SimpleQueue", partial(InterruptedQueue, 2))
     with pytest.raises(KeyboardInterrupt) as caught:
         sie.sweep(
             SCENE,
@@ -194,10 +208,7 @@ def test_an_interrupt_within_a_chunk_keeps_its_first_points():
 
 
 def test_an_interrupt_keeps_chunks_that_are_done_but_not_yet_taken(monkeypatch):
-    def completed(futures):
-        raise KeyboardInterrupt
-
-    monkeypatch.setattr(workers, "as_completed", completed)
+    monkeypatch.setattr(workers, "SimpleQueue", partial(InterruptedQueue, 0))
     with pytest.raises(sie.Interrupted) as caught:
         sie.sweep(SCENE, **THREE_WIDTHS, executor=Interrupting(), chunk=1)
     assert np.isfinite(plain(caught.value.result)["half_width"]).tolist() == [True, True, False]
@@ -327,7 +338,7 @@ def test_an_interrupt_after_a_death_keeps_what_was_found(monkeypatch):
 
 
 @pytest.mark.parametrize("works_again", [True, False])
-def test_an_executor_that_refuses_a_chunk_keeps_what_the_others_found(works_again):
+def test_a_chunk_that_an_executor_refuses_is_given_to_it_once_more(works_again):
     class Refusing(Executor):
         asked = 0
 
@@ -340,8 +351,13 @@ def test_an_executor_that_refuses_a_chunk_keeps_what_the_others_found(works_agai
             return future
 
     found = plain(sie.sweep(SCENE, **FOUR_WIDTHS, executor=Refusing(), chunk=1))
-    assert np.isfinite(found["half_width"]).tolist() == [True, True, False, works_again]
-    assert "died" in found["reason"][2]
+    assert np.isfinite(found["half_width"]).tolist() == [
+        True,
+        True,
+        works_again,
+        works_again,
+    ]
+    assert ["died" in reason for reason in found["reason"][2:]] == [not works_again] * 2
 
 
 @pytest.mark.parametrize(
@@ -393,7 +409,7 @@ def test_the_overhead_of_a_sweep_grows_in_proportion_to_its_points(parallel, mon
             counts += 1
             return builtins.len(values)
 
-        for part in (module, sweep_result, workers):
+        for part in (module, sweep_chunks, sweep_result, sweep_work, workers):
             monkeypatch.setattr(part, "len", count, raising=False)
         sie.sweep(
             SCENE,
@@ -443,6 +459,14 @@ def test_a_bar_is_shown_for_long_work_on_a_terminal_only(monkeypatch, capsys):
     assert "/3" in capsys.readouterr().err
     assert threading.active_count() == before
     sie.sweep(SCENE, over={"normal_load": LOADS}, progress=False)
+    assert capsys.readouterr().err == ""
+
+
+def test_a_program_that_imports_a_kernel_and_runs_none_shows_no_bar(monkeypatch, capsys):
+    pytest.importorskip("tqdm")
+    monkeypatch.setitem(sys.modules, "ipykernel", types.ModuleType("ipykernel"))
+    monkeypatch.setattr(progress_bar, "PATIENCE", 0.0)
+    sie.sweep(SCENE, over={"normal_load": LOADS})
     assert capsys.readouterr().err == ""
 
 

@@ -10,19 +10,28 @@ from command import run
 
 from sie import streams
 from sie.cli import main
-from sie.io.report import aligned
+from sie.io.report import table
 from sie.io.scene_file import example
 from sie.messages import WIDE
 from sie.problem.request import WANTS
 
-SHOWN = ("rounded-flat", "flat", "fretting-cycle", "row", "sampled", "sliding")
+# Examples, and what each has no answer for.
+SHOWN = {
+    "rounded-flat": {"cycle"},
+    "flat": {"cycle"},
+    "fretting-cycle": {"cycle"},
+    "fatigue": set(),
+    "row": {"cycle"},
+    "sampled": {"cycle"},
+    "sliding": {"cycle", "energy"},
+}
 
 
 @pytest.fixture
 def printed(tmp_path, capsys):
     def of(name, *options):
         path = tmp_path / "scene.toml"
-        path.write_text(example(name))
+        path.write_text(example(name).replace("parts = 4", "parts = 1"))
         assert main(["solve", str(path), *options]) == 0
         return capsys.readouterr().out
 
@@ -31,7 +40,7 @@ def printed(tmp_path, capsys):
 
 @pytest.mark.parametrize("name", SHOWN)
 def test_a_report_of_all_quantities_fits_in_80_columns_which_ascii_keeps(name, printed):
-    fancy = printed(name, "--want", *WANTS)
+    fancy = printed(name, "--want", *(want for want in WANTS if want not in SHOWN[name]))
     assert max(map(len, fancy.splitlines())) <= WIDE == 80
     plain = "".join(map(streams._plain, fancy.splitlines(keepends=True)))
     assert plain.isascii()
@@ -42,7 +51,7 @@ def test_a_report_of_all_quantities_fits_in_80_columns_which_ascii_keeps(name, p
 
 def test_a_table_has_as_many_digits_as_fit():
     row = [-0.00123456789] * 6
-    narrow, wide = aligned([row]), aligned([row[:2] + row])
+    narrow, wide = table([""] * 6, [row]), table([""] * 8, [row[:2] + row])
     assert narrow.count("-0.00123457") == 6 and len(wide) <= WIDE and "-0.001" in wide
 
 

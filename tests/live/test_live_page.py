@@ -83,7 +83,14 @@ def test_a_query_that_is_no_setting_is_a_bad_request(server):
 def test_the_command_serves_the_scene_of_a_file_until_it_is_interrupted(tmp_path):
     scene = tmp_path / "scene.toml"
     scene.write_text(example("wedge"), encoding="utf-8")
-    command = [sys.executable, "-u", "-m", "sie", "live", str(scene), "--no-browser"]
+    # A shell's background jobs, and what they start, ignore Ctrl-C.
+    program = """
+import signal, sys
+from sie.cli import main
+signal.signal(signal.SIGINT, signal.default_int_handler)
+sys.exit(main(sys.argv[1:]))
+"""
+    command = [sys.executable, "-u", "-c", program, "live", str(scene), "--no-browser"]
     with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as running:
         try:
             address = running.stdout.readline().split()[0]
@@ -91,7 +98,7 @@ def test_the_command_serves_the_scene_of_a_file_until_it_is_interrupted(tmp_path
                 assert json.load(reply)["stick"]
         finally:
             running.send_signal(signal.SIGINT)
-        assert running.wait() == 130
+        assert running.wait(timeout=60) == 130
 
 
 @pytest.mark.parametrize("mistake", [["--port", "70000"], ["--port", "x"], ["no-such.toml"]])

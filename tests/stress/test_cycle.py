@@ -93,6 +93,22 @@ def test_at_a_sharp_edge_the_range_is_infinite_and_without_slip_there_is_no_work
     assert (cycle.friction_work([0.0, 1.0]) == 0.0).all() and cycle.ruiz(1.0) == 0.0
 
 
+STATES = sie.follow(
+    sie.Scene(profile=sie.Parabola(1.0), body=sie.Elastic(1.0, 0.3), normal_load=1.0, friction=0.5),
+    sie.Path([(1.0, 0.2), (1.0, -0.2), (1.0, 0.2)]),
+)
+
+
+def test_the_states_of_a_generator_are_kept():
+    assert sie.Cycle(state for state in STATES).states == tuple(STATES)
+
+
+@pytest.mark.parametrize("name", ["history", "range", "swt"])
+def test_shapes_that_do_not_fit_are_refused_in_a_sentence(name):
+    with pytest.raises(ValueError, match="do not fit: give a depth for each position"):
+        getattr(sie.Cycle(STATES), name)([1.0, 2.0, 3.0], [1.0, 2.0])
+
+
 def test_one_state_is_no_cycle():
     with pytest.raises(ValueError, match="1 states make no cycle"):
         sie.Cycle([sie.solve(SCENE)])

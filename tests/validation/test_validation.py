@@ -22,7 +22,7 @@ from validation.harness.drawing import Figure, axes, draw, drawn, heat, labelled
 from validation.harness.measures import largest, smallest
 from validation.harness.progress import Progress
 from validation.harness.records import Claim, Curve, Doing, Found, Map, Table, checked, kept, plain
-from validation.harness.report import Section, number, page
+from validation.harness.report import ROOT, Section, number, page, way_to_code
 from validation.harness.running import run, workers
 from validation.harness.timing import medians
 from validation.rivals import solvers
@@ -345,7 +345,7 @@ def test_the_truth_of_sliding_agrees_with_the_closed_form():
 def test_the_shortest_of_some_calls_hides_what_a_busy_machine_adds(monkeypatch):
     """On a clock that only the two programs move; every third call is disturbed."""
     now, calls = [0.0], [0]
-    monkeypatch.setattr("validation.harness.timing.time.perf_counter", lambda: now[0])
+    monkeypatch.setattr("validation.harness.timing.time.process_time", lambda: now[0])
 
     def work(seconds):
         calls[0] += 1
@@ -389,6 +389,26 @@ def test_the_page_needs_no_network_and_fits_a_phone():
     assert html.count("<svg") == 2
     assert "<figcaption>What is seen." in html
     assert "x [mm]" in html
+
+
+def test_each_claim_links_to_its_code_from_a_page_within_the_repository():
+    out = ROOT / "build" / "validation"
+    section = Section("paper", "Paper", "", Found([claim(0.5, 2.0), claim(0.1, 2.0)]), (), 0.1)
+    html = page([section], 1.0, quick=True, way=way_to_code(out))
+    links = re.findall(r'href="([^"#]+)"', html)
+    assert [(out / link).resolve() for link in links] == 2 * [ROOT / "validation/topics/paper.py"]
+    assert links[0].startswith("../../")
+
+
+def test_a_page_outside_the_repository_names_the_code_without_a_link(tmp_path):
+    html = page([a_section("paper")], 1.0, quick=True, way=way_to_code(tmp_path))
+    assert "validation/topics/paper.py" in html
+    assert not re.search(r'href="(?!#)', html)
+
+
+def test_every_topic_of_the_report_is_the_file_that_its_claims_link_to():
+    for name in TOPICS:
+        assert (ROOT / Section(name, "", "", Found(), (), 0.0).code).is_file()
 
 
 def test_a_map_is_vector_graphics_with_a_name_for_those_who_cannot_see_it():

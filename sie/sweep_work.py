@@ -1,0 +1,146 @@
+"""What a worker does for a sweep: the wanted quantities of some of its scenes.
+
+Neighbouring points share what does not change between them, so that the normal problem under many
+tangential loads is solved once. The answers do not depend on which points are asked together.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from concurrent.futures import CancelledError
+from dataclasses import replace
+from operator import attrgetter
+from time import perf_counter
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from .errors import ContactError
+from .problem.scene import Scene
+from .solution import Solution, solve
+from .sweep_result import Answer
+from .workers import is_death
+
+Point = dict[str, Any]
+Wanted = Callable[[Solution], Any]
+
+DEFAULT = ("half_width", "centre", "normal_load", "moment", "tilt")
+
+
+def _elastic_limit(solution: Solution) -> dict[str, float]:
+    found = solution.elastic_limit()
+    return {
+        "elastic_limit": found.ratio,
+        "elastic_limit_load": found.load,
+        "elastic_limit_x": found.x,
+        "elastic_limit_y": found.y,
+    }
+
+
+def _peak_tension(solution: Solution) -> dict[str, float]:
+    found = solution.peak_tension()
+    return {"peak_tension": found.value, "peak_tension_x": found.x}
+
+
+def _edges(solution: Solution) -> dict[str, float]:
+    return dict(zip(("x1", "x2"), solution.edges, strict=True))
+
+
+QUANTITIES: dict[str, Wanted] = {
+    **{name: attrgetter(name) for name in DEFAULT},
+    **{name: attrgetter(name) for name in ("contact_length", "gap_volume")},
+    "patches": lambda s: float(len(s.patches)),
+    "edges": _edges,
+    "shear_load": lambda s: s.shear.resultant,
+    "elastic_limit": _elastic_limit,
+    "peak_tension": _peak_tension,
+    "error": lambda s: s.check().error,
+}
+
+
+class Work(NamedTuple):
+    """The question at every point."""
+
+    scene: Scene | Callable[..., Scene]
+    wanted: dict[str, str | Wanted]
+    tol: float
+
+
+class Part(NamedTuple):
+    """The answers of the first points of a chunk, and the time that they took in seconds."""
+
+    answers: list[Answer]
+    seconds: float
+
+
+def answers_of(work: Work, limit: float, points: list[Point]) -> Part:
+    """The answers of one chunk, those alone that begin within so many seconds."""
+    answers: list[Answer] = []
+    last: Solution | None = None
+    begin = perf_counter()
+    for point in points:
+        if answers and perf_counter() - begin > limit:
+            break
+        answer, last = answer_at(work, point, last)
+        answers.append(answer)
+    return Part(answers, perf_counter() - begin)
+
+
+def answer_at(work: Work, point: Point, last: Solution | None) -> tuple[Answer, Solution | None]:
+    """The answer at a point, and the solution that the next point may share stages with."""
+    try:
+        last = _solution(work.scene, point, work.tol, last)
+        return (_values(last, work.wanted), ""), last
+    # a user's function may raise any error: one point must not lose the others
+    except Exception as problem:
+        return ({}, reason(problem)), last
+
+
+def reason(problem: Exception) -> str:
+    """The message of an error, after its class if it is none of this package."""
+    if isinstance(problem, CancelledError):
+        return "the executor was closed before it computed this chunk: ask for these points again"
+    if is_death(problem):
+        return (
+            "the process that computed this chunk died: its memory was exhausted, or a function "
+            "that is wanted crashed; ask for these points alone, or with a smaller chunk"
+        )
+    return (
+        str(problem)
+        if isinstance(problem, (ContactError, ValueError))
+        else f"{type(problem).__name__}: {problem}"
+    )
+
+
+def _solution(scene: Any, point: Point, tol: float, last: Solution | None) -> Solution:
+    """The solution at a point, with the stages of the last one that cannot have changed."""
+    if not isinstance(scene, Scene):
+        return solve(scene(**point), tol=tol)
+    changes = {name: value for name, value in point.items() if "." not in name}
+    of_profile = {
+        name.removeprefix("profile."): value for name, value in point.items() if "." in name
+    }
+    if of_profile:
+        changes["profile"] = replace(changes.get("profile", scene.profile), **of_profile)
+    base = last if last is not None else solve(replace(scene), tol=tol)
+    return base.with_(**changes)
+
+
+def _values(solution: Solution, wanted: dict[str, Any]) -> dict[str, Any]:
+    values: dict[str, Any] = {}
+    for name, quantity in wanted.items():
+        value = (QUANTITIES[quantity] if isinstance(quantity, str) else quantity)(solution)
+        values |= value if isinstance(value, Mapping) else {name: value}
+    return {name: _floats(name, value) for name, value in values.items()}
+
+
+def _floats(name: str, value: Any) -> Any:
+    if type(value) is float:
+        return np.float64(value)
+    try:
+        array = np.asarray(value)
+        if array.dtype.kind in "biuf":
+            return array.astype(float)
+    except ValueError:  # lists of unequal lengths
+        pass
+    raise ValueError(f"{name} is neither a number nor an array of numbers: {type(value).__name__}")

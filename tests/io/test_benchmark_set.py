@@ -1,0 +1,218 @@
+"""`sie benchmark-set`: the references are those of closed forms in 30 digits; all files or none."""
+
+import csv
+import json
+
+import mpmath
+import pytest
+
+import sie
+from analytic import cattaneo, hertz, rounded_flat, spence, two_parabolas
+from oracles import normal_contact
+from sie import files
+from sie.cli import main
+from sie.io import benchmark_set as module
+from sie.io import export, scene_file
+
+CASES = ("cattaneo", "hertz", "rounded-flat", "spence", "two-parabolas")
+each = pytest.mark.parametrize("case", CASES)
+mp = mpmath.mp.clone()
+mp.dps = 30
+
+P, Q, F = mp.mpf(500), mp.mpf(100), mp.mpf(3) / 10
+ONE_BODY = mp.mpf(210000) / (1 - mp.mpf(9) / 100)  # E* on a rigid body; of two it is half of that
+CYLINDER = {"radius": mp.mpf(50), "modulus": ONE_BODY / 2}
+PUNCH = {"half_flat": mp.mpf(1), **CYLINDER}
+FEET = {"normal_load": P, "distance": mp.mpf(1) / 2, **CYLINDER}
+SHEARED = {"normal_load": P, "tangential_load": Q, "friction": F}
+# c/b, by `analytic.spence` in a context of 25 digits: too slow for a test
+STICK_OF_SPENCE = 0.689086556525865868839616
+EPS = 1e-14
+
+
+@pytest.fixture(scope="module")
+def texts():
+    return module.benchmark_set({"csv": export.csv_text, "json": export.json_text})
+
+
+def columns(text):
+    rows = list(csv.DictReader(line for line in text.splitlines() if not line.startswith("#")))
+    return {name: [float(row[name]) for row in rows] for name in rows[0]}
+
+
+def numbers(texts, case):
+    return json.loads(texts[f"{case}.json"]), columns(texts[f"{case}.csv"])
+
+
+def agrees(table, name, exact, edges):
+    """At a distance d from an edge the last digit of the edge is seen as sqrt(b/d) digits."""
+    peak = max(table[name])
+    for x, value in zip(map(mp.mpf, table["x"]), table[name], strict=True):
+        distance = min(abs(abs(x) - edge) for edge in edges) / edges[-1]
+        assert mp.sqrt(distance) * abs(value - exact(x)) < EPS * peak
+
+
+# -- what the files hold --------------------------------------------------------------------------
+
+
+def test_each_case_has_its_input_and_its_references(texts):
+    endings = (".toml", ".csv", ".json")
+    assert set(texts) == {"README.md", *(case + ending for case in CASES for ending in endings)}
+
+
+@each
+def test_the_references_are_those_of_the_input(texts, case):
+    scene = scene_file.parse(texts[f"{case}.toml"]).scene
+    answer, _ = numbers(texts, case)
+    assert sie.Scene.from_dict(answer["scene"]) == scene
+    assert tuple(answer["edges"]) == sie.solve(scene).edges
+
+
+@each
+def test_the_references_name_units_and_elastic_constants(texts, case):
+    answer, _ = numbers(texts, case)
+    assert answer["units"] == {"length": "mm", "force": "N/mm", "stress": "MPa", "moment": "N"}
+    assert answer["scene"]["body"] == {"young": 210e3, "poisson": 0.3}
+
+
+@each
+def test_every_number_of_a_table_has_all_digits_of_a_double(texts, case):
+    lines = [line for line in texts[f"{case}.csv"].splitlines() if not line.startswith("#")]
+    cells = [cell for line in lines[1:] for cell in line.split(",")]
+    assert cells == [repr(float(cell)) for cell in cells]
+
+
+@each
+def test_the_certificate_of_every_case_is_met(texts, case):
+    assert numbers(texts, case)[0]["check"]["ok"]
+
+
+@each
+def test_the_readme_has_the_edge_of_every_case(texts, case):
+    edge = numbers(texts, case)[0]["edges"][1]
+    assert f"| {case} | edge of the contact, mm | {edge!r} |" in texts["README.md"]
+
+
+# -- against closed forms in 30 digits ------------------------------------------------------------
+
+
+@pytest.mark.parametrize("case", ["hertz", "cattaneo"])
+def test_the_pressure_of_a_cylinder_is_that_of_hertz(texts, case):
+    answer, table = numbers(texts, case)
+    b = hertz.half_width(normal_load=P, **CYLINDER, lib=mp)
+    assert answer["edges"][1] == pytest.approx(float(b), rel=EPS)
+    peak = hertz.peak_pressure(half_width=b, **CYLINDER, lib=mp)
+    assert answer["pressure"]["peak"]["p"] == pytest.approx(float(peak), rel=EPS)
+
+    agrees(table, "p", lambda x: hertz.pressure(x, half_width=b, **CYLINDER, lib=mp), [b])
+
+
+def test_the_pressure_of_a_rounded_punch_is_the_closed_form(texts):
+    answer, table = numbers(texts, "rounded-flat")
+    rim = rounded_flat.rim(normal_load=P, **PUNCH, lib=mp)
+    assert answer["edges"][1] == pytest.approx(float(1 + rim), rel=EPS)
+    agrees(table, "p", lambda x: rounded_flat.pressure(x, rim=rim, **PUNCH, lib=mp), [1 + rim])
+
+
+def test_the_stick_zone_is_that_of_cattaneo(texts):
+    shear = numbers(texts, "cattaneo")[0]["shear"]
+    b = hertz.half_width(normal_load=P, **CYLINDER, lib=mp)
+    c = cattaneo.stick_half_width(half_width=b, **SHEARED, lib=mp)
+    assert shear["stick"][0][1] == pytest.approx(float(c), rel=EPS)
+
+
+def test_the_shear_is_that_of_cattaneo(texts):
+    _, table = numbers(texts, "cattaneo")
+    b = hertz.half_width(normal_load=P, **CYLINDER, lib=mp)
+    c = cattaneo.stick_half_width(half_width=b, **SHEARED, lib=mp)
+    agrees(table, "q", lambda x: cattaneo.shear(x, half_width=b, **SHEARED, lib=mp), [c, b])
+
+
+def test_the_stick_zone_is_that_of_spence_in_25_digits(texts):
+    answer, _ = numbers(texts, "spence")
+    b, c = answer["edges"][1], answer["shear"]["stick"][0][1]
+    assert c / b == pytest.approx(STICK_OF_SPENCE, rel=1e-13)
+
+
+def test_the_stick_zone_and_the_load_are_those_of_spence(texts):
+    answer, _ = numbers(texts, "spence")
+    # Dundurs' second constant of a rigid body on one with nu = 0.3: (1 - 2 nu)/(2 (1 - nu))
+    given = {"half_width": answer["edges"][1], "friction": 0.3, "dundurs": 2.0 / 7.0}
+    c = spence.stick_half_width(**given)
+    assert answer["shear"]["stick"][0][1] == pytest.approx(c, rel=1e-11)
+    load = spence.load(**given, coefficient=0.01, exponent=2.0, modulus=float(ONE_BODY))
+    assert load == pytest.approx(500.0, rel=1e-11)
+
+
+def test_edges_and_pressure_of_two_feet_are_those_of_the_closed_form(texts):
+    answer, table = numbers(texts, "two-parabolas")
+    inner, outer = two_parabolas.edges(**FEET, lib=mp)
+    assert answer["patches"][1] == pytest.approx([float(inner), float(outer)], rel=EPS)
+    ends = {"inner": inner, "outer": outer}
+    agrees(
+        table,
+        "p",
+        lambda x: two_parabolas.pressure(x, **ends, **CYLINDER, lib=mp),
+        [inner, outer],
+    )
+
+
+def test_the_edge_of_the_rounded_punch_is_that_of_a_quadrature_in_40_digits(texts):
+    slope = normal_contact.polynomials([-9.0, -1.0, 1.0, 9.0], [[1.0, 1.0], [0.0], [-1.0, 1.0]])
+    # Slopes are 50 times those of the punch, the modulus is as much smaller.
+    modulus = CYLINDER["modulus"] / CYLINDER["radius"]
+    contact = normal_contact.contact(slope, modulus, (-1.3, 1.3), load=P, symmetric=True)
+    edge = numbers(texts, "rounded-flat")[0]["edges"][1]
+    assert edge == pytest.approx(float(contact.x2), rel=EPS)
+
+
+# -- where the files go ---------------------------------------------------------------------------
+
+
+@pytest.fixture
+def short(monkeypatch):
+    """A set of two files, in place of the computed one."""
+    texts = {"README.md": "µ", "hertz.csv": "x,p\n"}
+    monkeypatch.setattr(module, "benchmark_set", lambda formats: texts)
+
+
+@pytest.mark.usefixtures("short")
+@pytest.mark.parametrize("there", [False, True], ids=["new", "empty"])
+def test_the_command_writes_the_set_into_a_new_or_an_empty_directory(tmp_path, capsys, there):
+    folder = tmp_path / "set"
+    if there:
+        folder.mkdir()
+    assert main(["benchmark-set", str(folder)]) == 0
+    found = {path.name: path.read_text(encoding="utf-8") for path in folder.iterdir()}
+    assert found == {"README.md": "µ", "hertz.csv": "x,p\n"}
+    assert capsys.readouterr().out.startswith("wrote 2 files")
+
+
+@pytest.mark.usefixtures("short")
+@pytest.mark.parametrize("name", ["full", "file", "nowhere/set", "file/set"])
+def test_any_other_place_is_refused_and_stays_as_it_is(tmp_path, capsys, name):
+    (tmp_path / "full").mkdir()
+    (tmp_path / "full" / "notes").touch()
+    (tmp_path / "file").touch()
+    before = sorted(tmp_path.rglob("*"))
+    assert main(["benchmark-set", str(tmp_path / name)]) == 2
+    out, err = capsys.readouterr()
+    assert out == "" and err.startswith("sie: ") and err.count("\n") == 1
+    assert sorted(tmp_path.rglob("*")) == before
+
+
+@pytest.mark.usefixtures("short")
+@pytest.mark.parametrize("there", [False, True], ids=["new", "empty"])
+def test_a_write_that_fails_leaves_no_file_and_no_new_directory(
+    tmp_path, monkeypatch, capsys, there
+):
+    def full(part, data, like):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(files, "_write_part", full)
+    folder = tmp_path / "set"
+    if there:
+        folder.mkdir()
+    assert main(["benchmark-set", str(folder)]) == 2
+    assert "No space left" in capsys.readouterr().err
+    assert list(tmp_path.rglob("*")) == ([folder] if there else [])

@@ -1,0 +1,107 @@
+"""What is released agrees with the package: its data, the conda-forge recipe, the paper."""
+
+import re
+import tomllib
+from pathlib import Path
+
+import pytest
+import yaml
+
+import sie
+
+ROOT = Path(__file__).parent.parent.parent
+PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
+RECIPE = yaml.safe_load((ROOT / "packaging/conda-forge/recipe.yaml").read_text(encoding="utf-8"))
+PAPER = (ROOT / "paper" / "paper.md").read_text(encoding="utf-8")
+REFERENCES = (ROOT / "paper" / "paper.bib").read_text(encoding="utf-8")
+CONDA_NAMES = {"matplotlib": "matplotlib-base"}
+
+
+def conda(requirements):
+    """Requirements as conda writes them, without that of Python."""
+    split = (re.fullmatch(r"([\w-]+)(.*)", text).groups() for text in requirements)
+    return sorted(f"{CONDA_NAMES.get(name, name)} {bound}" for name, bound in split)
+
+
+def without_python(requirements):
+    return sorted(text for text in requirements if not text.startswith("python "))
+
+
+# -- the wheel and the source distribution --------------------------------------------------------
+
+
+@pytest.mark.parametrize("package", ["sie", "analytic"])
+def test_every_file_that_a_package_reads_is_in_its_data(package):
+    patterns = PROJECT["tool"]["setuptools"]["package-data"]
+    listed = {
+        path
+        for name, globs in patterns.items()
+        for glob in globs
+        for path in ROOT.joinpath(*name.split(".")).glob(glob)
+    }
+    files = {path for path in (ROOT / package).rglob("*") if path.is_file()}
+    assert {path for path in files if path.suffix not in {".py", ".pyc"}} <= listed
+
+
+def test_the_source_distribution_has_what_the_recipe_tests():
+    rules = (ROOT / "MANIFEST.in").read_text(encoding="utf-8").split()
+    always = ["MANIFEST.in", "README.md", "pyproject.toml"]
+    for name in RECIPE["tests"][1]["files"]["source"]:
+        assert (ROOT / name).exists()
+        assert name.rstrip("/") in [*rules, *always]
+
+
+# -- the recipe -----------------------------------------------------------------------------------
+
+
+def test_the_recipe_has_the_version_of_the_package():
+    assert RECIPE["context"]["version"] == sie.__version__
+
+
+def test_the_recipe_asks_for_the_oldest_python_of_the_package():
+    assert PROJECT["project"]["requires-python"] == f">={RECIPE['context']['python_min']}"
+
+
+def test_the_recipe_has_the_dependencies_of_the_package():
+    found = without_python(RECIPE["requirements"]["run"])
+    assert found == conda(PROJECT["project"]["dependencies"])
+
+
+def test_the_recipe_builds_with_the_backend_of_the_package():
+    assert set(conda(PROJECT["build-system"]["requires"])) <= set(RECIPE["requirements"]["host"])
+
+
+def test_the_recipe_tests_with_what_the_tests_need():
+    found = without_python(RECIPE["tests"][1]["requirements"]["run"])
+    assert found == conda(PROJECT["project"]["optional-dependencies"]["test"])
+
+
+def test_the_recipe_has_the_commands_of_the_package():
+    scripts = [f"{name} = {place}" for name, place in PROJECT["project"]["scripts"].items()]
+    assert RECIPE["build"]["python"]["entry_points"] == scripts
+
+
+# -- the paper ------------------------------------------------------------------------------------
+
+
+def test_the_paper_cites_what_it_lists_and_lists_what_it_cites():
+    _, _, text = PAPER.split("---\n", 2)
+    cited = set(re.findall(r"@(\w+)", text))
+    assert cited == set(re.findall(r"@\w+\{(\w+),", REFERENCES))
+
+
+def test_the_numbers_of_the_paper_are_those_of_the_readme():
+    def rows(text):
+        lines = [line for line in text.splitlines() if re.match(r"\|.*\d\.\de[+-]\d\d", line)]
+        return [re.split(r"(?<!\\)\|", line)[1:5] for line in lines]
+
+    readme = rows((ROOT / "README.md").read_text(encoding="utf-8"))
+    assert len(readme) > 0
+    assert rows(PAPER) == readme
+
+
+def test_the_paper_has_the_fields_that_a_journal_reads():
+    fields = yaml.safe_load(PAPER.split("---\n", 2)[1])
+    assert {"title", "tags", "authors", "affiliations", "date", "bibliography"} <= set(fields)
+    assert (ROOT / "paper" / fields["bibliography"]).exists()
+    assert "\n# Statement of need\n" in PAPER
