@@ -1,7 +1,10 @@
 """The site's build: `make -C docs html`, without a request to another machine."""
 
 import re
+import subprocess
+import sys
 from pathlib import Path
+from subprocess import DEVNULL
 
 from docutils import nodes
 
@@ -111,7 +114,19 @@ def _save_live_page(app, failure):
         (Path(app.outdir) / "live.html").write_text(text, encoding="utf-8")
 
 
+def _validate(app, failure):
+    """The report of a quick validation, which the page on validation links to.
+
+    A claim that fails stands in it, and is no failure of the build.
+    """
+    if failure is None and app.builder.name == "html":
+        out = Path(app.outdir) / "validation"
+        command = [sys.executable, "-m", "validation", "--quick", "--out", str(out)]
+        subprocess.run(command, cwd=Path(__file__).parent.parent, stdout=DEVNULL, check=False)
+
+
 def setup(app):
     app.connect("doctree-read", _mark_numbers)
     app.connect("build-finished", _save_live_page)
+    app.connect("build-finished", _validate)
     app.connect("autodoc-process-docstring", _as_restructured_text, priority=100)

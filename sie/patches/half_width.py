@@ -188,7 +188,9 @@ class Search:
             if now.constant:
                 raise LoadError(self._of_many(now))
             return True
-        return last < SETTLED and abs(step) >= 0.5 * last
+        # The step may ask for less than the load resolves, or for no less than the one before. A
+        # bisection is no such step: it leads away.
+        return abs(step) <= ROUNDING * EPS or 0.5 * last <= abs(step) < SETTLED
 
     def bracketed(self, now: Width) -> tuple[Width, Width] | None:
         """Half-widths on both sides of r, the lighter load first; None if there are none yet."""

@@ -1,6 +1,7 @@
 """The load of a half-width that several patches have together."""
 
 import re
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -9,6 +10,7 @@ import sie
 from analytic import parabola_row, wavy
 from sie.io import scene_file
 from sie.io.report import tension_summary
+from sie.patches.half_width import Search, Width
 
 TWO = sie.Row([sie.Parabola(1.0).shifted(-1.0), sie.Parabola(0.5).shifted(0.9).raised(0.02)])
 FLATS = sie.Row([sie.Flat(0.4).shifted(-0.6), sie.Flat(0.55).shifted(0.85)])
@@ -124,3 +126,10 @@ def test_noise_of_a_trace_moves_the_edges_of_a_given_half_width_together():
 def test_a_surface_without_tension_is_said_to_have_none(profile):
     report = tension_summary(solved(profile=profile, normal_load=0.4), scene_file.UNITS)
     assert "none" in report and "x =" not in report
+
+
+def test_a_load_beside_the_one_that_is_sought_ends_no_search():
+    """As after a bisection next to the answer, which rounding kept from being met."""
+    search = SimpleNamespace(r=0.475)
+    beside = Width(3.1222327, 0.474986, 4.255, None)
+    assert not Search.reached(search, beside, 6.7e-6, 7.3e-16)
