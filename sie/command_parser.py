@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 import math
 import os
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any, NoReturn
 
 from . import __version__
@@ -124,6 +124,12 @@ def parser() -> argparse.ArgumentParser:
         )
         about = "say on standard error what is read, computed and written: info or debug"
         commands[name].add_argument("--log", metavar="LEVEL", choices=LEVELS, help=about)
+    _add_options(commands)
+    return parser
+
+
+def _add_options(commands: Mapping[str, argparse.ArgumentParser]) -> None:
+    """The options and words that some of the commands take."""
     for name in ("solve", "plan"):
         about = f"what to answer: {', '.join(WANTS)} ({', '.join(UNASKED)})"
         commands[name].add_argument(
@@ -145,7 +151,6 @@ def parser() -> argparse.ArgumentParser:
         "folder", metavar="DIR", help="where to write them: a new or an empty directory"
     )
     commands["completion"].add_argument("shell", metavar="SHELL", help="bash, zsh or tcsh")
-    return parser
 
 
 def _add_outputs_of_solve(parser: argparse.ArgumentParser) -> None:
