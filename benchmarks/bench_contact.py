@@ -13,8 +13,8 @@ import pytest
 
 import sie
 from sie.contact.edges import Search
-from sie.friction.coupled_flat import flat_punch
-from sie.friction.coupled_functions import flat_functions
+from sie.friction.coupled.flat import flat_punch
+from sie.friction.coupled.functions import flat_functions
 from validation.harness.timing import compared
 from validation.topics.speed import closed_form
 

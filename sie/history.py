@@ -41,14 +41,14 @@ from .contact.inequalities import slope_rises
 from .contact.known_contact import Normal
 from .errors import ContactError, LoadError
 from .friction.dissipation import Dissipation
-from .friction.known_zones import KnownZones
-from .friction.load_steps import Followable, turning_points
+from .friction.load_history.known_zones import KnownZones
+from .friction.load_history.load_steps import Followable, turning_points
+from .friction.load_history.marching import march
+from .friction.load_history.path_slip import MarchedSlip, PathSlip, held, step_shift
+from .friction.load_history.turning_point import TurningPoint
 from .friction.loads import Loads
-from .friction.marching import march
-from .friction.path_slip import MarchedSlip, PathSlip, held, step_shift
 from .friction.slip_state import NoSlip, Slip
 from .friction.states import OneSignedSlip
-from .friction.turning_point import TurningPoint
 from .numerics.interval import EPS, Interval
 from .patches.answer import SeveralPatches
 from .patches.dissipation import PatchDissipation, Untouched
@@ -137,7 +137,7 @@ class History(Sequence[Solution]):
     A history is a sequence: `history[k]` is the `Solution` at turning point k, made when it is
     asked for. Stages that the points share are solved once. `history.path` is the path. The methods
     that take loads, a depth or an index serve the states of slip, which are made of contacts under
-    other loads (`sie.friction.path_slip`).
+    other loads (`sie.friction.load_history.path_slip`).
     """
 
     def __init__(

@@ -30,17 +30,17 @@ from .contact.normal import contact_under, normal_contact
 from .contact.pressure import pressure
 from .errors import ContactError, InequalityError, LoadError, ResolutionError
 from .friction.contact_growth import ContactGrowth
-from .friction.coupled_contact import CoupledContact
-from .friction.coupled_energy import tangential_energy
-from .friction.coupled_normal import coupled_contact
-from .friction.coupled_sheared import ShearedContact, sheared_contact
-from .friction.coupled_shift import tangential_shift
-from .friction.coupled_tangential import TangentialSearch, tangential_search
-from .friction.coupled_traction import OnHalves
+from .friction.coupled.contact import CoupledContact
+from .friction.coupled.energy import tangential_energy
+from .friction.coupled.normal import coupled_contact
+from .friction.coupled.sheared import ShearedContact, sheared_contact
+from .friction.coupled.shift import tangential_shift
+from .friction.coupled.tangential import TangentialSearch, tangential_search
+from .friction.coupled.traction import OnHalves
 from .friction.dissipation import dissipated
 from .friction.full_stick import Component, full_stick_contact
-from .friction.goodman import GoodmanSlip, goodman_slip
-from .friction.goodman_departure import departure
+from .friction.goodman.departure import departure
+from .friction.goodman.slip import GoodmanSlip, goodman_slip
 from .friction.partial_slip import slip
 from .friction.slip_state import Slip, Step
 from .kept_stages import changed_scene, kept_stages

@@ -25,10 +25,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import arguments
 from .errors import ContactError
-from .friction.changing_contact import ChangingContact
-from .friction.load_steps import steady_points
+from .friction.load_history.changing_contact import ChangingContact
+from .friction.load_history.load_steps import steady_points
+from .friction.load_history.path_slip import step_slip
 from .friction.loads import Loads
-from .friction.path_slip import step_slip
 from .friction.slip_state import Slip
 from .history import History
 from .numerics.zones import within

@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie.contact.small_strains import notes
-from sie.friction.coupled_contact import CoupledContact
+from sie.friction.coupled.contact import CoupledContact
 from sie.numerics.gauss_jacobi import with_weight
 from sie.numerics.interval import EPS
 from sie.problem.scene import Scene

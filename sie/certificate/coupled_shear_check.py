@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie.contact.small_strains import notes
-from sie.friction.coupled_sheared import ShearedContact
+from sie.friction.coupled.sheared import ShearedContact
 from sie.numerics.gauss_jacobi import with_weight
 from sie.numerics.interval import EPS
 from sie.problem.scene import Scene

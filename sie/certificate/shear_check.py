@@ -19,7 +19,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from sie.friction.marched_step import MarchedStep
+from sie.friction.load_history.marched_step import MarchedStep
 from sie.friction.slip_state import GrownSlip, Slip
 from sie.numerics.gauss_jacobi import with_weight
 from sie.numerics.interval import EPS, Interval

@@ -29,11 +29,11 @@ import numpy as np
 from sie.errors import ContactError
 from sie.numerics.interval import Interval
 
+from .load_history.turning_point import TurningPoint
 from .loads import Loads
 from .memory import BALANCED, LoadMemory, SlipEvent, in_proportion
 from .slip_state import Slip
 from .step_conditions import SLACK, TESTED, inside, opens
-from .turning_point import TurningPoint
 
 
 class Contacts(Protocol):

@@ -14,15 +14,15 @@ from typing import Protocol
 import numpy as np
 
 from sie.errors import ContactError
-from sie.friction import changing_contact
-from sie.friction.changing_contact import ChangingContact
 from sie.friction.dissipation import Dissipation, dissipated
+from sie.friction.load_history import changing_contact
+from sie.friction.load_history.changing_contact import ChangingContact
+from sie.friction.load_history.marched_step import MarchedStep
+from sie.friction.load_history.moving_work import work
+from sie.friction.load_history.turning_point import TurningPoint
 from sie.friction.loads import Loads
-from sie.friction.marched_step import MarchedStep
 from sie.friction.memory import SlippedLayer
-from sie.friction.moving_work import work
 from sie.friction.slip_state import Slip
-from sie.friction.turning_point import TurningPoint
 from sie.numerics.interval import Interval
 
 from .dissipation import PatchDissipation

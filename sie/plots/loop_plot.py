@@ -19,7 +19,7 @@ from matplotlib.path import Path as Curve
 from numpy.typing import NDArray
 
 from sie.errors import ContactError
-from sie.friction.turning_point import TurningPoint
+from sie.friction.load_history.turning_point import TurningPoint
 from sie.io.scene_file import Units
 from sie.problem.load_path import Path
 from sie.solution import Solution

@@ -14,12 +14,12 @@ import sie
 from analytic import goodman
 from oracles import spence
 from sie.certificate.coupled_check import coupled_certificate
-from sie.friction import coupled_flat
-from sie.friction.coupled_flat import flat_punch
-from sie.friction.coupled_functions import flat_functions
-from sie.friction.coupled_growth import power_law_moment
-from sie.friction.coupled_traction import DEGREE, HalfPotential, Panels, on_panels, resolved_panels
-from sie.friction.coupled_zones import NODES, _from_others
+from sie.friction.coupled import flat as coupled_flat
+from sie.friction.coupled.flat import flat_punch
+from sie.friction.coupled.functions import flat_functions
+from sie.friction.coupled.growth import power_law_moment
+from sie.friction.coupled.traction import DEGREE, HalfPotential, Panels, on_panels, resolved_panels
+from sie.friction.coupled.zones import NODES, _from_others
 from sie.numerics.gauss_jacobi import gauss_jacobi
 
 # Half-width of the stick zone and b p(0)/P of a flat punch, and P R/(E* b²) M of a parabola, in 32

@@ -14,13 +14,13 @@ import pytest
 import sie
 from sie.certificate.coupled_check import gradient_of_slip
 from sie.certificate.coupled_shear_check import sheared_certificate
-from sie.friction.coupled_energy import CERTIFIED, STARTS, Growth, _integral
-from sie.friction.coupled_functions import flat_functions
-from sie.friction.coupled_gradient import SlipGradient
-from sie.friction.coupled_sheared import ShearedContact
-from sie.friction.coupled_slip_rate import SlipRate
-from sie.friction.coupled_tangential import TangentialSearch
-from sie.friction.coupled_zones import Map, Zones
+from sie.friction.coupled.energy import CERTIFIED, STARTS, Growth, _integral
+from sie.friction.coupled.functions import flat_functions
+from sie.friction.coupled.gradient import SlipGradient
+from sie.friction.coupled.sheared import ShearedContact
+from sie.friction.coupled.slip_rate import SlipRate
+from sie.friction.coupled.tangential import TangentialSearch
+from sie.friction.coupled.zones import Map, Zones
 from sie.io import scene_file
 from sie.numerics.elliptic import modulus_of
 

@@ -11,7 +11,7 @@ import pytest
 import sie
 from analytic import goodman
 from sie.certificate.shear_check import goodman_certificate
-from sie.friction.goodman_functions import goodman_flat
+from sie.friction.goodman.functions import goodman_flat
 from sie.io.scene_file import parse
 
 SYMMETRIC = {

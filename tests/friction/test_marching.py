@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 import sie
 from oracles.kalker import Mesh
 from oracles.load_history import history as on_a_mesh
-from sie.friction.load_steps import loads_of, turning_points
+from sie.friction.load_history.load_steps import loads_of, turning_points
 from sie.history import History
 
 P0, f = np.pi / 4.0, 0.3

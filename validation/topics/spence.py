@@ -21,9 +21,9 @@ from oracles import spence
 from sie.certificate.coupled_check import coupled_certificate
 from sie.certificate.coupled_shear_check import sheared_certificate
 from sie.certificate.shear_check import goodman_certificate
-from sie.friction.coupled_flat import flat_punch
-from sie.friction.coupled_sheared import ShearedContact
-from sie.friction.goodman import GoodmanSlip
+from sie.friction.coupled.flat import flat_punch
+from sie.friction.coupled.sheared import ShearedContact
+from sie.friction.goodman.slip import GoodmanSlip
 from validation.harness.measures import largest, smallest
 from validation.harness.records import Claim, Curve, Doing, Map, Record, Table
 

@@ -1,0 +1,1 @@
+"""Partial slip of dissimilar bodies, both equations coupled."""

@@ -1,0 +1,268 @@
+"""The contact of dissimilar bodies under a symmetric convex profile, pressed with friction.
+
+Zones, tractions, slip, gap and dissipated energy follow from P' and the half-width b
+(`normal`).
+
+β < 0 only turns the sign of the shear and of the slip.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from functools import cached_property, lru_cache
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from sie.numerics.interval import EPS, interval_about
+from sie.profiles.base import Profile
+from sie.traction.base import on_line, zero_or_nan
+
+from .functions import FlatFunctions
+from .growth import load_slope
+from .interpolation import interpolated
+from .panels import graded, totals
+from .profile import GrowthPanel, Superposition
+from .traction import CoupledTraction, Panels, resolved_panels
+
+Array = NDArray[np.float64]
+
+WIDER = 1.0 + 64.0 * EPS  # than the frictionless contact: as far as P' is known
+FALLING = 1e-9  # of the largest P': below it a negative one is not rounding
+ENERGY_NODES = 24
+FEW = 12  # marks: between more of them interpolation saves little
+# half-widths: the first panel beside the edge, where H has a power of the distance
+NEAR_EDGE = 1e-9
+
+
+@dataclass(frozen=True, eq=False)
+class CoupledContact:
+    """The state under the load P, with y = |x - axis|.
+
+    flat            functions of the flat punch; |β| and f
+    growth          P' on panels, from the axis outwards
+    corner_load     what an indenter whose end is a corner carries beyond ∫P'
+    axis, ahead     the contact is axis ± b, b = a + ahead beyond the flat base
+    load            P
+    sign            of β
+    half_modulus    E*/2
+    kinks           y at which h' or h'' jumps, up to b
+    """
+
+    flat: FlatFunctions
+    growth: tuple[GrowthPanel, ...]
+    corner_load: float
+    axis: float
+    ahead: float
+    load: float
+    sign: float
+    half_modulus: float
+    kinks: tuple[float, ...] = field(default=())
+
+    @cached_property
+    def b(self) -> float:
+        """Half the width of the contact."""
+        return (self.growth[0].origin if self.growth else 0.0) + self.ahead
+
+    @property
+    def c(self) -> float:
+        """Half the width of the stick zone."""
+        return self.b if self.full_stick else self.flat.c * self.b
+
+    @property
+    def stick(self) -> tuple[tuple[float, float], ...]:
+        return ((self.axis - self.c, self.axis + self.c),)
+
+    @property
+    def slip_zones(self) -> tuple[tuple[float, float, float], ...]:
+        """(lo, hi, sign of q)."""
+        if self.full_stick:
+            return ()
+        left = (self.axis - self.b, self.axis - self.c, -self.sign)
+        return left, (self.axis + self.c, self.axis + self.b, self.sign)
+
+    @cached_property
+    def tractions(self) -> tuple[CoupledTraction, CoupledTraction]:
+        """p and q with their potentials, which share their panels."""
+        contact = interval_about(self.axis, self.b).rounded((self.axis,))
+
+        @lru_cache(maxsize=1)
+        def panels() -> tuple[Panels, ...]:
+            return resolved_panels((self.pressure, self.shear), self.marks, self.edge_power)
+
+        return (
+            CoupledTraction(
+                self.pressure, lambda: panels()[0], 1.0, self.load, self.marks, contact
+            ),
+            CoupledTraction(self.shear, lambda: panels()[1], -1.0, 0.0, self.marks, contact),
+        )
+
+    @property
+    def edge_power(self) -> float:
+        """The exponent of the tractions at the edge."""
+        return -self.flat.h if self.corner_load else 1.0 - self.flat.h
+
+    @property
+    def marks(self) -> tuple[float, ...]:
+        """y where p or q is not smooth, up to b: kinks of the profile, and c times them."""
+        places = (*self.kinks, self.b, self.flat_base)
+        inside = {y for place in places for y in (place, self.flat.c * place) if 0.0 < y < self.b}
+        return (*sorted(inside), self.b)
+
+    def relative_slip(self, x: ArrayLike) -> Array:
+        """The slip at x, same shape: 0 outside the contact."""
+
+        def value(flat: Array) -> Array:
+            y = np.abs(flat - self.axis)
+            inside = y <= self.b
+            g = np.zeros(flat.shape)
+            g[inside] = np.sign(flat[inside] - self.axis) * self.slip(y[inside])
+            return g
+
+        return on_line(value, x)
+
+    def gap(self, x: Array, profile: Profile) -> Array:
+        """The gap between the deformed bodies: 0 in contact."""
+        flat = np.asarray(x, dtype=float).ravel()
+        lo, hi = profile.domain
+        out: Array = zero_or_nan(flat)
+        out[(flat < lo) | (flat > hi) | np.isinf(flat)] = np.inf
+        y = np.abs(flat - self.axis)
+        beside = (y > self.b) & np.isfinite(flat) & (out == 0.0)
+        if beside.any():
+            edge = self.axis + self.b * np.sign(flat[beside] - self.axis)
+            rise = profile.height(flat[beside]) - profile.height(np.clip(edge, lo, hi))
+            out[beside] = rise - self.raised(y[beside])
+        return out.reshape(np.shape(x))
+
+    @property
+    def full_stick(self) -> bool:
+        """Whether the slip zones are narrower than a part FULL_STICK of the contact."""
+        return self.flat.punch.bonded
+
+    @cached_property
+    def superposition(self) -> Superposition:
+        return Superposition(self.flat, self.growth)
+
+    @property
+    def flat_base(self) -> float:
+        """Half the width of the profile's flat base, or of the flat punch."""
+        return self.growth[0].origin if self.growth else self.b
+
+    def pressure(self, y: Array, rest: Array | None = None) -> Array:
+        """p at 0 <= y <= b; rest is b - y where that is known better than from y."""
+        p = self._of(self.superposition.pressure, y)
+        if not self.flat_base:
+            p[y == 0.0] = self._pressure_on_axis
+        return p + self._of_corner(self.flat.pressure, y, self.b, rest)
+
+    def shear(self, y: Array, rest: Array | None = None) -> Array:
+        """q on the right; odd in x."""
+        deficit = self._of(self.superposition.shear_deficit, y)
+        deficit += self._of_corner(self.flat.shear_deficit, y, self.b, rest)
+        p = self.pressure(y, rest)
+        q = self.flat.friction * p
+        inside = deficit != 0.0
+        q[inside] -= deficit[inside]
+        q[y == 0.0] = 0.0
+        return self.sign * q
+
+    def slip(self, y: Array) -> Array:
+        """The slip since y came into contact, on the right; odd in x."""
+        g = self._of(self.superposition.slip, y) + self._of_corner(self.flat.slip, y, 1.0)
+        return self.sign / self.half_modulus * g
+
+    def _of(self, function: Callable[[Array, Array], Array], y: Array) -> Array:
+        def direct(y: Array) -> Array:
+            return function(y, np.full(len(y), self.ahead))
+
+        values = np.zeros(len(y))
+        inside = (y > 0.0) & (y <= self.b) if not self.flat_base else y <= self.b
+        if not self.growth or len(self.marks) > FEW:
+            values[inside] = direct(y[inside])
+        else:
+            # Smooth and even about the axis under a flat base
+            first = -self.marks[0] if self.flat_base else 0.0
+            values[inside] = interpolated(direct, np.array((first, *self.marks)), y[inside])
+        return values
+
+    def _of_corner(
+        self,
+        function: Callable[[Array, Array, Array], Array],
+        y: Array,
+        unit: float,
+        rest: Array | None = None,
+    ) -> Array:
+        """A function of the flat punch of half-width b under the load of the corner."""
+        if not self.corner_load:
+            return np.zeros(len(y))
+        t, c = y / self.b, self.flat.c
+        e = (self.b - y if rest is None else rest) / self.b
+        from_c = np.abs(self.flat.rest - e) if c > 0.5 else np.abs(t - c)
+        return self.corner_load / unit * function(t, e, from_c)
+
+    @cached_property
+    def _pressure_on_axis(self) -> float:
+        """p(0) = A(0) ∫P'/s ds without a flat base; inf under a wedge."""
+        first, *others = self.growth
+        A = float(self.flat.A(np.array([0.0]), np.array([1.0]))[0])
+        start = float(first(np.array([0.0]))[0]) if not first.power else 0.0
+        if abs(start) > FALLING * float(np.abs(first.series).max()):
+            return math.inf
+        hi = min(first.hi, self.ahead)
+        s, weight = first.rule(hi, ENERGY_NODES, -1.0 if first.power else 0.0)
+        total = float(weight @ (first(s) / s))
+        for panel in others:
+            if panel.lo < self.ahead:
+                ahead, weight = panel.rule(min(panel.hi, self.ahead) - panel.lo, ENERGY_NODES)
+                total += float(weight @ (panel(ahead) / (panel.lo + ahead)))
+        return A * total
+
+    # -- beside the contact ------------------------------------------------------------------------
+
+    def hilbert_outside(self, y: Array) -> Array:
+        """1/π PV∫p/(y - t) dt at y > b."""
+        H = load_slope(self.flat, self.growth, self.ahead, y)
+        if self.corner_load:
+            H += self.corner_load * self.flat.outside(self.b / y, (y - self.b) / y) / y
+        return H
+
+    def raised(self, y: Array) -> Array:
+        """2/E* times the integral of that from b to each y >= b.
+
+        The surfaces part by so much less than the profile rises.
+        """
+        ahead = y - self.b
+        none = np.full(len(y), np.inf)
+        owner, places, _, weight = graded(ahead, np.full(len(y), NEAR_EDGE * self.b), none)
+        H = self.hilbert_outside((self.b + places).ravel()).reshape(places.shape)
+        return totals(owner, H * weight, len(y)) / self.half_modulus
+
+    @cached_property
+    def energy(self) -> float:
+        """The dissipated energy: ∫ f p |dg| over both slip zones, while P grew."""
+        flat, total = self.flat, 0.0
+        steps = [(p, min(p.hi, self.ahead) - p.lo) for p in self.growth]
+        for panel, length in steps:
+            if length > 0.0:
+                ahead, weight = panel.rule(length, ENERGY_NODES)
+                total += float((weight * panel(ahead)) @ self._rate(panel.lo + ahead))
+        if self.corner_load:
+            # The flat's own part grows as the square of its load
+            edge = self._rate(np.array([self.ahead]))[0]
+            total += self.corner_load * float(edge) + 0.5 * self.corner_load**2 * flat.dissipation
+        return 2.0 * total / self.half_modulus
+
+    def _rate(self, ahead: Array) -> Array:
+        """∫ f p ĝ dx over c s < x < s, p the pressure under P(s), s = a + ahead."""
+        t, e, from_c, weight = self.flat.slip_places
+        s = (self.b - self.ahead) + ahead
+        x = (s[:, None] * t).ravel()
+        p = np.zeros((len(s), len(t)))
+        if self.growth:
+            p = self.superposition.pressure(x, np.repeat(ahead, len(t))).reshape(p.shape)
+        g = self.flat.slip(t, e, from_c)
+        rate: Array = s * self.flat.friction * (p @ (weight * g))
+        return rate

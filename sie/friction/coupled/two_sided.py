@@ -1,0 +1,90 @@
+"""The tractions of dissimilar bodies under P, then Q, whose halves differ, with their potentials.
+
+Both halves have the panels of `traction`, counted from a place in the stick zone: the
+potential is that of the right half less the mirror image of that of the left one.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from sie.numerics.interval import Interval
+from sie.traction.base import Complex, on_line
+
+from .traction import HalfPotential, OnHalves, Panels
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class TwoSidedTraction(OnHalves):
+    """A traction whose halves differ.
+
+    values      its values in the contact
+    resolved    computes the panels of what is right, and left, of a place
+    split       that place in the contact
+    load        its resultant
+    marks       where it or a derivative is not smooth, ascending, with the edges
+    contact     its edges
+    first       ∫q x dx, where it is known
+    """
+
+    values: Callable[[Array], Array] = field(repr=False)
+    resolved: Callable[[], tuple[Panels, ...]] = field(repr=False)
+    split: float
+    load: float
+    marks: tuple[float, ...]
+    contact: Interval
+    first: float | None = None
+
+    @property
+    def middle(self) -> float:
+        return self.split
+
+    @cached_property
+    def halves(self) -> tuple[HalfPotential, HalfPotential]:
+        right, left = self.resolved()
+        return HalfPotential(right), HalfPotential(left)
+
+    @property
+    def resultant(self) -> float:  # type: ignore[override]
+        return self.load
+
+    @cached_property
+    def moment(self) -> float:  # type: ignore[override]
+        if self.first is not None:
+            return self.first
+        (y, right), (w, left) = (half.quadrature for half in self.halves)
+        return self.middle * self.load + float(right @ y - left @ w)
+
+    @property
+    def breaks(self) -> tuple[float, ...]:
+        return self.marks
+
+    def __call__(self, x: ArrayLike) -> Array:
+        def value(flat: Array) -> Array:
+            inside = (flat >= self.contact.x1) & (flat <= self.contact.x2)
+            out = np.zeros(flat.shape)
+            out[inside] = self.values(flat[inside])
+            return out + 0.0
+
+        return on_line(value, x)
+
+    def _on_surface(self, x: Array) -> Array:
+        inside = (x >= self.contact.x1) & (x <= self.contact.x2)
+        y, out = x - self.middle, np.zeros(len(x))
+        for half, side in zip(self.halves, (1.0, -1.0), strict=True):
+            own = inside & (side * y >= 0.0)
+            out[own] = half.traction(side * y[own])
+        return out
+
+    def _potentials(self, z: Complex, derivative: bool) -> tuple[Complex, Complex]:
+        right, left = self.halves
+        F, dF = right(z, derivative)
+        G, dG = (v.conj() for v in left(-z.conj(), derivative))
+        return F - G, dF + dG

@@ -1,0 +1,262 @@
+"""How the frictionless contact of any profile grows with its load, as series in its half-width.
+
+With x1, x2 = m ∓ r and the integrals of `contact.edges`, a contact of half-width r at a given tilt
+has I0 = 0, which fixes its centre m, and
+
+    dP/dr = 2 G r/(1/JL + 1/JR),      dm/dr = (JL - JR)/(JL + JR),      G = E*/2.
+
+Both are tabulated on panels of r that end where an edge passes a break of the profile. A break
+leaves powers of (r - lo)^(1/2), so that the series are in v, r = lo + (hi - lo) v².
+"""
+
+from __future__ import annotations
+
+import itertools
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sie.contact.edge_integrals import EdgeIntegrals
+from sie.errors import ContactError
+from sie.friction.coupled.tables import chopped, summed
+from sie.numerics import chebyshev
+from sie.numerics.interval import EPS, Interval
+from sie.profiles.power_law import PowerLaw
+
+Array = NDArray[np.float64]
+
+DEGREE = 24
+DECAYED = 1e-14  # of a series, its last coefficients
+CARRIED = 1e-10  # of the load, at first touch: more than rounding
+NEGLIGIBLE = 1e-14  # of the load over the half-width: what a short panel may miss of the pressure
+MOST_BREAKS = 12  # each asks for panels of its own, and for minutes where they are many
+MOST = 200  # panels: beyond, none is cut
+CUT = 0.3  # of a panel: where it is cut
+NEWTONS, SETTLED = 60, 4.0 * EPS
+
+
+@dataclass(frozen=True, eq=False)
+class Panel:
+    """dP/dr = r^power Σ w_k T_k(2v - 1), the centre Σ m_k T_k from that of the whole contact."""
+
+    lo: float
+    hi: float
+    power: float
+    load_rate: Array = field(repr=False)
+    centre: Array = field(repr=False)
+
+    def _place(self, ahead: Array) -> Array:
+        place: Array = 2.0 * np.sqrt(np.maximum(ahead / (self.hi - self.lo), 0.0)) - 1.0
+        return place
+
+    def at(self, ahead: Array) -> tuple[Array, Array]:
+        """dP/dr and the centre at r = lo + ahead."""
+        y = self._place(ahead)
+        rate = summed(self.load_rate, y)
+        if self.power:
+            rate = rate * (self.lo + ahead) ** self.power
+        return rate, self.centre_at(ahead)
+
+    def centre_at(self, ahead: Array) -> Array:
+        if not self.centre.any():
+            return np.zeros_like(ahead)
+        return summed(self.centre, self._place(ahead))
+
+
+class Search(Protocol):
+    """The search for contacts of one profile, as far as its growth needs it."""
+
+    half_modulus: float
+    axis: float | None
+
+    def touch(self) -> tuple[float, float]: ...
+
+    def integrals(self, contact: Interval) -> EdgeIntegrals: ...
+
+    def load(self, contact: Interval, k: EdgeIntegrals) -> float: ...
+
+
+class Edge(Protocol):
+    """The contact under the load, which edges are sharp, P and the tilt."""
+
+    @property
+    def contact(self) -> Interval: ...
+
+    @property
+    def sharp(self) -> tuple[bool, bool]: ...
+
+    @property
+    def normal_load(self) -> float: ...
+
+    @property
+    def tilt(self) -> float: ...
+
+
+class ContactTable:
+    """The contacts of a scene's profile, at the tilt of a normal contact, up to that contact.
+
+    start, end              half-widths at first touch and under the load
+    first_centre, middle    centres of the contact then
+    corner_load             what the corners at both ends of a contact carry that no longer grows
+    """
+
+    def __init__(
+        self, search: Search, edges: Edge, breaks: list[float], law: PowerLaw | None
+    ) -> None:
+        self.search = search
+        self.middle, self.end = edges.contact.m, edges.contact.r
+        z1, z2 = self.search.touch()
+        self.start = min(0.5 * (z2 - z1), self.end)
+        upright = edges.tilt == 0.0 and self.search.axis is not None
+        self.law = law if upright else None
+        self.corner_load = 0.0
+        if any(edges.sharp):
+            if self.search.axis is None:
+                raise ContactError(
+                    "the contact is not symmetric and has reached a corner of the indenter: its "
+                    "stick zone would recede there while the load grows, which Goodman's "
+                    "approximation does not solve; give a profile that is symmetric, or smooth at "
+                    "both edges"
+                )
+            whole = self.search.load(edges.contact, self.search.integrals(edges.contact))
+            self.corner_load = edges.normal_load - whole
+        self.first_centre = 0.5 * (z1 + z2)
+        self._breaks: list[float] = [] if self.law else breaks
+        if self.start:
+            self._refuse_other_starts()
+
+    def contact(self, r: float, near: float) -> tuple[float, EdgeIntegrals]:
+        """The centre of the contact of half-width r, from one near to it, and its integrals."""
+        if self.search.axis is not None:
+            m = self.search.axis
+            return m, self.search.integrals(Interval(m - r, m + r))
+        # The weighted mean I0 of the slope rises with m: 0 lies between two contacts of this width
+        # that both hold the place of first touch
+        m, lo, hi = near, self.first_centre - r, self.first_centre + r
+        for _ in range(NEWTONS):
+            m = m if lo <= m <= hi else 0.5 * (lo + hi)
+            k = self.search.integrals(Interval(m - r, m + r))
+            lo, hi = (m, hi) if k.I0 < 0.0 else (lo, m)
+            # Where all of the contact is straight there is no tangent
+            tangent = k.JL > 0.0 and k.JR > 0.0
+            step = -2.0 * k.I0 / (k.JL + k.JR) if tangent else 0.5 * (lo + hi) - m
+            m += step
+            # The slope of a trace is known to rounding of the whole contact
+            if tangent and abs(step) <= SETTLED * max(self.end, abs(m)):
+                return m, k
+        raise self._unsteady(r)
+
+    @staticmethod
+    def _unsteady(r: float) -> ContactError:
+        return ContactError(
+            f"no contact in one patch of half-width {r:.6g} leads to this one: it does not grow "
+            "steadily with the load, as Goodman's approximation needs; give a convex profile, or "
+            "dundurs = 0 to neglect β"
+        )
+
+    def _refuse_other_starts(self) -> None:
+        """Raises ContactError where the contact at first touch carries a load.
+
+        It was then in several patches.
+        """
+        contact = Interval(self.first_centre - self.start, self.first_centre + self.start)
+        if self.start < self.end:
+            carried = self.search.load(contact, self.search.integrals(contact))
+            if abs(carried) > CARRIED * self._mean_pressure * self.end:
+                raise self._unsteady(self.start)
+
+    @cached_property
+    def panels(self) -> tuple[Panel, ...]:
+        """Ascending; () under a flat punch."""
+        if self.law is not None:
+            m = self.law.exponent
+            rate = np.array([m * self._mean_pressure * self.end ** (1.0 - m)])
+            return (Panel(0.0, self.end, m - 1.0, rate, np.zeros(1)),)
+        ends = self.ends
+        done: list[Panel] = []
+        todo = list(itertools.pairwise(ends))[::-1]
+        while todo:
+            lo, hi = todo.pop()
+            panel, missed = self._panel(lo, hi)
+            if missed <= NEGLIGIBLE or len(done) > MOST:
+                done.append(panel)
+            else:
+                middle = lo + CUT * (hi - lo)
+                todo += [(middle, hi), (lo, middle)]
+        return tuple(done)
+
+    @cached_property
+    def ends(self) -> list[float]:
+        """Half-widths at first touch, where an edge passes a break, and under the load."""
+        if self.end <= self.start * (1.0 + SETTLED):
+            return []
+        passed = {self.start, self.end}
+        inside = sum(abs(x - self.middle) < self.end for x in self._breaks)
+        if self.search.axis is None and inside > MOST_BREAKS:
+            raise ContactError(
+                f"the contact holds {inside} places where the profile or a derivative jumps, and "
+                "Goodman's approximation follows the growth of a contact without symmetry past "
+                f"{MOST_BREAKS} of them at most; fit fewer points or a smooth profile, or give "
+                "dundurs = 0 to neglect β"
+            )
+        for x in self._breaks:
+            for side in (-1.0, 1.0):
+                r = self._passing(x, side)
+                # The place of first touch is known to rounding of the contact
+                if self.start + SETTLED * self.end < r < self.end * (1.0 - SETTLED):
+                    passed.add(r)
+        ends = sorted(passed)
+        apart = [b for a, b in itertools.pairwise(ends) if b - a > SETTLED * b]
+        return [self.start, *apart]
+
+    def _passing(self, x: float, side: float) -> float:
+        """The half-width at which this edge is at x, 0 where it does not pass it."""
+        if self.search.axis is not None:
+            return side * (x - self.search.axis)
+        if not side * (x - self.first_centre) > self.start:
+            return 0.0
+        if not side * (self.middle - x) + self.end > 0.0:
+            return 0.0
+        from scipy.optimize import brentq  # noqa: PLC0415 -- heavy, and for few profiles only
+
+        def beyond(r: float) -> float:
+            if r <= self.start:
+                return side * (self.first_centre - x) + r
+            return side * (self.contact(r, self._near(r))[0] - x) + r
+
+        return float(brentq(beyond, self.start, self.end, xtol=1e-300, rtol=SETTLED))
+
+    def _near(self, r: float) -> float:
+        part = (r - self.start) / (self.end - self.start)
+        return self.first_centre + part * (self.middle - self.first_centre)
+
+    def _panel(self, lo: float, hi: float) -> tuple[Panel, float]:
+        v = 0.5 * (1.0 + chebyshev.points(DEGREE))
+        half_widths = lo + (hi - lo) * v * v
+        rates, centres = np.empty(DEGREE), np.zeros(DEGREE)
+        m, G = self._near(float(half_widths[-1])), self.search.half_modulus
+        for j, r in reversed(list(enumerate(half_widths.tolist()))):
+            m, k = self.contact(r, m)
+            rates[j] = 2.0 * G * r / (1.0 / k.JL + 1.0 / k.JR)
+            centres[j] = m - self.middle if self.search.axis is None else 0.0
+        if not (rates >= 0.0).all():
+            raise self._unsteady(float(half_widths[np.argmin(rates)]))
+        series = chebyshev.transform(np.stack((rates, centres)))
+        panel = Panel(lo, hi, 0.0, *series)
+        of_rate = float(np.abs(panel.load_rate[-3:]).max())
+        of_centre = float(np.abs(panel.centre[-3:]).max())
+        if of_rate <= DECAYED * np.abs(panel.load_rate).max():
+            of_rate = 0.0
+        if of_centre <= DECAYED * self.end:
+            of_centre = 0.0
+        part = (hi - lo) / hi
+        chopped_off = replace(panel, load_rate=chopped(series[0]), centre=chopped(series[1]))
+        return chopped_off, of_rate * part / self._mean_pressure + of_centre / self.end * part
+
+    @cached_property
+    def _mean_pressure(self) -> float:
+        contact = Interval(self.middle - self.end, self.middle + self.end)
+        return self.search.load(contact, self.search.integrals(contact)) / self.end

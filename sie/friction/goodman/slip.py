@@ -1,0 +1,399 @@
+"""Partial slip of dissimilar bodies as Goodman approximated it: β q is left out of equation (1).
+
+The pressure is that without friction. While the normal load grows the shear follows by
+superposition (`shear`), at both ends in slip outwards, q = ± f p. Under Q at constant P it
+changes by Δq, which leaves the slip gradient in stick as it is: HΔq = 0 on the stick zone, and
+beside it Δq = d, what the shear lacks of f p (for Q > 0)
+
+    d = f p - q.
+
+d vanishes where the bodies slip in that direction already, and is 2 f p where they slipped
+against it. So Δq is the shear of Cattaneo and Mindlin with d in place of f p, on the contact up to
+the slip zone that remains, and the stick zone has their two equations (`slip_zones`).
+
+Goodman (1962), J. Appl. Mech. 29, 515; docs/derivations/goodman.md.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field, replace
+from functools import cached_property, partial
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from sie.errors import ContactError
+from sie.friction.coupled.profile import NEAREST
+from sie.friction.coupled.traction import CoupledTraction, Panels, on_panels, resolved_panels
+from sie.friction.shear_density import PotentialsOfParts
+from sie.friction.slip_state import GrownSlip, Step
+from sie.friction.slip_zones import Drive, SlipZones, edge_frame, slip_zones
+from sie.numerics.gauss_jacobi import gauss_jacobi
+from sie.numerics.interval import Interval
+from sie.problem.load_limit import refuse_corner, refuse_sliding, remaining
+from sie.traction.base import on_line
+from sie.traction.combination import Combination
+
+from .frame import DeficitFrame
+from .functions import GoodmanFlat, goodman_flat
+from .growth import ContactTable, Search
+from .shear import GoodmanGrowth
+
+Array = NDArray[np.float64]
+
+ENERGY_NODES = 24
+LIGHTER = 0.8  # of the load: under it the zone that sticks is examined again
+SMALL = 1e-13  # of the half-width: marks nearer to each other are one
+FIRST_ZONE = 0.25  # of the half-width: where the search for the zones under Q begins
+KIND = "outwards on both sides while the normal load grew, β q neglected (Goodman)"
+KIND_UNDER_Q = "outwards under P, then along Q, β q neglected (Goodman)"
+
+
+@dataclass(frozen=True, eq=False)
+class GoodmanShear(PotentialsOfParts):
+    """q: values from the state, the potential from series of its even and its odd part."""
+
+    state: GoodmanSlip
+    resultant: float
+
+    @property
+    def interval(self) -> tuple[float, float]:
+        return self.state.step.pressure.interval
+
+    @cached_property
+    def moment(self) -> float:  # type: ignore[override]
+        return self.parts.moment
+
+    @property
+    def breaks(self) -> tuple[float, ...]:
+        return self.state.marks
+
+    @cached_property
+    def parts(self) -> Combination:
+        """The even and the odd part about the centre of the contact."""
+        odd = (1.0, self._part(-1.0, 0.0))
+        if self.state.symmetric:
+            return Combination((odd,))
+        return Combination((odd, (1.0, self._part(1.0, self.resultant))))
+
+    def _part(self, parity: float, load: float) -> CoupledTraction:
+        def values(y: Array) -> Array:
+            part: Array = 0.5 * (self._half(y, 1.0) + parity * self._half(y, -1.0))
+            return part
+
+        def panels() -> Panels:
+            right, left = self._halves
+            return right._replace(series=0.5 * (right.series + parity * left.series))
+
+        return CoupledTraction(values, panels, parity, load, self._inner, self.state.contact)
+
+    def _half(self, y: Array, side: float) -> Array:
+        return self(np.clip(self.state.contact.m + side * y, *self.interval))
+
+    @cached_property
+    def _halves(self) -> tuple[Panels, Panels]:
+        """Series of q on both sides of the centre.
+
+        They are resolved together, relative to their largest values: the even part may be rounding.
+        """
+        sides = (1.0,) if self.state.symmetric else (1.0, -1.0)
+        power = -0.5 if any(self.state.step.normal.edges.sharp) else 0.5
+        halves = tuple(partial(self._half, side=side) for side in sides)
+        right, *left = resolved_panels(halves, self._inner, power)
+        return right, left[0] if left else right._replace(series=-right.series)
+
+    @property
+    def _inner(self) -> tuple[float, ...]:
+        """Distances of the marks from the centre, and half the width of the contact."""
+        contact = self.state.contact
+        inner = [0.0]
+        for y in sorted(abs(x - contact.m) for x in self.state.marks):
+            if inner[-1] + SMALL * contact.r < y < (1.0 - SMALL) * contact.r:
+                inner.append(y)
+        return *inner[1:], contact.r
+
+    def __call__(self, x: ArrayLike) -> Array:
+        return on_line(self.state.traction, x)
+
+
+@dataclass(frozen=True, eq=False)
+class GoodmanSlip(GrownSlip):
+    """The state after the normal load, and Q at constant P."""
+
+    step: Step
+    flat: GoodmanFlat
+    table: ContactTable
+    zones: SlipZones | None = field(default=None)
+
+    @property
+    def kind(self) -> str:  # type: ignore[override]
+        return KIND if self.zones is None else KIND_UNDER_Q
+
+    @property
+    def contact(self) -> Interval:  # type: ignore[override]
+        return self.step.pressure.contact
+
+    @property
+    def friction(self) -> float:  # type: ignore[override]
+        return self.step.scene.friction
+
+    @property
+    def sign(self) -> float:
+        return math.copysign(1.0, self.step.scene.beta)
+
+    @property
+    def along(self) -> float:
+        """The side towards which Q slips, for β > 0."""
+        return math.copysign(1.0, self.sign * self.step.Q)
+
+    @property
+    def symmetric(self) -> bool:
+        return self.table.search.axis is not None and self.zones is None
+
+    @cached_property
+    def sides(self) -> tuple[GoodmanGrowth, GoodmanGrowth]:
+        """Growth on the left and on the right of where the profile touched."""
+        left, right = (GoodmanGrowth(self.flat, self.table, mirrored) for mirrored in (True, False))
+        return left, right
+
+    @cached_property
+    def normal_stick(self) -> tuple[float, float]:
+        """The stick zone before Q."""
+        m, r = self.contact.m, self.contact.r
+        left, right = (side.stick_end(r) for side in self.sides)
+        return m - left, m + right
+
+    @property
+    def stick(self) -> tuple[tuple[float, float], ...]:  # type: ignore[override]
+        if self.zones is None:
+            return (self.normal_stick,)
+        return ((self.zones.stick.x1, self.zones.stick.x2),)
+
+    @property
+    def slipped(self) -> tuple[tuple[float, float, float], ...]:
+        ((c1, c2),), (x1, x2) = self.stick, self.step.pressure.interval
+        left = -self.sign if self.zones is None else self.sign * self.along
+        right = self.sign if self.zones is None else self.sign * self.along
+        zones = (x1, c1, left), (c2, x2, right)
+        return tuple(zone for zone in zones if zone[1] > zone[0])
+
+    @property
+    def untouched(self) -> tuple[float, float]:
+        """The part of the stick zone that stuck already under a lighter load."""
+        c1, c2 = self.lighter.stick[0] if self.lighter is not None else self.normal_stick
+        lo, hi = self.stick[0]
+        return max(lo, c1), min(hi, c2)
+
+    @cached_property
+    def lighter(self) -> GoodmanSlip | None:  # type: ignore[override]
+        """The state under LIGHTER of the load, where that is another contact."""
+        if not self.table.panels:
+            return None
+        step = self.step
+        found = step.contact_under(LIGHTER * step.normal_load, step.normal.edges.tilt)
+        before = replace(step, normal=found, pressure=step.pressure_on(found), Q=0.0)
+        return goodman_slip(before, self.table.search)
+
+    @cached_property
+    def marks(self) -> tuple[float, ...]:  # type: ignore[override]
+        """Places where q is not smooth, with the edges."""
+        (x1, x2), m, k = self.step.pressure.interval, self.contact.m, self.flat.k
+        places = {*self.stick[0], *self.normal_stick}
+        for r in self.table.ends:
+            for side, sign in zip(self.sides, (-1.0, 1.0), strict=True):
+                end = side.stick_end(r)
+                places |= {m + sign * end, m + sign * (end + (1.0 - k) * r)}
+        if not self.table.start:
+            places.add(self.table.first_centre)
+        inside = [x for x in places if x1 < x < x2]
+        return tuple(sorted({x1, x2, *inside}))
+
+    # -- tractions ---------------------------------------------------------------------------------
+
+    @cached_property
+    def shear(self) -> GoodmanShear:
+        return GoodmanShear(self, self.step.Q)
+
+    def normal_shear(self, x: Array) -> Array:
+        """q before Q, for β > 0, at x on the contact."""
+        y = x - self.contact.m
+        touch = self.table.first_centre - self.contact.m
+        c1, c2 = self.normal_stick
+        f_p = self.friction * self.step.pressure(x)
+        q = np.where(x > c2, f_p, np.where(x < c1, -f_p, 0.0))
+        for side, growth, sign in (
+            (y >= touch, self.sides[1], 1.0),
+            (y < touch, self.sides[0], -1.0),
+        ):
+            at = side & (x >= c1) & (x <= c2)
+            q[at] = sign * growth.shear(sign * y[at])
+            if self.table.corner_load:
+                q[at] += sign * self._of_corner(sign * y[at])
+        if self.table.search.axis is not None:
+            q[y == 0.0] = 0.0
+        return q
+
+    def _of_corner(self, y: Array) -> Array:
+        """The shear of a flat punch as wide as the contact under the load of its corners."""
+        t, flat = y / self.contact.r, self.flat
+        square = (1.0 - t) * (1.0 + t)
+        ratio = flat.ratio(t / flat.k, np.maximum(flat.k - t, 0.0) / flat.k, square)
+        scale = flat.friction * self.table.corner_load / (math.pi * self.contact.r)
+        q: Array = scale * ratio / np.sqrt(square)
+        return q
+
+    def traction(self, x: Array) -> Array:
+        """q at any x (1-d)."""
+        x1, x2 = self.step.pressure.interval
+        q = np.zeros(x.shape)
+        inside = (x >= x1) & (x <= x2)
+        at = x[inside]
+        if self.zones is None:
+            q[inside] = self.normal_shear(at)
+        else:
+            lo, hi = self.stick[0]
+            values = self.along * self.friction * self.step.pressure(at)
+            stuck = (at > lo) & (at < hi)
+            more = self.friction * self.along * self.zones.shear(at[stuck])
+            values[stuck] = self.normal_shear(at[stuck]) + more
+            q[inside] = values
+        return self.sign * q + 0.0
+
+    # -- Q at constant P ---------------------------------------------------------------------------
+
+    def deficit(self, distance: Array, frame: DeficitFrame) -> Array:
+        """d at distances inwards from the end of a frame."""
+        (x1, x2), (c1, c2) = self.step.pressure.interval, self.normal_stick
+        if frame.edge is None:
+            x = (c2 if frame.side > 0.0 else c1) - frame.side * distance
+            f_p = self.friction * self.step.pressure(x)
+        else:
+            x = (x2 if frame.side > 0.0 else x1) - frame.side * distance
+            f_p = self.friction * frame.edge.pressure(distance)
+        q = self.along * self._tabulated_shear(np.clip(x, x1, x2))
+        against = (x <= c1) if self.along > 0.0 else (x >= c2)
+        d: Array = np.where(against, 2.0 * f_p, f_p - np.where(np.isfinite(q), q, 0.0))
+        return np.maximum(d, 0.0)
+
+    def _tabulated_shear(self, x: Array) -> Array:
+        """`normal_shear` from the series of its parts: the zones are sought in many steps."""
+        y = x - self.contact.m
+        total = np.zeros(x.shape)
+        for factor, part in self.shear.parts.terms:
+            assert isinstance(part, CoupledTraction)
+            values = factor * on_panels(part.panels, np.abs(y))
+            total += np.where(y < 0.0, part.parity * values, values)
+        return self.sign * total
+
+    @property
+    def frames(self) -> tuple[tuple[DeficitFrame, DeficitFrame], Interval]:
+        """Both ends of the zones that Q may slip, and the interval between."""
+        (x1, x2), (c1, c2) = self.step.pressure.interval, self.normal_stick
+        ahead, behind = (c2, x1) if self.along > 0.0 else (c1, x2)
+        inner = [x for x in self.marks if x1 < x < x2]
+        frames = []
+        for side in (-1.0, 1.0):
+            continues = side == self.along
+            end = ahead if continues else behind
+            distances = sorted(side * (end - x) for x in inner)
+            rest = self.flat.modulus.rest * self.contact.r if continues else self.contact.r
+            edge = None if continues else edge_frame(self.step.pressure, self.step.slope, side)
+            breaks = tuple(d for d in distances if d > SMALL * self.contact.r)
+            frames.append(
+                DeficitFrame(self.deficit, self.friction, side, rest, breaks, edge, self._narrow)
+            )
+        interval = Interval(x1, c2) if self.along > 0.0 else Interval(c1, x2)
+        return (frames[0], frames[1]), interval
+
+    @property
+    def _narrow(self) -> float:
+        """A part of the contact that is shorter than the stick zone: half of sqrt(1 - Q/(f P))."""
+        step = self.step
+        left = remaining(self.friction, step.normal_load, step.Q) / step.normal_load
+        return 0.5 * math.sqrt(max(left, 0.0))
+
+    def under_tangential_load(self) -> GoodmanSlip:
+        """The state after Q."""
+        frames, interval = self.frames
+        drive = Drive(abs(self.step.Q) / self.friction, 0.0, 1.0, 1.0)
+        part = abs(self.step.Q) / (self.friction * self.step.normal_load)
+        length = FIRST_ZONE * part * interval.r
+        found = slip_zones(frames, interval, drive, (length, length))
+        left, right = (
+            replace(frame, nearest=NEAREST).zone(zone.length)
+            for frame, zone in zip(frames, (found.left, found.right), strict=True)
+        )
+        return replace(self, zones=replace(found, left=left, right=right))
+
+    # -- slip --------------------------------------------------------------------------------------
+
+    def slip(self, x: Array) -> Array:
+        self._refuse_slip()
+        m, touch = self.contact.m, self.table.first_centre
+        x1, x2 = self.step.pressure.interval
+        g = np.zeros(x.shape)
+        for growth, sign in ((self.sides[1], 1.0), (self.sides[0], -1.0)):
+            at = (sign * (x - touch) > 0.0) & (x >= x1) & (x <= x2)
+            y = sign * (x[at] - m)
+            values = growth.slip(y)
+            if self.table.corner_load:
+                t = y / self.contact.r
+                values = values + self.table.corner_load * self.flat.slip(t, 1.0 - t)
+            g[at] = sign * values
+        scaled: Array = self.sign / self.table.search.half_modulus * g
+        return scaled
+
+    def _refuse_slip(self) -> None:
+        if self.zones is not None:
+            raise ContactError(
+                f"the slip under tangential_load = {self.step.Q:g} is not computed in Goodman's "
+                "approximation: zones, pressure, shear and stresses are; set tangential_load = 0 "
+                "for the slip under the normal load"
+            )
+
+    @property
+    def shift(self) -> float:
+        self._refuse_slip()
+        if self.table.search.axis is None:
+            raise ContactError(
+                "the shift of the indenter under an unsymmetric normal load is not computed in "
+                "Goodman's approximation; the slip is"
+            )
+        return 0.0
+
+    @cached_property
+    def energy(self) -> float:
+        """The dissipated energy, ∫ f p |dg| over both slip zones while P grew."""
+        self._refuse_slip()
+        x, _, w = gauss_jacobi(ENERGY_NODES, 0.0, 0.0)
+        total = 0.0
+        for growth in self.sides:
+            for panel in self.table.panels:
+                length = panel.hi - panel.lo
+                rate, _ = panel.at(length * x * x)
+                dissipated = growth.dissipation(panel.lo + length * x * x)
+                total += 2.0 * length * float((w * x * rate) @ dissipated)
+            if self.table.corner_load:
+                b, P = self.contact.r, self.table.corner_load
+                total += P * float(growth.dissipation(np.array([b]))[0])
+                t, e, dt = self.flat.slip_places
+                own = dt / (math.pi * np.sqrt(e * (1.0 + t))) @ self.flat.slip(t, e)
+                total += 0.5 * self.friction * P * P * float(own)
+        return total / self.table.search.half_modulus
+
+
+def goodman_slip(step: Step, search: Search) -> GoodmanSlip:
+    """The state of a scene's contact after P and Q; ContactError where it is not solved.
+
+    `search` finds contacts of the same slope up to this one.
+    """
+    scene = step.scene
+    if step.Q:
+        refuse_sliding(scene.friction, step.normal_load, step.Q)
+        refuse_corner(step.normal.edges.sharp, step.Q)
+    law = scene.profile.power_law
+    table = ContactTable(search, step.normal.edges, step.slope.breaks.tolist(), law)
+    state = GoodmanSlip(step, goodman_flat(abs(scene.beta), scene.friction), table)
+    _ = state.sides
+    return state.under_tangential_load() if step.Q else state

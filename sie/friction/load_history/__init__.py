@@ -1,0 +1,1 @@
+"""The steps of a load history: the contact that changes, and the steps that are marched."""

@@ -1,0 +1,292 @@
+"""Slip of new points of contact, and the shift, in a step that slips while the contact changes.
+
+The stick zone is the contact of a level Λ^, and the slip beside it grows by s j times f times what
+the gap of Λ^ grows by, j the jump of κ that the front passes (`memory`). A point that comes into
+contact while this goes on slips from then on: by what the gap of the present Λ^ has more than that
+of the Λ^ of its arrival.
+
+The shift that slip adds is the mean of the slip that is added under 1/(π w), the pressure of a flat
+punch on the contact [M - R, M + R] of that time. With dΛ^ = (dP^, dθ^) beside [m - r, m + r] it is
+
+    s j f [-(2/(π E*)) ln(R/r) dP^ + (M - m) dθ^],
+
+the mean of arccosh|v| being ln(R/r), wherever the stick zone lies in the contact, and that of
+± sqrt((x - m)² - r²) being M - m (residue at infinity).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sie.contact.edges import Search
+from sie.errors import ContactError
+from sie.friction.contact_growth import near_contact
+from sie.friction.loads import Loads
+from sie.friction.memory import SlippedLayer
+from sie.friction.slip_state import Slip
+from sie.numerics.halving import integral
+from sie.numerics.interval import EPS, Interval
+from sie.problem.scene import Scene
+
+from .known_zones import KnownZones
+from .turning_point import TurningPoint
+
+Array = NDArray[np.float64]
+
+# Shares of a step between which it is sought when an edge passes a point.
+SEARCHED = (0.0, 0.25, 0.5, 0.75, 1.0)
+MOST_STEPS = 60
+SETTLED = 4.0 * EPS
+
+
+class Followed(Protocol):
+    """A path that was followed, and its contacts.
+
+    turning_points   the layers after each step
+    in_one_patch     whether the contact is one patch under every load
+    curved           whether the tilt follows from a moment, and not in proportion to time
+    by_moment        whether moments are added along the path, not tilts
+    arm              π r₀
+    level            Λ of loads
+    shear            S of loads
+    on_the_way       the state of a contact that was never sheared before S rose to a depth
+    upright_contact  the contact under P, in one patch, beside others at the same tilt
+    tilt_of          the tilt of a level
+    contact_at       the contact under P at a tilt
+    """
+
+    scene: Scene
+    turning_points: tuple[TurningPoint, ...]
+
+    @property
+    def in_one_patch(self) -> bool: ...
+    @property
+    def curved(self) -> bool: ...
+    @property
+    def by_moment(self) -> bool: ...
+    @property
+    def arm(self) -> float: ...
+    def level(self, loads: Loads) -> complex: ...
+    def shear(self, loads: Loads) -> complex: ...
+    def on_the_way(self, normal: tuple[float, float], depth: complex, turned: bool) -> Slip: ...
+    def upright_contact(self, P: float, turn: float) -> Interval: ...
+    def tilt_of(self, level: complex) -> float: ...
+    def contact_at(self, P: float, tilt: float) -> Interval: ...
+
+
+class ChangingContact:
+    """One step of a path, in which slip goes on while the contact changes."""
+
+    def __init__(self, path: Followed, index: int) -> None:
+        self.path, self.index = path, index
+        self.state = path.turning_points[index]
+        self.start, self.end = path.turning_points[index - 1].loads, self.state.loads
+        self.rise = path.level(self.end) - path.level(self.start)
+        self._states: dict[tuple[Loads, complex], Slip] = {}
+        self._edges = KnownZones()
+        # In each layer: where a front passes an earlier one the zone jumps.
+        self._fronts: dict[SlippedLayer, KnownZones] = {}
+
+    def slip_of_new(self, x: Array) -> Array:
+        """The slip at the end of the step at x, which came into contact in it."""
+        self._refuse_slip(x)
+        return np.array([self._slip(at, self._crossed(at), 1.0) for at in x.tolist()])
+
+    def slip_of_left(self, x: Array) -> Array:
+        """The slip in the step at x, until it left the contact."""
+        self._refuse_slip(x)
+        return np.array([self._slip(at, 0.0, self._crossed(at)) for at in x.tolist()])
+
+    def _slip(self, x: float, begin: float, end: float) -> float:
+        """The slip at x from one share of the step to another, while it is in contact."""
+        event, total = self.state.last, 0.0
+        if event is None:
+            return 0.0
+        for o in event.layers:
+            first, last = self.shares(o)
+            depths = [
+                (share, self._front(o, event.sign, share))
+                for share in (min(max(share, first), last) for share in (begin, end))
+            ]
+            upper, lower = (self._beside(*place, x, begin == 0.0) for place in depths)
+            total += o.jump * event.sign * (lower - upper)
+        return total
+
+    @property
+    def shift(self) -> float:
+        """The shift that slip adds in the step."""
+        self.refuse("how far slip shifts the indenter is not covered")
+        return sum(
+            event.sign * o.jump * self._shift_of(o, event.sign)
+            for event in self.state.slips
+            for o in event.layers
+        )
+
+    def _shift_of(self, o: SlippedLayer, sign: float) -> float:
+        """The shift while a front passes a layer, for s j = 1."""
+        (first, last), G = self.shares(o), 0.5 * self.path.scene.Estar
+
+        def rate(v: float) -> float:
+            # In v the logarithm of a stick zone that vanishes at the end has a smooth weight.
+            share = last - (last - first) * (1.0 - v) ** 4
+            outer, inner = self._contact(share), self._front_zone(o, sign, share)
+            change = self._change(o, sign, outer)
+            added = math.log(outer.r / inner.r) / (math.pi * G) * change.real
+            turned = (outer.m - inner.m) / (G * self.path.arm) * change.imag
+            return 4.0 * (last - first) * (1.0 - v) ** 3 * (added - turned)
+
+        return integral(rate, abs(o.lower - o.upper) / G)
+
+    def _change(self, o: SlippedLayer, sign: float, contact: Interval) -> complex:
+        """The rate at which a front gets deeper below the level at the end of the step."""
+        strain = self.strain(contact)
+        f, arm = self.path.scene.friction, self.path.arm
+        rise = complex(f * (self.end.P - self.start.P), f * strain * arm) if strain else self.rise
+        return (sign * (self.path.shear(self.end) - self.path.shear(self.start)) - rise) / o.jump
+
+    def strain(self, contact: Interval) -> float:
+        """E*/2 times the rate of the tilt.
+
+        Where it follows from the moment M, dp = [dP/π - G dθ (x - m)]/w carries dM = m dP - π/2 G
+        r² dθ.
+        """
+        turned, G = self.end.turn - self.start.turn, 0.5 * self.path.scene.Estar
+        if not self.path.curved:
+            return G * (0.0 if self.path.by_moment else turned)
+        moment = turned if self.path.by_moment else 0.0
+        load = self.end.P - self.start.P
+        return 2.0 * (contact.m * load - moment) / (math.pi * contact.r**2)
+
+    def state_at(self, o: SlippedLayer, sign: float, share: float) -> Slip:
+        """The first loading to the depth of a front in a layer, at a share of the step."""
+        loads = self._at(share)
+        depth = self._below(loads, self._front(o, sign, share))
+        return self.path.on_the_way(loads.normal, depth, self.state.turned)
+
+    # -- contacts and states on the way ------------------------------------------------------------
+
+    def _at(self, share: float) -> Loads:
+        return self.start.towards(self.end, share)
+
+    def _contact(self, share: float) -> Interval:
+        loads = self._at(share)
+        return self._zone(self.path.level(loads), share, self._edges)
+
+    def _front_zone(self, o: SlippedLayer, sign: float, share: float) -> Interval:
+        """The stick zone that a front in a layer has reached at a share of the step."""
+        level = self.path.level(self.end) - self._front(o, sign, share)
+        return self._zone(level, share, self._fronts.setdefault(o, KnownZones()))
+
+    def _zone(self, level: complex, share: float, near: KnownZones) -> Interval:
+        """The contact of a level; `near` are those at other shares of the step."""
+        path, scene, start = self.path, self.path.scene, self.start
+        load = level.real / scene.friction
+        if not (self.rise.imag or level.imag):
+            return path.upright_contact(load, start.turn)
+        tilt, pieces = path.tilt_of(level), scene.profile.pieces
+        guess, found = near.guess(share), None
+        if guess is not None and not pieces.functions:
+            search = Search(pieces.tilted(tilt), 0.5 * scene.Estar)
+            found = near_contact(search, load, guess, load)
+        zone = found.interval if found else path.contact_at(load, tilt)
+        near.add(share, zone)
+        return zone
+
+    def _below(self, loads: Loads, depth: complex) -> complex:
+        """A depth below the level at the end of the step, counted from that under other loads."""
+        return depth - (self.path.level(self.end) - self.path.level(loads))
+
+    def _beside(self, share: float, depth: complex, x: float, leaves: bool) -> float:
+        """f times the gap of Λ^ at x, which is in contact at a share of the step.
+
+        The gap of one profile does not depend on the contact around it, which may be that before x
+        leaves or after it came; where slip has opposite signs, it does.
+        """
+        loads = self._at(share) if self.state.turned else self.start if leaves else self.end
+        key = loads, self._below(loads, depth)
+        if abs(key[1]) <= SETTLED * abs(self.path.level(loads)):
+            return 0.0
+        if key not in self._states:
+            self._states[key] = self.path.on_the_way(loads.normal, key[1], self.state.turned)
+        contact = self._states[key].contact
+        inside = np.nextafter(contact.x1, np.inf), np.nextafter(contact.x2, -np.inf)
+        return float(self._states[key].slip(np.clip([x], *inside))[0])
+
+    def shares(self, o: SlippedLayer) -> tuple[float, float]:
+        """The shares of the step at which the front enters and leaves a layer."""
+        first, last = (1.0 - (surface / self.rise).real for surface in o.surface)
+        return first, last
+
+    def _front(self, o: SlippedLayer, sign: float, share: float) -> complex:
+        """The depth of the front in a layer below the level at the end of the step."""
+
+        def carried(share: float) -> complex:
+            loads = self._at(share)
+            return sign * self.path.shear(loads) - self.path.level(loads)
+
+        return o.upper + (carried(share) - carried(self.shares(o)[0])) / o.jump
+
+    def _crossed(self, x: float) -> float:
+        """The share of the step at which an edge passes x.
+
+        It is the last time if x comes into contact, the first if it leaves.
+        """
+        right = x > self._contact(0.5).m
+
+        def inside(share: float) -> float:
+            contact = self._contact(share)
+            return float(contact.from_right(x) if right else contact.from_left(x))
+
+        known = [(share, inside(share)) for share in SEARCHED]
+        if known[0][1] >= 0.0:
+            k = next((k for k, (_, room) in enumerate(known) if room < 0.0), len(known) - 1) - 1
+        else:
+            k = max(k for k, (_, room) in enumerate(known[:-1]) if room < 0.0)
+        return _crossing(inside, known[k], known[k + 1])
+
+    def _refuse_slip(self, x: Array) -> None:
+        self.refuse(
+            f"how far x = {float(x[0]):.6g} slips while it is in contact is not covered; ask for "
+            f"points within the contact under P = {min(self.start.P, self.end.P):.6g}"
+        )
+
+    def refuse(self, what: str) -> None:
+        """Refuse steps in which fronts are not where P and the tilt alone put them."""
+        why = ""
+        if not self.path.in_one_patch:
+            why = "the contact is not in one patch under every load"
+        elif not all(event.timed for event in self.state.slips):
+            why = "one end of the stick zone is held up or passes an earlier one before the other"
+        elif self.path.curved and any(len(event.layers) > 1 for event in self.state.slips):
+            why = "the tilt follows from the moment, the front passes an earlier one"
+        if why:
+            raise ContactError(
+                f"step {self.index} of the path, to {self.end}: {why} while the contact changes "
+                f"and slips: {what}",
+                step=self.index,
+            )
+
+
+def _crossing(
+    f: Callable[[float], float], below: tuple[float, float], above: tuple[float, float]
+) -> float:
+    """The root of f between two (place, value), by regula falsi with halving (Illinois)."""
+    (a, fa), (b, fb) = below, above
+    for _ in range(MOST_STEPS):
+        if fb == fa or abs(b - a) <= SETTLED:
+            break
+        c = b - fb * (b - a) / (fb - fa)
+        fc = f(c)
+        if fc * fb < 0.0:
+            a, fa = b, fb
+        else:
+            fa *= 0.5
+        b, fb = c, fc
+        if fc == 0.0:
+            break
+    return b

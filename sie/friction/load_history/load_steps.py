@@ -1,0 +1,176 @@
+"""The steps of a load path one after the other, and those of a steady cycle."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import replace
+from functools import partial
+from typing import Protocol, TypeVar
+
+from sie.errors import ContactError
+from sie.friction.load_step import Contacts, NotLayered, Step
+from sie.friction.loads import Loads
+from sie.friction.memory import Layer, LoadMemory, in_proportion, simple
+from sie.numerics.interval import EPS
+from sie.problem.load_limit import refuse_sliding
+from sie.problem.load_path import Path
+from sie.problem.scene import Scene
+
+from .turning_point import TurningPoint
+
+Result = TypeVar("Result")
+
+
+class Followable(Contacts, Protocol):
+    """The contacts of a path that is followed.
+
+    sheared_by      Q and τ of loads
+    in_one_patch    whether the contact is one patch under every load
+    march           the turning point after a step that no layers answer
+    """
+
+    def sheared_by(self, loads: Loads) -> tuple[float, float]: ...
+    @property
+    def in_one_patch(self) -> bool: ...
+    def march(self, before: TurningPoint, loads: Loads) -> TurningPoint: ...
+
+
+def turning_points(scene: Scene, path: Path, contacts: Followable) -> tuple[TurningPoint, ...]:
+    """The layers after each step of a path.
+
+    Raises ContactError, with the step, where one is not covered.
+    """
+    f, found = scene.friction, []
+    points = loads_of(path)
+    for k, loads in enumerate(points):
+        if f == 0.0 and loads.Q != 0.0:
+            raise ValueError(
+                f"Q of point {k} = {loads.Q:g} without friction: a frictionless contact carries "
+                "none; give friction > 0"
+            )
+        if abs(loads.Q) > f * loads.P:
+            named(k, loads, partial(refuse_sliding, f, loads.P, loads.Q))
+    start = points[0]._replace(Q=0.0, sigma=0.0)
+    state = TurningPoint(start, LoadMemory(contacts.level(start)))
+    for k, loads in enumerate(points):
+        step = stepped if k else _layered  # the first point is answered like a scene
+        state = named(k, loads, partial(step, contacts, state, loads))
+        found.append(state)
+    return tuple(found)
+
+
+def loads_of(path: Path) -> list[Loads]:
+    return [Loads(*point, turn) for point, turn in zip(path.points, path.turns, strict=True)]
+
+
+def named(
+    k: int, loads: Loads, step: Callable[[], Result], place: str = "step {} of the path, to"
+) -> Result:
+    try:
+        return step()
+    except ContactError as problem:
+        raise type(problem)(
+            f"{place.format(k)} {loads}: {problem}", **problem.reached | {"step": k}
+        ) from None
+
+
+def steady_points(scene: Scene, path: Path, contacts: Followable) -> tuple[TurningPoint, ...]:
+    """The turning points A, B, A of a steady cycle.
+
+    The layers are those of the change from one to the other alone.
+
+    What slips in one direction on the way to B slips back on the way to A. Hence q_A - q_B =
+    s f (p_A + p_B) there, and in the stick zone, where that is 2 s f p^ less,
+
+        Λ^ = [Λ_A + Λ_B - s (S_A - S_B)]/2,      s the sign of slip before A:
+
+    below Λ^ nothing slips, whatever is locked in there.
+    """
+    first, second, last = loads_of(path)
+    for k, loads in enumerate((first, second)):
+        slides = partial(refuse_sliding, scene.friction, loads.P, loads.Q)
+        named(k, loads, slides, f"the cycle at {'AB'[k]},")
+    rise = simple(contacts.level(second) - contacts.level(first))
+    pull = simple(contacts.shear(second) - contacts.shear(first))
+    start = TurningPoint(first, LoadMemory(contacts.level(first)))
+    there = Step(contacts, start, second, rise, pull)
+    back = Step(contacts, replace(start, loads=second), first, -rise, -pull)
+    upright = not (rise.imag or pull.imag)  # contacts are nested by their loads, in any patches
+    sticks = abs(pull) <= abs(rise) if upright else there.sticks or back.sticks
+    if not (rise or pull) or sticks:
+        return start, TurningPoint(second, LoadMemory(contacts.level(second))), start
+    turned = not rise and there.opposite
+    s = -math.copysign(1.0, pull.imag if turned else pull.real)
+    slipped = -0.5 * (rise + s * pull)
+    memory = LoadMemory(start.memory.level, Layer(slipped, s, None, s * slipped, slipped))
+    found = [replace(start, memory=memory, turned=turned)]
+    for k, loads in ((1, second), (2, last)):
+        sign, before = s if k == 2 else -s, found[-1]
+        step = Step(contacts, before, loads, *((rise, pull) if k == 1 else (-rise, -pull)))
+        turned_back = step.upright if upright else partial(step.reversed, sign)
+        found.append(named(k, loads, turned_back, f"the cycle on the way to {'ABA'[k]},"))
+    return tuple(found)
+
+
+def stepped(contacts: Followable, before: TurningPoint, loads: Loads) -> TurningPoint:
+    """The turning point after a step: by layers, and where these do not answer by marching.
+
+    Raises ContactError where the step is not covered.
+    """
+    if before.marched:
+        last = before.marched[-1].held
+        if before.loads.normal == loads.normal and contacts.sheared_by(loads) == (last.Q, last.tau):
+            return replace(before, loads=loads)
+        return replace(contacts.march(before, loads), why="a step before was marched")
+    try:
+        found = _layered(contacts, before, loads)
+    except NotLayered as problem:
+        if not contacts.in_one_patch:
+            raise ContactError(
+                f"{problem}: what is locked in then depends on the way, which is covered in one "
+                "patch only"
+            ) from None
+        return replace(contacts.march(before, loads), why=str(problem))
+    if found.turned and found.straight and contacts.in_one_patch:
+        known = before.memory.top is None or _advancing(contacts, before)
+        if known and not _advancing(contacts, found):
+            return replace(contacts.march(before, loads), why="zones of slip retreat on the way")
+    return found
+
+
+def _advancing(contacts: Followable, point: TurningPoint) -> bool:
+    """Whether the zones of slip in two directions have only grown on the way to a point."""
+    depth, _ = point.memory.deepest
+    return contacts.first_loading(point.loads.normal, depth, True).advancing
+
+
+def _layered(contacts: Followable, before: TurningPoint, loads: Loads) -> TurningPoint:
+    """The turning point after a step that layers answer. Raises NotLayered where they do not."""
+    memory = before.memory
+    level, shear = contacts.level(loads), contacts.shear(loads)
+    rise, pull = simple(level - memory.level), simple(shear - memory.total)
+    if abs(pull) <= 4.0 * EPS * max(abs(shear), abs(memory.total)):
+        pull = 0.0
+    if not pull and memory.top is None:
+        return TurningPoint(loads, LoadMemory(level))  # nothing was ever sheared
+    if not (rise or pull):
+        return replace(before, loads=loads, slips=())
+    step = Step(contacts, before, loads, rise, pull)
+    top = memory.top
+    if not rise and (top is None or (before.straight and in_proportion(pull, top.depth))):
+        return step.in_proportion()
+    if before.turned and before.straight:
+        step.refuse_retreat()
+    tilted = rise.imag or pull.imag or (rise.real < 0.0 and isinstance(memory.total, complex))
+    if not (before.turned or tilted):
+        return step.upright()
+    if before.loads.P == 0.0:
+        raise ContactError(
+            "a contact that grows from nothing while bulk stress or tilt changes is not covered; "
+            "give a first point with P > 0"
+        )
+    if step.bared < 1.0:
+        between = TurningPoint(before.loads.towards(loads, step.bared), step.without_top())
+        return stepped(contacts, replace(between, turned=before.turned, straight=False), loads)
+    return step.general()

@@ -1,0 +1,216 @@
+"""A step on top of any earlier shear: what it starts from, what it leaves, and its energy."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sie.friction.slip_state import IntegralsOfSlip
+from sie.friction.slip_zones import SlipZone, slip_zone
+from sie.numerics.interval import Interval
+from sie.traction.base import Density
+from sie.traction.of_slope import SlopeDensity
+
+from .panel_shear import SAME, PanelShear
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Held:
+    """What a step starts from.
+
+    Q, tau      its loads
+    pressure    p
+    shear       q
+    stick       the stick zone
+    signs       the signs of slip to the left and the right of it, 0 where nothing slipped
+    marks       places where q is not smooth
+    gaps        zones between several stick zones that slipped, and the signs
+    left        what q lacks of ±f p at places in the contact, given ±f, without cancellation
+    """
+
+    Q: float
+    tau: float
+    pressure: SlopeDensity
+    shear: Density
+    stick: Interval
+    signs: tuple[float, float]
+    marks: tuple[float, ...]
+    gaps: tuple[tuple[float, float, float], ...] = ()
+    left: Callable[[float, Array], Array] | None = None
+
+    def lacking(self, bound: float, x: Array) -> Array:
+        """What q lacks of ±f p at places (1-d), given ±f; 0 beyond the contact."""
+        lack, contact = np.zeros(x.shape), self.pressure.contact
+        inside = (x >= contact.x1) & (x <= contact.x2)
+        at = x[inside]
+        if self.left is not None:
+            lack[inside] = self.left(bound, at)
+        else:
+            lack[inside] = bound * self.pressure(at) - self.shear(at)
+        return lack
+
+
+@dataclass(frozen=True, eq=False)
+class FrozenEdge:
+    """A place from which a slip zone begins, and the traction beside it.
+
+    place     the place
+    side      +1 on the right of the stick zone
+    width     of all that may slip from here on
+    values    the traction at x
+    marks     places where it is not smooth
+    """
+
+    place: float
+    side: float
+    width: float
+    values: Callable[[Array], Array]
+    marks: Array
+
+    def pressure(self, distance: Array) -> Array:
+        return self.values(self.place - self.side * distance)
+
+    @cached_property
+    def breaks(self) -> Array:
+        d = np.unique(self.side * (self.place - self.marks))
+        return d[(d > SAME * self.width) & (d < self.width)]
+
+    def zone(self, length: float) -> SlipZone:
+        return slip_zone(self, length)
+
+
+@dataclass(frozen=True, eq=False)
+class MarchedStep(ABC):
+    """A step on top of any earlier shear, and the state at its end.
+
+    before      what it started from
+    pressure    p at its end
+    friction    f
+    signs       the signs of slip to the left and the right of the stick zone
+    Q, tau      the loads at its end
+    """
+
+    before: Held
+    pressure: SlopeDensity
+    friction: float
+    signs: tuple[float, float]
+    Q: float
+    tau: float
+
+    @property
+    @abstractmethod
+    def stick(self) -> Interval:
+        """The stick zone."""
+
+    @property
+    @abstractmethod
+    def reach(self) -> tuple[float, float]:
+        """The inner ends of what slipped in this step, on the left and on the right."""
+
+    @property
+    @abstractmethod
+    def error(self) -> float:
+        """The error of the ends of the stick zone over its half-width, from two tolerances."""
+
+    @abstractmethod
+    def in_stick(self, x: Array) -> Array:
+        """q at places (1-d) in the stick zone."""
+
+    @abstractmethod
+    def slip(self, x: Array) -> Array:
+        """The slip Δg in this step at places (1-d)."""
+
+    @property
+    def kept(self) -> tuple[float, float]:
+        """What stuck all along the step, from the first such place to the last."""
+        return max(self.reach[0], self.stick.x1), min(self.reach[1], self.stick.x2)
+
+    @property
+    def kept_zones(self) -> tuple[tuple[float, float], ...]:
+        """The zones that stuck all along the step."""
+        (left, right), gaps = self.kept, self.gaps
+        cuts = [left, *(end for gap in gaps for end in gap[:2]), right]
+        return tuple(zip(cuts[::2], cuts[1::2], strict=True))
+
+    @cached_property
+    def marks(self) -> tuple[float, ...]:
+        """Places where q is not smooth."""
+        x1, x2 = self.stick.x1, self.stick.x2
+        ends = (end for gap in self.gaps for end in gap[:2])
+        inner = {x for x in (*self._places, *self.reach, *ends) if x1 < x < x2}
+        return tuple(sorted(inner | {x1, x2, *self.pressure.breaks}))
+
+    @property
+    def _places(self) -> tuple[float, ...]:
+        """Where p at both ends of the step, and q at its start, may not be smooth."""
+        return places(self.before, self.pressure)
+
+    @cached_property
+    def shear(self) -> PanelShear:
+        """q."""
+        return PanelShear(self.pressure.contact, self._values, self.marks, self.Q)
+
+    def _values(self, x: Array) -> Array:
+        q: Array = np.where(x < self.stick.m, *self.signs) * self.friction * self.pressure(x)
+        sticks = (x > self.stick.x1) & (x < self.stick.x2)
+        q[sticks] = self.in_stick(x[sticks])
+        return q
+
+    @cached_property
+    def held(self) -> Held:
+        """What the next step starts from."""
+        return Held(
+            *(self.Q, self.tau, self.pressure, self.shear, self.stick, self.signs, self.marks),
+            self.gaps,
+        )
+
+    @property
+    def gaps(self) -> tuple[tuple[float, float, float], ...]:
+        """Zones between several stick zones that slipped, and the signs."""
+        return ()
+
+    @property
+    def sticks(self) -> tuple[tuple[float, float], ...]:
+        """The stick zones."""
+        cuts = (self.stick.x1, *(end for gap in self.gaps for end in gap[:2]), self.stick.x2)
+        return tuple(zip(cuts[::2], cuts[1::2], strict=True))
+
+    @property
+    def slipped(self) -> tuple[tuple[float, float, float], ...]:
+        """The zones of slip from left to right, and the signs."""
+        (x1, x2), (left, right) = self.pressure.interval, self.signs
+        whole = (x1, self.stick.x1, left), *self.gaps, (self.stick.x2, x2, right)
+        return tuple(zone for zone in whole if zone[1] > zone[0])
+
+    # -- integrals ---------------------------------------------------------------------------------
+
+    @property
+    def work(self) -> float:
+        """The energy that slip dissipated."""
+        return self.integrals.work
+
+    @cached_property
+    def integrals(self) -> IntegralsOfSlip:
+        """Integrals of Δg."""
+        contact = self.pressure.contact
+        marks = np.array([*self._places, *self.marks, *self.reach])
+        parts = []
+        for side, sign, inner in zip((-1.0, 1.0), self.signs, self.reach, strict=True):
+            edge = contact.x2 if side > 0.0 else contact.x1
+            whole = FrozenEdge(edge, side, 2.0 * contact.r, self.pressure, marks)
+            zone = whole.zone(side * (edge - inner))
+            parts.append((zone, side, sign, sign * self.slip(edge - side * zone.from_edge)))
+        return IntegralsOfSlip.over(parts, self.friction, contact.r)
+
+
+def places(before: Held, pressure: SlopeDensity) -> tuple[float, ...]:
+    """Where p at both ends of a step, and q at its start, may not be smooth."""
+    ends = before.stick.x1, before.stick.x2, *before.pressure.interval, *pressure.interval
+    return *before.marks, *ends, *pressure.breaks

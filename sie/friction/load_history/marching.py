@@ -1,0 +1,230 @@
+"""Steps of a load path that no layered memory covers, one state after the other.
+
+The shear changes in closed form whatever strain is locked in, and the state at the end of a step
+follows from that at its start (`receding_step`) as long as the ends of the stick zone recede. At
+constant pressure they do so with slip s to the left and right where
+
+    s1 (ΔQ + π ρ Δτ) > 0,      s2 (ΔQ - π ρ Δτ) > 0,      ρ the half-width of the stick zone.
+
+An end whose slip has another sign now begins anew at the edge of contact. An end at which the sum
+comes to 0 on the way, as ρ shrinks, advances from there on (`travelling_zone`). While the pressure
+changes all signs are tried. Where a second zone of slip opens inside the stick zone, several zones
+stick (`several_sticks`). `trial_step` tests what this rests on; docs/derivations/marching.md has
+the equations.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from contextlib import suppress
+from dataclasses import replace
+from itertools import product
+
+from sie.errors import ContactError
+from sie.friction.loads import Loads
+from sie.friction.memory import LoadMemory
+from sie.friction.step_conditions import TESTED
+from sie.numerics.root_finding import false_position
+
+from .growing_contact import Course, LoadChange, course
+from .growing_edge import EdgeSticks, edge_sticks
+from .marched_step import Held, MarchedStep
+from .receding_step import Receded
+from .several_sticks import SeveralSticks, in_several_zones
+from .slip_onset import Onset, onsets
+from .stuck_contact import BothStick, both_stick
+from .travelling_zone import Travelled, travelled
+from .trial_step import (
+    EXCEEDED,
+    ISLAND,
+    GoesOn,
+    Marchable,
+    Signs,
+    Trial,
+    excess,
+    first_share,
+)
+from .turning_point import TurningPoint
+
+MOST_PARTS = 200  # of a step, in which a stick zone travels by ρ
+SETTLED = 1e-13  # of the half-width: so well the end of a zone that stops is known
+AT_ONCE = 1e-9  # of a step: slip that begins so soon has begun before
+STOPPED = 1e-9  # of it: an end so near to where it would stop does
+
+
+def march(contacts: Marchable, held: Held, start: Loads, loads: Loads) -> TurningPoint:
+    """The turning point after a step between two loads, from what it starts from.
+
+    Raises ContactError where the step is not covered.
+    """
+    trial = Trial(contacts, held, start, loads)
+    parts = _parts(trial)
+    level = LoadMemory(contacts.level(loads))
+    return TurningPoint(loads, level, straight=False, marched=parts)
+
+
+def _parts(trial: Trial) -> tuple[MarchedStep, ...]:
+    """The parts of a step, with one stick zone or else with several."""
+    if trial.held.gaps:
+        return (_in_several_zones(trial),)
+    try:
+        return at_constant_pressure(trial) if trial.constant else while_pressure_changes(trial)
+    except ContactError as problem:
+        with suppress(ContactError):
+            return (_in_several_zones(trial),)
+        raise problem
+
+
+def _in_several_zones(trial: Trial) -> SeveralSticks:
+    found = in_several_zones(trial)
+    if trial.constant:
+        return found
+    return replace(found, change=LoadChange(trial.contacts, trial.start, trial.end))
+
+
+def at_constant_pressure(trial: Trial) -> tuple[MarchedStep, ...]:
+    """The parts of a step: both ends recede until one stops, which then advances.
+
+    When it arrives at the edge of contact, both recede again.
+    """
+    parts: list[MarchedStep] = []
+    start, done = trial.start, 0.0
+    while done < 1.0:
+        now = parts[-1] if parts else None
+        held = now.held if now else trial.held
+        trial = replace(trial, held=held, start=start.towards(trial.end, done), begun=done)
+        travels = isinstance(now, Travelled) and not now.at_edge
+        ways = None if travels else _ways(trial)
+        if ways is not None and not isinstance(now, Receded):
+            trial = trial.with_signs(*ways)
+            share = _stop(trial)
+            parts.append(trial.passed(share))
+        else:
+            part = travelled(trial.held, trial.held.pressure, trial.friction, trial.shear(1.0))
+            share = part.share
+            if _exceeds(part):
+                raise _opened(trial, part)
+            parts.append(part)
+        done = 1.0 if share == 1.0 else done + (1.0 - done) * share
+        if len(parts) > MOST_PARTS:
+            raise ContactError(f"the stick zone travels by more than {MOST_PARTS} half-widths")
+    return tuple(parts)
+
+
+def _exceeds(part: Travelled) -> bool:
+    return excess(part, part.stick)[0] > EXCEEDED
+
+
+def _opened(trial: Trial, part: Travelled) -> ContactError:
+    """The refusal of a second zone of slip in a stick zone that travels."""
+
+    def exceeds(share: float) -> bool:
+        loads = trial.shear(share)
+        return _exceeds(travelled(trial.held, trial.held.pressure, trial.friction, loads))
+
+    end = "right" if part.direction > 0.0 else "left"
+    return trial.refusal(
+        f"{ISLAND} while the {end} end of the stick zone advances",
+        first_share(exceeds, 0.0, part.share),
+    )
+
+
+def while_pressure_changes(trial: Trial) -> tuple[MarchedStep, ...]:
+    """The parts of a step, each with slip, or none, at each edge until that changes."""
+    change = LoadChange(trial.contacts, trial.start, trial.end)
+    parts: list[MarchedStep] = []
+    ways, share, edges = onsets(trial.held, change, trial.friction), 0.0, None
+    while share < 1.0:
+        trial = replace(trial, start=change.loads(share), begun=share)
+        if any(not all(way.signs) for way in ways) and (edges is None or share >= edges.hi):
+            edges = course(change, share)
+        part, until, then = _passed(trial, edges or change, share, ways)
+        if until - share <= AT_ONCE:  # the rates say that the edge sticks, but for rounding
+            ways = tuple(Onset(then.signs, way.goes_on) for way in ways)
+        else:
+            parts.append(part)
+            trial, ways = replace(trial, held=part.held), (then,)
+        share = until
+        if len(parts) > MOST_PARTS:
+            raise ContactError(f"slip starts and stops at the edges more than {MOST_PARTS} times")
+    return tuple(parts)
+
+
+def _passed(
+    trial: Trial, change: LoadChange, share: float, ways: Iterable[Onset]
+) -> tuple[MarchedStep, float, Onset]:
+    """The part of a step from a share on that passes all tests, its end, and what slips then."""
+    problems = []
+    for way in ways:
+        now = trial.with_signs(*way)
+        try:
+            if all(way.signs):
+                return replace(now.passed(1.0), change=change, begun=share), 1.0, way
+            assert isinstance(change, Course)
+            part = _growing(now, change, share)
+            return part, part.share, part.then
+        except ContactError as problem:
+            problems.append(problem)
+    raise max(problems, key=lambda problem: float(problem.reached.get("share", 0.0)))
+
+
+def _growing(trial: Trial, edges: Course, share: float) -> EdgeSticks | BothStick:
+    """The part of a step in which an edge grows and sticks, or both do."""
+    part: EdgeSticks | BothStick
+    if any(trial.signs):
+        goes_on = trial.goes_on[0 if trial.signs[0] else 1]
+        part = edge_sticks(trial.held, edges, trial.signs, goes_on, share)
+    else:
+        part = both_stick(trial.held, edges, share)
+    for tested in TESTED if part.share - share > AT_ONCE else ():
+        now = part.until(share + tested * (part.share - share))
+        if _opens(now, part):
+
+            def opens(at: float, part: EdgeSticks | BothStick = part) -> bool:
+                return _opens(part.until(at), part)
+
+            at = first_share(opens, share, now.share)
+            raise trial.refusal(ISLAND, (at - share) / (1.0 - share))
+    return part
+
+
+def _opens(state: MarchedStep, end: MarchedStep) -> bool:
+    return excess(state, end.stick)[1] > EXCEEDED
+
+
+def _ways(trial: Trial) -> tuple[Signs, GoesOn] | None:
+    """The signs of slip and which ends go on, where both recede; None where one advances."""
+    held, (Q, tau) = trial.held, trial.shear(1.0)
+    dQ, strain = Q - held.Q, math.pi * (tau - held.tau)
+    for left, right in product((True, False), repeat=2):
+        goes_on = left, right
+        turn = (1.0 - STOPPED) * trial.first(goes_on).r * strain  # an end that stopped goes on
+        signs = math.copysign(1.0, dQ + turn), math.copysign(1.0, dQ - turn)
+        three = zip(signs, held.signs, goes_on, strict=True)
+        if all((new == old) == goes for new, old, goes in three):
+            return signs, goes_on
+    return None
+
+
+def _stop(trial: Trial) -> float:
+    """The share of the step after which an end of the stick zone stops; 1 if none does."""
+    held, (Q, tau) = trial.held, trial.shear(1.0)
+    if trial.signs[0] == trial.signs[1] or held.Q == Q:
+        return 1.0
+    width = abs((Q - held.Q) / (math.pi * (tau - held.tau)))
+
+    def wider(share: float) -> float:
+        try:
+            return trial.state(share).stick.r - width
+        except ContactError:
+            return -width
+
+    def settled(low: float, high: float, value: float) -> bool:
+        return abs(value) <= SETTLED * width
+
+    last = wider(1.0)
+    if last >= 0.0:
+        return 1.0
+    first = trial.first(trial.goes_on).r - width
+    return false_position(wider, 0.0, 1.0, (first, last), settled)

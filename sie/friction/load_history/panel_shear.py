@@ -1,0 +1,83 @@
+"""A shear traction that is known by its values, with its potentials."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from sie.friction.coupled.traction import HalfPotential, OnHalves, resolved_panels
+from sie.numerics.interval import Interval
+from sie.traction.base import Complex, on_line
+
+Array = NDArray[np.float64]
+
+SAME = 1e-13  # of the contact: marks that are nearer to each other are one
+# of a shear at a smooth edge: its power of the distance
+AT_EDGE = 0.5
+
+
+class PanelShear(OnHalves):
+    """A shear traction as Chebyshev series on panels, which are halved towards its marks.
+
+    Parameters
+    ----------
+    contact : Interval
+        The contact, whose edges are smooth.
+    values : callable
+        q at places (1-d) in the contact.
+    marks : collection of float
+        Places where q is not smooth.
+    load : float
+        Its resultant, force per length.
+    """
+
+    def __init__(
+        self,
+        contact: Interval,
+        values: Callable[[Array], Array],
+        marks: Collection[float],
+        load: float,
+    ) -> None:
+        self.contact, self.resultant, self._values = contact, load, values
+        width = 2.0 * contact.r
+        kept = [0.0]
+        for y in sorted(contact.from_left(x) for x in marks):
+            if y - kept[-1] > SAME * width < width - y:
+                kept.append(y)
+        self._ends = (*kept[1:], width)
+
+    @property
+    def middle(self) -> float:
+        return self.contact.x1
+
+    @cached_property
+    def _half(self) -> HalfPotential:
+        def from_left(y: Array) -> Array:
+            return self._values(np.minimum(self.contact.x1 + y, self.contact.x2))
+
+        return HalfPotential(resolved_panels((from_left,), self._ends, AT_EDGE)[0])
+
+    @cached_property
+    def moment(self) -> float:  # type: ignore[override]
+        y, force = self._half.quadrature
+        return float(force @ (self.contact.x1 + y))
+
+    @property
+    def breaks(self) -> tuple[float, ...]:
+        inner = (self.contact.x1 + y for y in self._ends[:-1])
+        return self.contact.x1, *inner, self.contact.x2
+
+    def __call__(self, x: ArrayLike) -> Array:
+        def value(flat: Array) -> Array:
+            inside = (flat >= self.contact.x1) & (flat <= self.contact.x2)
+            q = np.zeros(flat.shape)
+            q[inside] = self._half.traction(flat[inside] - self.contact.x1)
+            return q
+
+        return on_line(value, x)
+
+    def _potentials(self, z: Complex, derivative: bool) -> tuple[Complex, Complex]:
+        return self._half(z, derivative)

@@ -1,0 +1,148 @@
+"""The equations of the lengths of both zones in which the shear changes, and their solution."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import product
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sie.errors import ContactError
+from sie.friction.slip_zones import Drive, SlipZone, excess
+from sie.numerics.interval import EPS, Interval
+
+from .marched_step import FrozenEdge
+
+Array = NDArray[np.float64]
+
+ROUNDING = 64.0 * EPS  # of the loads: what steps may no longer make smaller
+# Of a half-width, and of all that may slip: where the search begins, and how it goes on.
+HALVINGS, FIRST, TRIED = (
+    5,
+    0.2,
+    (0.98, 0.8, 0.6, 0.45, 0.3, 0.2, 0.1, 0.05, 0.02, 5e-3, 1e-3, 1e-4, 1e-6, 1e-8, 1e-10),
+)
+GUESSES = ((2, 5), (5, 30))  # how often for each zone, and how many halvings of its length
+DIFFERENCE, MOST_STEPS, LEAST_SHARE, KEPT = 1e-6, 40, 1e-3, 0.05  # of Newton's method
+SETTLED = 1e-11  # of the loads: what is missed where no step makes it smaller
+TINY = 1e-300
+NO_ZONE = "no stick zone inside the contact balances the loads"
+# of the drive: a mark that misses its equation by less is the end of the stick zone
+BALANCED = 1e-12
+
+
+@dataclass(frozen=True, eq=False)
+class Equations:
+    """The equations of the lengths of both zones, relative to the loads."""
+
+    frames: tuple[FrozenEdge, FrozenEdge]
+    outer: Interval
+    drive: Drive
+
+    def missed(self, lengths: Sequence[float] | Array) -> Array:
+        """By what lengths fail them; infinite where they leave no stick zone."""
+        if not sum(lengths) < 2.0 * self.outer.r:
+            return np.full(2, np.inf)
+        zones = [frame.zone(length) for frame, length in zip(self.frames, lengths, strict=True)]
+        return np.array([self._missed(zones, k) for k in (0, 1)])
+
+    def _missed(self, zones: Sequence[SlipZone], k: int) -> float:
+        zone, other = zones[k], zones[1 - k]
+        size = abs(self.drive.load) + self.outer.r * abs(self.drive.strain)
+        return excess(zone, other, self.outer.r, self.drive, k) / size
+
+    def solution(self, guess: Array | None = None) -> tuple[float, float]:
+        """The lengths. Raises ContactError where there are none, or Newton's method finds none."""
+        if guess is not None and (guess > 0.0).all() and guess.sum() < 2.0 * self.outer.r:
+            lengths = self._by_newton(guess)
+            if lengths is not None:
+                return float(lengths[0]), float(lengths[1])
+        for sweeps, halvings in GUESSES:
+            lengths = self._by_newton(self._guess(sweeps, halvings))
+            if lengths is not None:
+                return float(lengths[0]), float(lengths[1])
+        raise ContactError(NO_ZONE)
+
+    def _by_newton(self, lengths: Array) -> Array | None:
+        """The lengths, with differences for derivatives; None where it does not converge.
+
+        Derivatives are kept as long as a step with them makes what is missed much smaller.
+        """
+        missed, fresh = self.missed(lengths), False
+        matrix = self._derivatives(lengths, missed)
+        for _ in range(MOST_STEPS):
+            size = float(np.abs(missed).max())
+            if size <= EPS:
+                break
+            if not (np.isfinite(matrix).all() and abs(np.linalg.det(matrix)) > 0.0):
+                break
+            step = np.asarray(np.linalg.solve(matrix, -missed), dtype=np.float64)
+            share = self._within(lengths, step)
+            tried = self.missed(lengths + share * step)
+            while fresh and share > LEAST_SHARE and not np.abs(tried).max() < size:
+                share *= 0.5
+                tried = self.missed(lengths + share * step)
+            left = float(np.abs(tried).max())
+            if left < size:
+                lengths, missed = np.add(lengths, share * step), tried
+            elif fresh or size <= ROUNDING:
+                break
+            fresh = not left < KEPT * size
+            if fresh:
+                matrix = self._derivatives(lengths, missed)
+        # Where p falls a shorter zone may fulfil its equation too: it does not grow with its load.
+        # Where all beyond the end slipped before, the derivative is rounding of 0.
+        found = size <= SETTLED and (np.diag(matrix) * lengths > -DIFFERENCE).all()
+        return lengths if found else None
+
+    def _derivatives(self, lengths: Array, missed: Array) -> Array:
+        h = DIFFERENCE * lengths
+        columns = [self.missed(lengths + h * unit) - missed for unit in np.eye(2)]
+        matrix: Array = np.array(columns).T / h
+        return matrix
+
+    def _within(self, lengths: Array, step: Array) -> float:
+        """The share of a step that leaves both zones and the stick zone a width."""
+        share = min(1.0, *(0.9 * lengths / np.maximum(-step, TINY)).tolist())
+        left, grown = 2.0 * self.outer.r - lengths.sum(), float(step.sum())
+        return share if grown <= left else min(share, 0.9 * left / grown)
+
+    def _guess(self, sweeps: int, halvings: int) -> Array:
+        """Lengths near the longest that fulfil the equations: where p falls, shorter ones may."""
+        lengths = np.full(2, FIRST * self.outer.r)
+        for sweep, k in product(range(sweeps), (0, 1)):
+            other = self.frames[1 - k].zone(lengths[1 - k])
+            most = 2.0 * self.outer.r - other.length
+
+            def short(length: float, k: int = k, other: SlipZone = other) -> bool:
+                zones = [other, other]
+                zones[k] = self.frames[k].zone(length)
+                return self._missed(zones, k) < 0.0
+
+            tried = [part * most for part in TRIED]
+            first = next((n for n, length in enumerate(tried) if short(length)), len(tried))
+            if sweep and first in {0, len(tried)}:
+                raise ContactError(NO_ZONE)
+            first = min(first, len(tried) - 1)
+            low, high = tried[first], tried[first - 1] if first else most
+            for _ in range(halvings):
+                middle = 0.5 * (low + high)
+                low, high = (middle, high) if short(middle) else (low, middle)
+            lengths[k] = 0.5 * (low + high)
+        return lengths
+
+    def at_marks(self, lengths: tuple[float, float]) -> tuple[float, float]:
+        """The lengths, shortened to the next mark where the loads are balanced there too.
+
+        What is beyond it had slipped already.
+        """
+        shorter = list(lengths)
+        for k, frame in enumerate(self.frames):
+            nearer = frame.breaks[frame.breaks < lengths[k]]
+            if nearer.size:
+                shorter[k] = float(nearer[-1])
+                if abs(self.missed(shorter)[k]) > BALANCED:
+                    shorter[k] = lengths[k]
+        return shorter[0], shorter[1]

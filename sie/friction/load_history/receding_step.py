@@ -1,0 +1,289 @@
+"""The state after a step in which both ends of the stick zone recede, on any earlier shear.
+
+Strain that is locked in drops out of the change of q. Beside the stick zone [c1, c2] it is
+Δq = s f p - q0, and in it 1/π PV∫Δq/(x - t) dt = Δτ, with ∫Δq = ΔQ: the equations of `slip_zones`
+for p - s q0/f, ΔQ and Δτ in place of p, Q and τ. They need q0 as a function of x, and nothing of
+how it came about. Where an end goes on at constant p, Δq = 0 up to where it was. The slip is
+
+    Δg = 2/E* ∫ [1/π PV∫Δq/(ξ - t) dt - Δτ] dξ      from the end of the stick zone.
+
+The derivation is in docs/derivations/marching.md.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import pairwise
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sie.friction.coupled.traction import Panels, resolved_panels
+from sie.friction.slip_zones import Drive, SlipZone, SlipZones
+from sie.numerics import chebyshev
+from sie.numerics.graded_rule import graded, on_panels
+from sie.numerics.halving import integral
+from sie.numerics.interval import Interval
+from sie.numerics.root_finding import false_position
+from sie.traction.of_slope import SlopeDensity
+
+from .growing_contact import LoadChange
+from .marched_step import FrozenEdge, Held, MarchedStep, places
+from .panel_shear import SAME
+from .receding_equations import Equations
+
+Array = NDArray[np.float64]
+Side = tuple[float, float, float]
+
+TURNED = 1e-9  # of the fastest slip: what may seem to turn, which is rounding
+OF_SLIP = 1e-11  # of the steepest slip, to which its steepness is resolved
+
+
+_angle, ANGLE = (
+    part.ravel()
+    for part in on_panels(0.5 * math.pi * np.concatenate(([0.0], graded(5), [0.5, 1.0])))
+)
+SINE, COSINE = np.sin(_angle) ** 2, np.cos(_angle) ** 2  # of a zone: graded towards the stick zone
+
+
+class Ends(NamedTuple):
+    """How the ends of the stick zone recede, the left and the right one.
+
+    signs      the signs of slip beside them
+    goes_on    whether it goes on from where it was, at constant pressure, and not from the edge of
+               contact
+    near       a stick zone near by, to begin the search with
+    """
+
+    signs: tuple[float, float]
+    goes_on: tuple[bool, bool] = (False, False)
+    near: Interval | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class Receded(MarchedStep):
+    """The state after a step in which both ends of the stick zone recede.
+
+    found     the stick zone, and the zones in which q changed
+    error     what the equations of the ends miss, over the loads
+    change    the change of loads in the whole step, None at constant pressure
+    begun     the share of the step at its start, which it ends
+    """
+
+    found: SlipZones
+    error: float = 0.0
+    change: LoadChange | None = None
+    begun: float = 0.0
+
+    @property
+    def stick(self) -> Interval:
+        return self.found.stick
+
+    @property
+    def reach(self) -> tuple[float, float]:
+        return self.stick.x1, self.stick.x2
+
+    @cached_property
+    def work(self) -> float:
+        return super().work if self.change is None else moving_work(self, self.change)
+
+    def at(self, share: float, near: Receded | None = None) -> Receded:
+        """The state at another share of the step, with slip in the same directions."""
+        change = self.change
+        assert change is not None
+        p, loads, stick = change.pressure(share), change.shear(share), (near or self).stick
+        return receded(self.before, p, self.friction, loads, Ends(self.signs, near=stick))
+
+    def keeps_direction(self, change: LoadChange) -> bool:
+        """Whether slip goes on in the direction of its zone, up to both edges."""
+        rates = [s * g for (_, g), s in zip(self.slip_rates(change), self.signs, strict=True)]
+        room = TURNED * max(float(np.abs(g).max(initial=0.0)) for g in rates)
+        return all(float(g.min(initial=0.0)) >= -room for g in rates)
+
+    def slip_rates(self, change: LoadChange) -> list[tuple[SlipZone, Array]]:
+        """The zones of slip and dΔg/dt in them, the time as a share of the step.
+
+        Slip in one direction s is the layer A = dP - s dQ/f, B = E*/2 dθ - s dτ/f of the stick zone
+
+            dΔg/dt = -2 s f/E* {A/π arccosh v ∓ B ρ sqrt(v² - 1)};
+
+        where it is opposite on the other side, dp acts twice there.
+        """
+        contact, f, rho = self.pressure.contact, self.friction, self.stick.r
+        dP, dQ, dtau, *_ = change.rates
+        strain = float(change.rates.strain(np.array(contact.m), np.array(contact.r)))
+        zones, found = self._whole_zones, []
+        for k, (zone, sign) in enumerate(zip(zones, self.signs, strict=True)):
+            v = zone.from_stick / rho  # v - 1
+            root = np.sqrt(v * (v + 2.0))
+            load, turn = dP - sign * dQ / f, strain - sign * dtau / f
+            rate = load / math.pi * np.log1p(v + root) + (1.0, -1.0)[k] * rho * turn * root
+            if self.signs[0] != self.signs[1]:
+                length = zones[1 - k].length
+                inner, from_edge = length * SINE, length * COSINE
+                at = (-1.0, 1.0)[1 - k] * (contact.r - from_edge)
+                # dp dξ with dξ/sqrt(from_edge) = 2 sqrt(inner) dψ
+                dp = (dP / math.pi - strain * at) / np.sqrt(2.0 * contact.r - from_edge)
+                dp *= 2.0 * np.sqrt(inner) * ANGLE
+                near = zone.from_stick / (zone.from_stick + 2.0 * rho)
+                beyond = inner / (inner + 2.0 * rho)
+                rate -= 4.0 / math.pi * np.arctanh(np.sqrt(near[:, None] * beyond)) @ dp
+            found.append((zone, -sign * f * rate / self.pressure.half_modulus))
+        return found
+
+    @property
+    def _whole_zones(self) -> tuple[SlipZone, SlipZone]:
+        """The zones of slip from the edges of contact, with the pressure."""
+        contact, marks = self.pressure.contact, np.array(self.pressure.breaks)
+        left, right = (
+            FrozenEdge(edge, side, 2.0 * contact.r, self.pressure, marks).zone(side * (edge - end))
+            for side, edge, end in zip(
+                (-1.0, 1.0), (contact.x1, contact.x2), self.reach, strict=True
+            )
+        )
+        return left, right
+
+    def in_stick(self, x: Array) -> Array:
+        q: Array = self.before.shear(x) + self.friction * self.found.shear(x)
+        return q
+
+    def slip(self, x: Array) -> Array:
+        out = np.zeros(x.shape)
+        for side, end, panels, until in self._opening:
+            distance = side * (x - end)
+            beside = (distance > 0.0) & (distance <= panels.hi[-1])
+            d = distance[beside]
+            k = np.minimum(np.searchsorted(panels.hi, d), len(panels.hi) - 1)
+            length = (panels.hi - panels.lo)[k]
+            s = 2.0 * (d - panels.lo[k]) / length - 1.0
+            grown = chebyshev.evaluate(chebyshev.antiderivative(panels.series[k]).T, s)
+            out[beside] = (until[k] + 0.5 * length * grown) / self.pressure.half_modulus
+        return out
+
+    @property
+    def _beside(self) -> tuple[Side, ...]:
+        """The zones of slip: +1 to the right of a stick zone or -1, its end, and the far end."""
+        old, new = self.before.pressure.contact, self.pressure.contact
+        left, right = self.reach
+        return (-1.0, left, min(old.x1, new.x1)), (1.0, right, max(old.x2, new.x2))
+
+    @cached_property
+    def _opening(self) -> tuple[tuple[float, float, Panels, Array], ...]:
+        """The side and the end of the stick zone, E*/2 dΔg, and its integrals, for each zone.
+
+        dΔg is on panels of the distance from the end, and has an integral up to each.
+        """
+        return tuple(self._on_one_side(*zone) for zone in self._beside)
+
+    def _on_one_side(
+        self, side: float, end: float, edge: float
+    ) -> tuple[float, float, Panels, Array]:
+        length = side * (edge - end)
+        d = np.unique(side * (np.array([*self._places, *self.marks]) - end))
+        apart = np.diff(d, prepend=0.0) > SAME * length
+        inner = d[apart & (d > SAME * length) & (d < length * (1.0 - SAME))].tolist()
+
+        def steepness(distance: Array) -> Array:
+            x = end + side * distance
+            change = self.shear.hilbert(x) - self.before.shear.hilbert(x)
+            steep: Array = side * (change - (self.tau - self.before.tau))
+            return steep
+
+        panels = resolved_panels((steepness,), (*inner, length), 0.0, OF_SLIP)[0]
+        sums = chebyshev.antiderivative(panels.series).T
+        whole = 0.5 * (panels.hi - panels.lo) * chebyshev.evaluate(sums, np.ones(len(panels.lo)))
+        return side, end, panels, np.cumsum(whole) - whole
+
+
+def receded(
+    before: Held,
+    pressure: SlopeDensity,
+    friction: float,
+    loads: tuple[float, float],
+    ends: Ends,
+) -> Receded:
+    """The state under a pressure and the loads Q and τ. Raises ContactError where there is none."""
+    (signs, goes_on, near), (Q, tau) = ends, loads
+    old, new = before.pressure.contact, pressure.contact
+    left = before.stick.x1 if goes_on[0] else min(old.x1, new.x1)
+    right = before.stick.x2 if goes_on[1] else max(old.x2, new.x2)
+    outer, marks = Interval(left, right), np.array(places(before, pressure))
+
+    def beside(place: float, side: float, sign: float) -> FrozenEdge:
+        def free(x: Array) -> Array:
+            p: Array = pressure(x) - (sign / friction) * before.shear(x)
+            return p
+
+        return FrozenEdge(place, side, 2.0 * outer.r, free, marks)
+
+    frames = beside(left, -1.0, signs[0]), beside(right, 1.0, signs[1])
+    drive = Drive((Q - before.Q) / friction, math.pi * (tau - before.tau) / friction, *signs)
+    equations = Equations(frames, outer, drive)
+    guess = None if near is None else np.array([near.x1 - left, right - near.x2])
+    lengths = equations.at_marks(equations.solution(guess))
+    zones = frames[0].zone(lengths[0]), frames[1].zone(lengths[1])
+    found = SlipZones(outer.moved(lengths[0], -lengths[1]), *zones, drive)
+    error = float(np.abs(equations.missed(lengths)).max())
+    return Receded(before, pressure, friction, signs, Q, tau, found, error)
+
+
+# -- energy while the pressure changes -------------------------------------------------------------
+
+# How well it is known when an end of the stick zone passes a mark, of a step and of a half-width,
+# and the share of a step before which it does not matter.
+SURE, EARLY = 1e-7, 1e-2
+
+
+def moving_work(part: Receded, change: LoadChange) -> float:
+    """f ∫∫ p |dΔg| dx.
+
+    The ends of the stick zone change their speed at marks, beyond which power is a series in the
+    root of time.
+    """
+    begun, known = part.begun, {1.0: part}
+
+    def state(share: float) -> Receded:
+        if share not in known:
+            nearest = min(known, key=lambda other: abs(other - share))
+            known[share] = part.at(share, known[nearest])
+        return known[share]
+
+    def power(share: float) -> float:
+        rates = state(share).slip_rates(change)
+        return part.friction * sum(float(zone.force @ np.abs(g)) for zone, g in rates)
+
+    cuts = sorted({begun, 1.0, *_passages(part, state)})
+    scale, total = power(0.5 * (begun + 1.0)), 0.0
+    for lo, hi in pairwise(cuts):
+
+        def rate(v: float, lo: float = lo, hi: float = hi) -> float:
+            if lo == begun:
+                return (hi - lo) * power(lo + (hi - lo) * v)
+            return 2.0 * v * (hi - lo) * power(lo + (hi - lo) * v * v)
+
+        total += integral(rate, scale)
+    return total
+
+
+def _passages(part: Receded, state: Callable[[float], Receded]) -> list[float]:
+    """The shares of the step at which an end of the stick zone passes a mark."""
+    begun = part.begun + EARLY * (1.0 - part.begun)
+    first = state(begun).stick
+    shares = []
+    for k in (0, 1):
+        lo, hi = sorted((first[k], part.stick[k]))
+        for mark in {m for m in places(part.before, part.pressure) if lo < m < hi}:
+
+            def ahead(share: float, k: int = k, mark: float = mark) -> float:
+                return state(share).stick[k] - mark
+
+            def settled(a: float, b: float, value: float) -> bool:
+                return b - a <= SURE or abs(value) <= SURE * part.stick.r
+
+            values = ahead(begun), ahead(1.0)
+            shares.append(false_position(ahead, begun, 1.0, values, settled))
+    return shares

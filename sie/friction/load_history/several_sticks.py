@@ -1,0 +1,201 @@
+"""The state after a step that leaves several stick zones, on any earlier shear.
+
+As in `receding_step` it follows from the shear at the start where each point slips in one direction
+only: |q| <= f p, with slip where it is equal, is one convex problem for the whole step. A grid
+tells how many stick zones there are and in which directions the zones beside them slip
+(`grid_zones`); Newton's method finds their ends (`stick_intervals`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import pairwise
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sie.errors import ContactError
+from sie.friction.slip_state import IntegralsOfSlip
+from sie.friction.step_conditions import TESTED, inside
+from sie.numerics.halving import integral
+from sie.numerics.interval import Interval
+from sie.traction.of_slope import SlopeDensity
+
+from .grid_zones import cells, guess, stepped
+from .marched_step import Held, places
+from .receding_step import Receded, Side
+from .stick_intervals import ROUNDING, StickIntervals, Zone, settled, zone
+
+Array = NDArray[np.float64]
+
+NONE = "no stick zones inside the contact balance the loads"
+PLACES = 240  # in each stick zone, at which |q| <= f p is tested ...
+EXCEEDED = 1e-9  # ... and by how much of the largest f p it may be missed, which is rounding
+TURNED = 1e-3  # of the largest slip: as well does a grid know it
+ADVANCES = "one of several stick zones grows at an end while it shrinks at others"
+TURNS = "slip beside one of several stick zones turns on the way"
+
+
+class Stepping(Protocol):
+    """A step between two loads: what it starts from, f, p and (Q, τ) after a share of it."""
+
+    @property
+    def held(self) -> Held: ...
+    @property
+    def friction(self) -> float: ...
+    def pressure(self, share: float) -> SlopeDensity: ...
+    def shear(self, share: float) -> tuple[float, float]: ...
+
+
+@dataclass(frozen=True, eq=False)
+class SeveralSticks(Receded):
+    """The state after a step that leaves several stick zones.
+
+    found         the stick zones, and the zones in which q changed
+    directions    the signs of slip in these, from left to right
+    """
+
+    found: StickIntervals  # type: ignore[assignment]
+    directions: tuple[float, ...] = ()
+
+    @property
+    def stick(self) -> Interval:
+        """From the first to the last end."""
+        return Interval(float(self.found.ends[0, 0]), float(self.found.ends[-1, 1]))
+
+    @property
+    def gaps(self) -> tuple[tuple[float, float, float], ...]:
+        inner = self.found.ends.ravel()[1:-1].reshape(-1, 2).tolist()
+        pairs = zip(inner, self.directions[1:-1], strict=True)
+        return tuple((lo, hi, sign) for (lo, hi), sign in pairs)
+
+    def in_stick(self, x: Array) -> Array:
+        q: Array = self.before.shear(x) + self.found.shear(x)
+        for lo, hi, sign in self.gaps:
+            slips = (x > lo) & (x < hi)
+            q[slips] = sign * self.friction * self.pressure(x[slips])
+        return q
+
+    def at(self, share: float, near: Receded | None = None) -> SeveralSticks:
+        assert self.change is not None
+        loads, pressure = self.change.shear(share), self.change.pressure(share)
+        return stuck_in_several(self.before, pressure, self.friction, loads)
+
+    @cached_property
+    def work(self) -> float:
+        """∫f p |Δg| dx less ∫∫f |Δg| dp dx while the pressure changes."""
+        whole, change = self.integrals.work, self.change
+        if change is None:
+            return whole
+
+        def rate(share: float) -> float:
+            state = self.at(share)
+            contact = state.pressure.contact
+            strain = float(change.rates.strain(np.array(contact.m), np.array(contact.r)))
+            return state.integrals.work_of(change.rates.P, strain)
+
+        return whole - integral(rate, abs(whole))
+
+    @property
+    def _beside(self) -> tuple[Side, ...]:
+        return *super()._beside, *((1.0, lo, hi) for lo, hi, _ in self.gaps)
+
+    @cached_property
+    def integrals(self) -> IntegralsOfSlip:
+        """Integrals of Δg."""
+        contact, f, total = self.pressure.contact, self.friction, np.zeros(4)
+        marks = np.array([*self._places, *self.marks])
+        ends = np.concatenate(([contact.x1], self.found.ends.ravel(), [contact.x2]))
+        for sign, (lo, hi) in zip(self.directions, ends.reshape(-1, 2).tolist(), strict=True):
+            z = zone((lo, hi), marks, self.pressure)
+            slip = sign * self.slip(z.places)
+            left, right = z.apart(contact.x1), z.apart(contact.x2)
+            moved = z.weight * slip / np.sqrt(left * right) / np.pi
+            spread, lever = float(moved.sum()), float(moved @ (left - right))
+            total += f * float(z.force @ slip), sign * spread, f * spread, 0.5 * f * lever
+        return IntegralsOfSlip(*total.tolist())
+
+    @property
+    def excess(self) -> float:
+        """The largest |q| - f p where it sticks, over the largest f p."""
+        angle = np.pi * (np.arange(PLACES) + 0.5) / PLACES
+        x = np.concatenate(
+            [0.5 * (a + b) - 0.5 * (b - a) * np.cos(angle) for a, b in self.found.ends]
+        )
+        bound = self.friction * self.pressure(x)
+        return float((np.abs(self.in_stick(x)) - bound).max() / bound.max())
+
+
+def stuck_in_several(
+    before: Held, pressure: SlopeDensity, friction: float, loads: tuple[float, float]
+) -> SeveralSticks:
+    """The state under a pressure and the loads Q and τ. Raises ContactError where none is found."""
+    change = loads[0] - before.Q, loads[1] - before.tau
+    old, new = before.pressure.contact, pressure.contact
+    outer = Interval(min(old.x1, new.x1), max(old.x2, new.x2))
+    marks = np.array(places(before, pressure))
+
+    bound = _times(friction, pressure)
+    for first, signs in guess(outer, before.shear, bound, change, marks):
+
+        def beside(ends: Array, signs: tuple[float, ...] = signs) -> StickIntervals:
+            cuts = np.concatenate(([outer.x1], ends.ravel(), [outer.x2])).reshape(-1, 2)
+
+            def slipping(cut: list[float], sign: float) -> Zone:
+                lo, hi = cut
+                return zone((lo, hi), marks, lambda x: sign * bound(x) - before.shear(x))
+
+            return StickIntervals(ends, tuple(map(slipping, cuts.tolist(), signs)))
+
+        found, error = settled(beside, first, outer, change)
+        outermost = signs[0], signs[-1]
+        state = SeveralSticks(
+            before, pressure, friction, outermost, *loads, found, error, directions=signs
+        )
+        if error < ROUNDING and state.excess <= EXCEEDED:
+            return state
+    raise ContactError(NONE)
+
+
+def in_several_zones(step: Stepping) -> SeveralSticks:
+    """The state at the end of a step in which all stick zones recede and no slip turns.
+
+    Both are tested at five times on the way. Raises ContactError where they do not hold.
+    """
+    states = [
+        stuck_in_several(step.held, step.pressure(share), step.friction, step.shear(share))
+        for share in TESTED
+    ]
+    for earlier, later in pairwise(states):
+        if not all(_within(zone, earlier.sticks) for zone in later.sticks):
+            raise ContactError(ADVANCES)
+    edges, Q, tau = cells(states[-1].pressure.contact), step.held.Q, step.held.tau
+    slip = np.array(
+        [
+            stepped(
+                edges, step.held.shear, _times(step.friction, o.pressure), (o.Q - Q, o.tau - tau)
+            )
+            for o in states
+        ]
+    )[:, 1]
+    grown = np.diff(slip, axis=0, prepend=0.0) * np.sign(slip[-1])
+    if grown.min() < -TURNED * np.abs(slip[-1]).max():
+        raise ContactError(TURNS)
+    return states[-1]
+
+
+def _times(friction: float, pressure: SlopeDensity) -> Callable[[Array], Array]:
+    """The bound of the shear."""
+
+    def bound(x: Array) -> Array:
+        p: Array = friction * pressure(x)
+        return p
+
+    return bound
+
+
+def _within(zone: tuple[float, float], others: tuple[tuple[float, float], ...]) -> bool:
+    return any(inside(Interval(*zone), Interval(*other)) for other in others)
