@@ -43,14 +43,14 @@ from .io.mesh_result import read_mesh
 from .io.report import summary
 from .io.scene_file import SceneFile
 from .io.stress_grid import Grid, file_bytes
-from .messages import with_short_words
+from .messages import WIDE, with_short_words
 from .plan import plan
 from .problem.request import GRID, refuse_unknown_poisson
 from .progress_bar import Progress
 from .solution import Solution, solve
 from .stages import LOG
 from .streams import (
-    broken_to_terminal,
+    broken,
     discard_output,
     logged,
     print_error,
@@ -168,7 +168,7 @@ def _compare(arguments: argparse.Namespace) -> int:
         }
     shown = contents.pop(pathlib.Path(STANDARD), None)
     paragraphs = [str(comparison), *(f"wrote {path}" for path in contents)]
-    report = "" if arguments.quiet else "\n\n".join(paragraphs) + "\n"
+    report = "" if arguments.quiet else _fitted(paragraphs)
     _give(contents, report if shown is None else shown.decode())
     return CERTIFIED if comparison.ok else NOT_CERTIFIED
 
@@ -188,7 +188,7 @@ def _plan(arguments: argparse.Namespace) -> int:
     file = scene_of(arguments)
     _refuse_open_path(file)
     _solution(file, TOL)  # computes nothing, but refuses a scene that is not covered
-    print_text(f"{broken_to_terminal(str(plan(file.scene, file.want)))}\n")
+    print_text(f"{broken(str(plan(file.scene, file.want)), terminal_width())}\n")
     return CERTIFIED
 
 
@@ -317,7 +317,13 @@ def _report(
         summary(solution, file, cycle, terminal_width()),
         "\n".join(f"wrote {path}" for path in written),
     ]
-    return "\n\n".join(p for p in paragraphs if p) + "\n"
+    return _fitted(paragraphs)
+
+
+def _fitted(paragraphs: Iterable[str]) -> str:
+    """The paragraphs of a report, in lines of 80 columns, or as many as a wider terminal has."""
+    text = "\n\n".join(paragraph for paragraph in paragraphs if paragraph)
+    return broken(text, max(WIDE, terminal_width())) + "\n"
 
 
 def _give(contents: dict[pathlib.Path, bytes], text: str) -> None:
