@@ -19,6 +19,8 @@ from .io import scene_file
 from .io.answers import wanted
 from .io.scene_file import SceneFile
 from .io.stress_grid import SUFFIXES
+from .messages import choices
+from .problem.request import WANTS
 from .stages import LOG
 
 OUTPUTS = ("plot", "csv", "json", "field")
@@ -26,15 +28,10 @@ OUTPUTS = ("plot", "csv", "json", "field")
 
 def scene_of(arguments: argparse.Namespace) -> SceneFile:
     """The scene file, with --want in place of the file's own `want`."""
-    want = scene_file.wants(
-        "--want",
-        [
-            name
-            for word in getattr(arguments, "want", None) or ()
-            for name in word.split(",")
-            if name
-        ],
-    )
+    words = getattr(arguments, "want", None) or ()
+    want = scene_file.wants("--want", [name for name in ",".join(words).split(",") if name])
+    if words and not want:
+        raise ValueError(f"--want names nothing: give {choices(WANTS)}")
     if arguments.scene is None:
         raise ValueError(
             f"give the scene file first: sie {arguments.command} scene.toml; "

@@ -481,6 +481,8 @@ BAD = {
     "tolerance": (["solve", "scene.toml", "--tol", "0"], "tol = 0 is not positive"),
     "tolerance below rounding": (["solve", "scene.toml", "--tol", "1e-30"], "is below 4.4e-16"),
     "tolerance nan": (["solve", "scene.toml", "--tol", "nan"], "tol is nan"),
+    "a want that is empty": (["solve", "scene.toml", "--want", ""], "--want names nothing"),
+    "a want of a comma": (["plan", "scene.toml", "--want", ","], "--want names nothing"),
     "tolerance inf": (["solve", "scene.toml", "--tol", "inf"], "tol = inf is infinite"),
     "tolerance of a comparison": (
         ["compare", "scene.toml", "fem.csv", "--tol", "inf"],
