@@ -23,37 +23,34 @@ from __future__ import annotations
 
 import argparse
 import math
-import os
 import pathlib
 import sys
 from collections.abc import Iterable, Sequence
-from dataclasses import replace
 from importlib.util import find_spec
-from itertools import combinations
-from types import ModuleType
 from typing import Any
 
 from . import __version__, files, interrupt
 from .command_parser import STANDARD, TOL, parse
+from .command_requests import outputs_of, picture_style, refuse_overwriting, scene_of
 from .errors import ContactError
 from .history import follow
 from .interrupt import INTERRUPTED
 from .io import export, scene_file
-from .io.answers import wanted
 from .io.cycle_answer import cycle_of, start_of_cycle
 from .io.mesh_comparison import compare
 from .io.mesh_difference import Comparison
 from .io.mesh_result import read_mesh
 from .io.report import summary
 from .io.scene_file import SceneFile
-from .io.stress_grid import SUFFIXES, Grid, file_bytes
-from .messages import with_short_words
+from .io.stress_grid import Grid, file_bytes
+from .messages import WIDE, with_short_words
 from .plan import plan
 from .problem.request import GRID, refuse_unknown_poisson
+from .progress_bar import Progress
 from .solution import Solution, solve
 from .stages import LOG
 from .streams import (
-    broken_to_terminal,
+    broken,
     discard_output,
     logged,
     print_error,
@@ -103,26 +100,27 @@ def _run(argv: Sequence[str]) -> int:
 
 def _solve(arguments: argparse.Namespace) -> int:
     """Check all requests, then compute all answers, then write the files."""
-    outputs = _outputs(arguments)
+    outputs = outputs_of(arguments)
     if arguments.grid and not arguments.field:
         raise ValueError(
             "--grid is the number of points that --field writes: "
             "give --field FILE too, with one of the suffixes .csv, .npz, .vti"
         )
-    file = _scene(arguments)
-    _refuse_overwriting(arguments, outputs, file)
+    file = scene_of(arguments)
+    refuse_overwriting(arguments, outputs, file)
     _refuse_open_path(file)
     if "yield" in file.want or "field" in outputs:
         refuse_unknown_poisson(file.scene)
-    solution = _solution(file, arguments.tol)
-    cycle = cycle_of(solution, file) if "cycle" in file.want else None
-    contents = {
-        path: _content(kind, path, solution, file, arguments, cycle=cycle)
-        for kind, path in outputs.items()
-    }
-    shown = contents.pop(pathlib.Path(STANDARD), None)
-    text = shown.decode() if shown is not None else _report(solution, file, contents, cycle)
-    certified = "check" not in file.want or solution.check().ok
+    with _progress(arguments):
+        solution = _solution(file, arguments.tol)
+        cycle = cycle_of(solution, file) if "cycle" in file.want else None
+        contents = {
+            path: _content(kind, path, solution, file, arguments, cycle=cycle)
+            for kind, path in outputs.items()
+        }
+        shown = contents.pop(pathlib.Path(STANDARD), None)
+        text = shown.decode() if shown is not None else _report(solution, file, contents, cycle)
+        certified = "check" not in file.want or solution.check().ok
     _give(contents, "" if arguments.quiet and shown is None else text)
     if not certified:
         print_error(
@@ -141,6 +139,11 @@ def _solution(file: SceneFile, tol: float) -> Solution:
     )
 
 
+def _progress(arguments: argparse.Namespace) -> Progress:
+    """The bar of a command, if neither --quiet nor --log asks for something else."""
+    return Progress(f"sie {arguments.command}", shown=not (arguments.quiet or arguments.log))
+
+
 def _compare(arguments: argparse.Namespace) -> int:
     if arguments.mesh is None:
         raise ValueError(
@@ -152,18 +155,20 @@ def _compare(arguments: argparse.Namespace) -> int:
             f"tol = {arguments.tol:g} is no positive number: "
             "give the l2 error that is let pass, relative"
         )
-    outputs = _outputs(arguments)
-    file = _scene(arguments)
-    _refuse_overwriting(arguments, outputs, file)
-    mesh = read_mesh(arguments.mesh, arguments.deck, arguments.surface, arguments.body or "")
-    solution = _solution(file, TOL)
-    comparison = compare(solution, mesh, arguments.tol)
-    contents = {
-        path: _compared(kind, path, solution, comparison, file) for kind, path in outputs.items()
-    }
+    outputs = outputs_of(arguments)
+    file = scene_of(arguments)
+    refuse_overwriting(arguments, outputs, file)
+    with _progress(arguments):
+        mesh = read_mesh(arguments.mesh, arguments.deck, arguments.surface, arguments.body or "")
+        solution = _solution(file, TOL)
+        comparison = compare(solution, mesh, arguments.tol)
+        contents = {
+            path: _compared(kind, path, solution, comparison, file)
+            for kind, path in outputs.items()
+        }
     shown = contents.pop(pathlib.Path(STANDARD), None)
     paragraphs = [str(comparison), *(f"wrote {path}" for path in contents)]
-    report = "" if arguments.quiet else "\n\n".join(paragraphs) + "\n"
+    report = "" if arguments.quiet else _fitted(paragraphs)
     _give(contents, report if shown is None else shown.decode())
     return CERTIFIED if comparison.ok else NOT_CERTIFIED
 
@@ -176,20 +181,20 @@ def _compared(
     from .plots.comparison_plot import overlay  # noqa: PLC0415
 
     figure = overlay(solution, comparison, file.units, file.title)
-    return _style().picture_bytes(figure, path.suffix[1:].lower())
+    return picture_style().picture_bytes(figure, path.suffix[1:].lower())
 
 
 def _plan(arguments: argparse.Namespace) -> int:
-    file = _scene(arguments)
+    file = scene_of(arguments)
     _refuse_open_path(file)
     _solution(file, TOL)  # computes nothing, but refuses a scene that is not covered
-    print_text(f"{broken_to_terminal(str(plan(file.scene, file.want)))}\n")
+    print_text(f"{broken(str(plan(file.scene, file.want)), terminal_width())}\n")
     return CERTIFIED
 
 
 def _live(arguments: argparse.Namespace) -> int:
     """Serve the page until Ctrl-C."""
-    file = _scene(arguments) if arguments.scene is not None else None
+    file = scene_of(arguments) if arguments.scene is not None else None
     if file is not None and file.load_path:
         raise ValueError("the scene has a load path, which no slider shows: leave [load] path out")
     if find_spec("bokeh") is None:
@@ -245,7 +250,6 @@ def _completion(arguments: argparse.Namespace) -> int:
     return CERTIFIED
 
 
-OUTPUTS = ("plot", "csv", "json", "field")
 COMMANDS = {
     "solve": _solve,
     "compare": _compare,
@@ -258,115 +262,10 @@ COMMANDS = {
 }
 
 
-# -- checks of the requests ----------------------------------------------------------------------
-
-
-def _scene(arguments: argparse.Namespace) -> SceneFile:
-    """The scene file, with --want in place of the file's own `want`."""
-    want = scene_file.wants(
-        "--want",
-        [
-            name
-            for word in getattr(arguments, "want", None) or ()
-            for name in word.split(",")
-            if name
-        ],
-    )
-    if arguments.scene is None:
-        raise ValueError(
-            f"give the scene file first: sie {arguments.command} scene.toml; "
-            "`sie example` lists some to start from"
-        )
-    standard = arguments.scene == STANDARD
-    file = (
-        scene_file.parse(_standard_input(), "standard input")
-        if standard
-        else scene_file.read(arguments.scene)
-    )
-    LOG.info("read %s: %r", arguments.scene, file.scene)
-    return replace(file, want=want or wanted(file))
-
-
-def _standard_input() -> bytes:
-    if sys.stdin is None:
-        raise ValueError("standard input is closed: give the scene a file")
-    return sys.stdin.buffer.read(scene_file.MOST_BYTES + 1)
-
-
-def _outputs(arguments: argparse.Namespace) -> dict[str, pathlib.Path]:
-    """The destination of each kind of output. ValueError unless all can be written."""
-    given = ((kind, getattr(arguments, kind, None)) for kind in OUTPUTS)
-    outputs = {kind: pathlib.Path(name) for kind, name in given if name is not None}
-    if "plot" in outputs:
-        _check_picture(outputs["plot"])
-    if "field" in outputs and outputs["field"].suffix[1:].lower() not in SUFFIXES:
-        path = outputs["field"]
-        raise ValueError(
-            f'--field {path} has the suffix "{path.suffix}": use .{", .".join(SUFFIXES)}'
-        )
-    for (first, path), (second, other) in combinations(outputs.items(), 2):
-        if path == other == pathlib.Path(STANDARD):
-            raise ValueError(
-                f"--{first} and --{second} cannot both go to standard output: give one of them a "
-                "file"
-            )
-        if files.same(_place(path), _place(other)):
-            raise ValueError(
-                f"--{second} {other} would overwrite what --{first} writes: give another name"
-            )
-    for path in outputs.values():
-        if path != pathlib.Path(STANDARD):
-            files.writable(path)
-    return outputs
-
-
-def _place(path: pathlib.Path) -> int | pathlib.Path:
-    """The path, or the descriptor of standard output."""
-    return 1 if path == pathlib.Path(STANDARD) else path
-
-
-def _refuse_overwriting(
-    arguments: argparse.Namespace, outputs: dict[str, pathlib.Path], file: SceneFile
-) -> None:
-    """ValueError if an output, or what is printed, would go into a file that is read."""
-    scene = 0 if arguments.scene == STANDARD else pathlib.Path(arguments.scene)
-    read: dict[int | pathlib.Path, str] = {scene: "the scene file"}
-    if getattr(arguments, "mesh", None) is not None:
-        read[pathlib.Path(arguments.mesh)] = "the mesh result"
-        deck = arguments.deck or pathlib.Path(arguments.mesh).with_suffix(".inp")
-        read[pathlib.Path(deck)] = "the input deck"
-    read |= dict.fromkeys(file.reads, "a trace that the scene reads")
-    written = {f"--{kind} {path}": _place(path) for kind, path in outputs.items()} | {
-        "standard output": 1
-    }
-    for place, what in read.items():
-        for name, target in written.items():
-            if os.path.isfile(place) and files.same(target, place):
-                raise ValueError(f"{name} would overwrite {what}: give another name")
-
-
 def _refuse_open_path(file: SceneFile) -> None:
     """ValueError if a cycle is wanted of a path that does not close."""
     if "cycle" in file.want:
         start_of_cycle(file.load_path)
-
-
-def _check_picture(path: pathlib.Path) -> None:
-    known = _style().suffixes()
-    if path.suffix[1:].lower() not in known:
-        raise ValueError(
-            f'--plot {path} has the suffix "{path.suffix}", which Matplotlib does not write: '
-            f"use .{', .'.join(known)}"
-        )
-
-
-def _style() -> ModuleType:
-    """The module of the pictures' style; its import shows whether Matplotlib is installed."""
-    try:
-        from .plots import style  # noqa: PLC0415
-    except ImportError:
-        raise ValueError('--plot needs Matplotlib: pip install "plane-contact[plot]"') from None
-    return style
 
 
 # -- output --------------------------------------------------------------------------------------
@@ -402,10 +301,10 @@ def _picture(solution: Solution, file: SceneFile, suffix: str) -> bytes:
     if {"stress", "yield"} & set(file.want):
         from .plots.stress_plot import contours  # noqa: PLC0415
 
-        return _style().picture_bytes(contours(solution, file.units, file.title), suffix)
+        return picture_style().picture_bytes(contours(solution, file.units, file.title), suffix)
     from .plots.contact_plot import picture  # noqa: PLC0415
 
-    return _style().picture_bytes(picture(solution, file.units, file.title), suffix)
+    return picture_style().picture_bytes(picture(solution, file.units, file.title), suffix)
 
 
 def _report(
@@ -418,7 +317,13 @@ def _report(
         summary(solution, file, cycle, terminal_width()),
         "\n".join(f"wrote {path}" for path in written),
     ]
-    return "\n\n".join(p for p in paragraphs if p) + "\n"
+    return _fitted(paragraphs)
+
+
+def _fitted(paragraphs: Iterable[str]) -> str:
+    """The paragraphs of a report, in lines of 80 columns, or as many as a wider terminal has."""
+    text = "\n\n".join(paragraph for paragraph in paragraphs if paragraph)
+    return broken(text, max(WIDE, terminal_width())) + "\n"
 
 
 def _give(contents: dict[pathlib.Path, bytes], text: str) -> None:

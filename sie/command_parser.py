@@ -150,7 +150,9 @@ def _add_options(commands: Mapping[str, argparse.ArgumentParser]) -> None:
     commands["benchmark-set"].add_argument(
         "folder", metavar="DIR", help="where to write them: a new or an empty directory"
     )
-    commands["completion"].add_argument("shell", metavar="SHELL", help="bash, zsh or tcsh")
+    commands["completion"].add_argument(
+        "shell", metavar="SHELL", help="bash, zsh or tcsh, and what else shtab knows"
+    )
 
 
 def _add_outputs_of_solve(parser: argparse.ArgumentParser) -> None:

@@ -1,49 +1,156 @@
 """A progress bar, by tqdm where that is installed, on work that takes more than a second.
 
-It is drawn on standard error where that is a terminal, and in a notebook, and wiped at the end.
+It is one line on standard error where that is a terminal, and in a notebook, and wiped at the end.
+What may take long opens a `Progress`, also inside another. The line counts the steps of the
+outermost work whose number of steps is known, and names what is being done inside it. The open
+work is kept in a context variable, so that a step deep in a solver needs no argument to be counted;
+where nothing is open a step costs a tenth of a microsecond. Only the main thread of a main process
+draws: workers of a pool would write over each other. `TQDM_DISABLE=1` in the environment, or
+`with Progress("", shown=False):`, shows no bar.
 """
 
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterable, Iterator
+import threading
+from collections.abc import Callable, Iterable, Iterator
+from contextvars import ContextVar
+from functools import wraps
 from importlib.util import find_spec
-from typing import Any, Protocol, TypeVar
+from math import inf
+from time import perf_counter
+from typing import Any, ParamSpec, TypeVar
 
-PATIENCE = 1.0  # seconds of work before a bar appears
+PATIENCE = 1.0  # seconds of work before a bar appears ...
+INTERVAL = 0.1  # ... and between two changes of it
+WITHOUT_TOTAL = "{desc}: {elapsed}{postfix}"
+P = ParamSpec("P")
 T = TypeVar("T")
 
 
-class Bar(Protocol):
-    """What is told how much work is done."""
+class Progress:
+    """The progress of work that is done step by step in the block of a `with`.
 
-    def update(self, n: int) -> Any:
-        """Count further points as done."""
+    Parameters
+    ----------
+    name : str
+        What is done, or what is counted.
+    total : int, optional
+        The number of steps; 0 if it is not known.
+    shown : bool, optional
+        Whether a bar is drawn for this work and all inside it.
+    """
 
-    def close(self) -> Any:
-        """Wipe the bar."""
+    def __init__(self, name: str, total: int = 0, shown: bool = True) -> None:
+        self.name, self.total, self.done = name, total, 0
+        self.outer: Progress | None = None
+        self._line = _Line() if shown else None
+        self.start = perf_counter()
+
+    def __enter__(self) -> Progress:
+        self.outer = _OPEN.get()
+        if self.outer is not None:
+            self._line = self.outer._line
+        _OPEN.set(self)
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        if _OPEN.get() is self:
+            _OPEN.set(self.outer)
+        if self.outer is None and self._line is not None:
+            self._line.wipe()
+
+    def update(self, steps: int = 1) -> None:
+        """Count further steps as done."""
+        self.done += steps
+        if self._line is not None and perf_counter() >= self._line.due:
+            self._line.draw(self)
 
 
-class _NoBar:
-    def update(self, n: int) -> None: ...
-
-    def close(self) -> None: ...
+_OPEN: ContextVar[Progress | None] = ContextVar("open work", default=None)
 
 
-def bar(name: str, total: int, wanted: bool = True) -> Bar:
-    """A bar for so many points."""
-    notebook = _in_notebook()
-    seen = notebook or (sys.stderr is not None and sys.stderr.isatty())
-    if not (wanted and seen and find_spec("tqdm")):
-        return _NoBar()
-    if notebook and find_spec("ipywidgets"):
-        from tqdm.notebook import tqdm  # noqa: PLC0415 -- an extra
-    else:
-        from tqdm import tqdm  # noqa: PLC0415
-    # tqdm's own thread would be there when a pool forks its workers.
-    threadless = type("tqdm", (tqdm,), {"monitor_interval": 0})
-    made: Bar = threadless(desc=name, total=total, delay=PATIENCE, leave=False)
-    return made
+def step_done(steps: int = 1) -> None:
+    """Count a step of the innermost open work, if there is one; 0 only keeps its clock going."""
+    work = _OPEN.get()
+    if work is not None:
+        work.update(steps)
+
+
+def reported(name: str) -> Callable[[Callable[P, T]], Callable[P, T]]:
+    """Decorate a function that may take long with the name of what it does."""
+
+    def decorated(function: Callable[P, T]) -> Callable[P, T]:
+        @wraps(function)
+        def reporting(*args: P.args, **kwargs: P.kwargs) -> T:
+            with Progress(name):
+                return function(*args, **kwargs)
+
+        return reporting
+
+    return decorated
+
+
+def counted(name: str, items: Iterable[T], total: int) -> Iterable[T]:
+    """The items one after the other, with a bar."""
+    return _counted(name, items, total) if total > 1 else items
+
+
+def _counted(name: str, items: Iterable[T], total: int) -> Iterator[T]:
+    with Progress(name, total) as work:
+        for item in items:
+            yield item
+            work.update()
+
+
+class _Line:
+    """The line of all works that are open inside each other."""
+
+    def __init__(self) -> None:
+        self.due = perf_counter() + PATIENCE
+        self._leader: Progress | None = None
+        self._bar: Any = None
+
+    def draw(self, innermost: Progress) -> None:
+        """Draw what is done."""
+        if not _seen():
+            self.due = inf
+            return
+        works = [innermost]
+        while works[0].outer is not None:
+            works.insert(0, works[0].outer)
+        first = next((k for k, work in enumerate(works) if work.total), 0)
+        leader, inside = works[first], works[first + 1 :]
+        if leader is not self._leader:
+            self.wipe()
+            self._leader, self._bar = leader, _bar(leader)
+        self._bar.n = leader.done
+        if not leader.total:
+            self._bar.set_description_str(_counts(leader), refresh=False)
+        self._bar.set_postfix_str(", ".join(map(_counts, inside)))  # and refreshes
+        self.due = perf_counter() + INTERVAL
+
+    def wipe(self) -> None:
+        """Take the line away."""
+        if self._bar is not None:
+            self._bar.close()
+        self._leader = self._bar = None
+
+
+def _counts(work: Progress) -> str:
+    """What is done, and how much of it where that is counted."""
+    if work.total:
+        return f"{work.name} {work.done}/{work.total}"
+    return f"{work.name} {work.done}" if work.done else work.name
+
+
+def _seen() -> bool:
+    """Whether somebody sees a bar that this thread draws."""
+    from multiprocessing import parent_process  # noqa: PLC0415 -- after a second only
+
+    main = threading.current_thread() is threading.main_thread() and parent_process() is None
+    terminal = sys.stderr is not None and sys.stderr.isatty()
+    return main and (terminal or _in_notebook()) and find_spec("tqdm") is not None
 
 
 def _in_notebook() -> bool:
@@ -52,12 +159,16 @@ def _in_notebook() -> bool:
     return hasattr(shell, "kernel")
 
 
-def counted(name: str, items: Iterable[T], total: int) -> Iterator[T]:
-    """The items one after the other, with a bar."""
-    shown = bar(name, total)
-    try:
-        for item in items:
-            yield item
-            shown.update(1)
-    finally:
-        shown.close()
+def _bar(work: Progress) -> Any:
+    if _in_notebook() and find_spec("ipywidgets"):
+        from tqdm.notebook import tqdm  # noqa: PLC0415 -- an extra
+    else:
+        from tqdm import tqdm  # noqa: PLC0415
+    # tqdm's own thread would be there when a pool forks its workers.
+    threadless = type("tqdm", (tqdm,), {"monitor_interval": 0})
+    layout = {} if work.total else {"bar_format": WITHOUT_TOTAL}
+    # With any delay tqdm draws when it is told to, and not before it knows the time of the start.
+    made = threadless(desc=work.name, total=work.total or None, delay=1e-9, leave=False, **layout)
+    if not made.disable:  # as by TQDM_DISABLE=1
+        made.start_t -= perf_counter() - work.start
+    return made

@@ -11,6 +11,7 @@ from .profiles.base import Derived, Profile
 from .profiles.placed_traces import traces_in
 from .profiles.sampled import Sampled
 from .profiles.splines import longest_lambda
+from .progress_bar import reported, step_done
 from .solution import solve
 
 COARSE = 10.0  # λ is multiplied by this until there is one patch ...
@@ -18,6 +19,7 @@ HALVINGS = 2  # ... and then that step is halved in the logarithm so often
 DIGITS = 2
 
 
+@reported("smoothing, trial")
 def least_smoothing(scene: Scene, tol: float = 1e-13) -> float:
     """The least smoothing λ of a trace that makes its contact one patch.
 
@@ -64,6 +66,7 @@ def least_smoothing(scene: Scene, tol: float = 1e-13) -> float:
         raise ValueError(f"{scene.profile!r} is no trace: only a sampled profile is smoothed")
 
     def one_patch(lam: float) -> bool:
+        step_done()
         smooth = replace(scene, profile=_replaced(scene.profile, trace, trace.smoothed(lam)))
         try:
             _ = solve(smooth, tol).one_patch()

@@ -63,16 +63,20 @@ def terminal_width() -> int:
     return shutil.get_terminal_size((WIDE, 24)).columns if _on_terminal() else WIDE
 
 
-def broken_to_terminal(table: str) -> str:
-    """The table with its last column broken to the terminal; unbroken where output goes elsewhere.
+def broken(text: str, width: int) -> str:
+    """The text with lines of at most so many columns, as far as there are blanks to break at.
 
-    Its columns are at least two blanks apart.
+    What goes on below a line of a table, whose columns are two blanks apart, stands below the last.
     """
-    if not _on_terminal():
-        return table
     return "\n".join(
-        textwrap.fill(line, terminal_width(), subsequent_indent=" " * (line.rfind("  ") + 2))
-        for line in table.splitlines()
+        line if len(line) <= width else _broken(line, width) for line in text.splitlines()
+    )
+
+
+def _broken(line: str, width: int) -> str:
+    indent = " " * (line.rfind("  ") + 2 if "  " in line else 0)
+    return textwrap.fill(
+        line, width, subsequent_indent=indent, break_long_words=False, break_on_hyphens=False
     )
 
 

@@ -26,7 +26,7 @@ import numpy as np
 
 from . import arguments
 from .problem.scene import Scene
-from .progress_bar import Bar, bar
+from .progress_bar import Progress
 from .solution import Solution
 from .sweep_chunks import Chunks
 from .sweep_file import SweepFile
@@ -139,20 +139,19 @@ def sweep(
         Work(scene, wanted, tol),
         points,
         chunks,
-        bar("sweep", len(points), progress),
+        Progress("sweep", len(points), progress),
         lambda answers: file.grow(lambda: labelled(axes, wanted, answers, named)),
         [NOT_YET] * len(points),
     )
     try:
-        if executor is None:
-            run.here()
-        else:
-            run.through(executor)
+        with run.progress:
+            if executor is None:
+                run.here()
+            else:
+                run.through(executor)
     except KeyboardInterrupt:
         stopped = [INTERRUPTED if answer is NOT_YET else answer for answer in run.answers]
         raise Interrupted(file.finish(labelled(axes, wanted, stopped, named))) from None
-    finally:
-        run.bar.close()
     return file.finish(labelled(axes, wanted, run.answers, named))
 
 
@@ -237,7 +236,7 @@ class _Run:
     work: Work
     points: list[Point]
     chunks: Chunks
-    bar: Bar
+    progress: Progress
     grow: Callable[[list[Answer]], None]
     answers: list[Answer]
 
@@ -245,7 +244,7 @@ class _Run:
         last: Solution | None = None
         for k, point in enumerate(self.points):
             self.answers[k], last = answer_at(self.work, point, last)
-            self.bar.update(1)
+            self.progress.update(1)
             self.grow(self.answers)
 
     def through(self, executor: Executor) -> None:
@@ -254,7 +253,7 @@ class _Run:
         try:
             with closing(outcomes(task, self._taken, executor, left)) as done:
                 for chunk, future in done:
-                    self.bar.update(self._keep(chunk, future))
+                    self.progress.update(self._keep(chunk, future))
                     self.grow(self.answers)
         finally:
             for chunk, future in left:

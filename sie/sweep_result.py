@@ -30,30 +30,16 @@ def labelled(
     """The answers over the axes, an xarray Dataset with units where xarray is installed."""
     answers = _of_one_rank(answers)
     shape = tuple(map(len, axes.values()))
-    shapes: dict[str, tuple[int, ...]] = {}
-    for values, _ in answers:
-        for name, value in values.items():
-            shapes[name] = (
-                tuple(map(max, zip(shapes[name], value.shape, strict=True)))
-                if name in shapes
-                else value.shape
-            )
-    if not shapes:
-        shapes = {
-            part: ()
-            for name, of in wanted.items()
-            for part in (PARTS.get(name, (name,)) if of == name else (name,))
-        }
-    data: dict[str, Any] = {}
-    for name, inner in shapes.items():
-        if name in axes:
-            continue  # the parameters of the sweep are known
-        array = np.full((len(answers), *inner), np.nan)
-        for k, (values, _) in enumerate(answers):
-            if name in values:
-                place: Any = (k, *(slice(n) for n in values[name].shape)) if inner else k
-                array[place] = values[name]
-        data[name] = array.reshape(shape + inner)
+    shapes = _shapes(answers) or {
+        part: ()
+        for name, of in wanted.items()
+        for part in (PARTS.get(name, (name,)) if of == name else (name,))
+    }
+    data = {
+        name: _joined(name, inner, answers).reshape(shape + inner)
+        for name, inner in shapes.items()
+        if name not in axes  # the parameters of the sweep are known
+    }
     reasons = np.array([reason for _, reason in answers], dtype=object).reshape(shape)
     coordinates = {name: _coordinate(values) for name, values in axes.items()}
     try:
@@ -76,6 +62,26 @@ def labelled(
         for name, values in coordinates.items()
     }
     return xarray.Dataset({**variables, "reason": (dims, reasons)}, coords=along)
+
+
+def _shapes(answers: list[Answer]) -> dict[str, tuple[int, ...]]:
+    """The least shape of each quantity that holds its values at all points."""
+    shapes: dict[str, tuple[int, ...]] = {}
+    for values, _ in answers:
+        for name, value in values.items():
+            known = shapes.get(name, value.shape)
+            shapes[name] = tuple(map(max, zip(known, value.shape, strict=True)))
+    return shapes
+
+
+def _joined(name: str, inner: tuple[int, ...], answers: list[Answer]) -> Any:
+    """The values of a quantity at all points, (points, *inner), nan where there are none."""
+    array = np.full((len(answers), *inner), np.nan)
+    for k, (values, _) in enumerate(answers):
+        if name in values:
+            place: Any = (k, *(slice(n) for n in values[name].shape)) if inner else k
+            array[place] = values[name]
+    return array
 
 
 def _of_one_rank(answers: list[Answer]) -> list[Answer]:

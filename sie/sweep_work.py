@@ -17,6 +17,7 @@ import numpy as np
 
 from .errors import ContactError
 from .problem.scene import Scene
+from .progress_bar import Progress
 from .solution import Solution, solve
 from .sweep_result import Answer
 from .workers import is_death
@@ -78,11 +79,12 @@ def answers_of(work: Work, limit: float, points: list[Point]) -> Part:
     answers: list[Answer] = []
     last: Solution | None = None
     begin = perf_counter()
-    for point in points:
-        if answers and perf_counter() - begin > limit:
-            break
-        answer, last = answer_at(work, point, last)
-        answers.append(answer)
+    with Progress("chunk", shown=False):
+        for point in points:
+            if answers and perf_counter() - begin > limit:
+                break
+            answer, last = answer_at(work, point, last)
+            answers.append(answer)
     return Part(answers, perf_counter() - begin)
 
 

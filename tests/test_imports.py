@@ -53,7 +53,7 @@ LAYERS = (
     ("sweep", "charts", "steady_cycle", "teaching"),
     ("io",),
     ("plots", "live"),
-    ("command_parser", "shell_completion", "cli", "__main__"),
+    ("command_parser", "command_requests", "shell_completion", "cli", "__main__"),
 )
 
 

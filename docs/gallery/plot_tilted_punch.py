@@ -11,14 +11,9 @@ import numpy as np
 
 import sie
 
-level = sie.solve(
-    sie.Scene(
-        profile=sie.RoundedFlat(half_flat=1.0, radius=20.0),
-        body=sie.Elastic(young=210e3, poisson=0.3),
-        normal_load=300.0,
-        moment=0.0,
-    )
-)
+punch = sie.RoundedFlat(half_flat=1.0, radius=20.0)
+steel = sie.Elastic(young=210e3, poisson=0.3)
+level = sie.solve(sie.Scene(profile=punch, body=steel, normal_load=300.0, moment=0.0))
 x = np.linspace(-1.5, 1.7, 1601)
 fig, (above, below) = plt.subplots(2, 1, sharex=True, layout="constrained")
 for moment in (0.0, 60.0, 120.0, 180.0, 240.0):

@@ -24,6 +24,7 @@ from sie.friction.coupled.contact import CoupledContact
 from sie.numerics.gauss_jacobi import with_weight
 from sie.numerics.interval import EPS
 from sie.problem.scene import Scene
+from sie.progress_bar import reported
 
 from .result import Certificate, ShearCertificate
 
@@ -53,6 +54,7 @@ class Values(NamedTuple):
     q: Array
 
 
+@reported("certificate")
 def coupled_certificate(state: CoupledContact, scene: Scene, tol: float) -> Certificate:
     """Measured on p and q under the load, and q also under a lighter one."""
     values, x = _values(state), _looked_at(state)

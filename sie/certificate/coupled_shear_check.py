@@ -23,6 +23,7 @@ from sie.friction.coupled.sheared import ShearedContact
 from sie.numerics.gauss_jacobi import with_weight
 from sie.numerics.interval import EPS
 from sie.problem.scene import Scene
+from sie.progress_bar import reported
 
 from .coupled_check import OUTSIDE, gradient_of_slip
 from .result import Certificate, ShearCertificate
@@ -48,6 +49,7 @@ class Values(NamedTuple):
     q: Array
 
 
+@reported("certificate")
 def sheared_certificate(state: ShearedContact, scene: Scene, tol: float) -> Certificate:
     """Measured on p and q, and on those under P alone."""
     p, q = state.tractions

@@ -29,6 +29,7 @@ from sie.numerics.interval import EPS, Interval
 from sie.profiles.resolution import refined
 from sie.profiles.slope import Slope
 from sie.profiles.unresolved import largest_misfit
+from sie.progress_bar import reported, step_done
 from sie.traction.of_slope import SlopeDensity
 
 from .quadrature import Rule, composite_rule
@@ -45,6 +46,7 @@ MISPLACED = 4.0
 TOGETHER = 2**17  # entries of a matrix that are computed at once
 
 
+@reported("certificate")
 def certificate(density: SlopeDensity, slope: Slope, tol: float) -> Certificate:
     """Measure an answer; `slope` includes the tilt."""
     # What cannot be measured is infinite, and not ok.
@@ -160,6 +162,7 @@ def _residual(density: SlopeDensity, H: Array, rule: Rule, p: Array) -> Array:
     integral = values * np.log(rule.ends.from_left(at) / rule.ends.from_right(at))
     rows = max(TOGETHER // len(x), 1)
     for k in range(0, len(at), rows):
+        step_done(0)
         some = slice(k, k + rows)
         integrand = p - values[some, None] * taken_out
         distance = at[some, None] - x

@@ -18,6 +18,7 @@ from sie.errors import LoadError
 from sie.numerics.root_finding import false_position
 from sie.profiles.resolution import integral
 from sie.profiles.slope import Slope, polynomial_slope
+from sie.progress_bar import reported
 
 from .edges import Found, Search
 
@@ -32,6 +33,7 @@ MANY, FEWER = 4000, 1001  # pieces: where there are more, the half-width is soug
 ASTRAY = 0.02  # by which it may be wrong then
 
 
+@reported("half-width of the contact")
 def widest_contact(search: Search, load: float) -> Found | None:
     """The contact, with smooth edges, or None if no such contact is found."""
     few = len(search.slope.origins) <= MANY or bool(search.slope.functions)

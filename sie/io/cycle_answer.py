@@ -17,6 +17,7 @@ from sie.errors import ContactError
 from sie.history import History, PathSolution, follow
 from sie.problem.load_path import Path
 from sie.problem.material import Elastic
+from sie.progress_bar import reported
 from sie.solution import Solution
 from sie.stress.fretting import Cycle
 from sie.stress.half_plane import Tractions
@@ -52,6 +53,7 @@ def start_of_cycle(path: Path | None) -> int:
     )
 
 
+@reported("cycle")
 def cycle_of(solution: Solution, file: SceneFile) -> dict[str, Any]:
     """What JSON and the report say of the last cycle of a path."""
     start = start_of_cycle(file.load_path)

@@ -183,6 +183,11 @@ def _term(profile: Profile) -> Tables:
 
 
 def _unmoved(profile: Profile) -> Tables:
+    if isinstance(profile, Sum):
+        raise ValueError(
+            f"{profile!r} cannot be named in a scene file as a part of another profile: mirror, "
+            "tilt, shift and raise each term before they are added, and add no terms in a row"
+        )
     kind = next((name for name, make in KINDS.items() if type(profile) is make), None)
     if kind is None or not isinstance(getattr(profile, "function", Expression("x")), Expression):
         raise ValueError(

@@ -23,11 +23,13 @@ the series: ∫ over sources of the generating function of T_n.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
+
+from sie.progress_bar import counted
 
 from . import chebyshev
 
@@ -152,9 +154,11 @@ class _Branch(NamedTuple):
         return -(steep + S * (self.s / self.root)) / (size * size)
 
 
-def chunks(size: int) -> list[slice]:
+def chunks(size: int) -> Iterable[slice]:
     """The targets in portions."""
-    return [slice(start, min(start + CHUNK, size)) for start in range(0, size, CHUNK)]
+    starts = range(0, size, CHUNK)
+    portions = [slice(start, min(start + CHUNK, size)) for start in starts]
+    return counted("points, portion", portions, len(starts))
 
 
 def add_pairs(total: Any, targets: Index, values: Any) -> None:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from sie.progress_bar import step_done
+
 from . import chebyshev
 
 # On each part: a rule, and the one that it is judged by.
@@ -20,6 +22,7 @@ def integral(
     halvings: int = MOST_HALVINGS,
 ) -> float:
     """∫ rate dt, by halves until two rules agree to SETTLED of the scale."""
+    step_done(0)
     start, end = ends
     known, judge = (
         (end - start) * sum(b * rate(start + (end - start) * a) for a, b in zip(g, w, strict=True))

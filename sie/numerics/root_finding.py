@@ -18,6 +18,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from sie.progress_bar import step_done
+
 from .interval import EPS, two_sum
 
 Array = NDArray[np.float64]
@@ -42,6 +44,7 @@ def false_position(
     at_a, at_b = ends
     u, widths = 0.5 * (a + b), [math.inf, math.inf]
     for _ in range(MAX_BISECTIONS):
+        step_done(0)
         widths.append(b - a)
         if b - a <= 4.0 * math.ulp(max(abs(a), abs(b))):
             return 0.5 * (a + b)
@@ -71,6 +74,7 @@ def false_positions(function: Callable[[Array], Array], lo: Array, hi: Array) ->
     a, b, fa, fb = a[falls], b[falls], fa[falls], fb[falls]
     x, enough, last = 0.5 * (a + b), STEP_SETTLED * (b - a), np.zeros(a.shape)
     for k in range(MOST_STEPS if x.size else 0):
+        step_done(0)
         before = x
         middle, secant = 0.5 * (a + b), b - fb * (b - a) / (fb - fa)
         x = np.where(
@@ -102,6 +106,7 @@ def increasing_root(function: Callable[[float], float], guess: float, limit: flo
     u, step = min(guess, 0.5 * limit), np.inf
     before: tuple[float, float] | None = None
     for _ in range(MAX_STEPS):
+        step_done(0)
         f = function(u)
         if f == 0.0 or (f > 0.0 and u <= SHORTEST * limit):
             return u
@@ -160,6 +165,7 @@ def logarithmic_root(
     low, high, steps = 0.0, limit, [np.inf, np.inf]
     u, best, best_u = guess, 0.0, guess
     for _ in range(MAX_STEPS):
+        step_done(0)
         f, slope = function(u)
         if f > best or f >= target:  # the last that is enough, or else the largest
             best, best_u = f, u

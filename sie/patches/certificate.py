@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie.numerics import chebyshev
+from sie.progress_bar import reported, step_done
 
 from .chord import Points
 from .density import PatchPressure
@@ -44,6 +45,7 @@ MOST = 1e-3  # of the peak: where that is more nothing is certified
 CLOSE = 1e4  # condition from which a patch is about to appear, or two to merge
 
 
+@reported("certificate")
 def certificate(
     found: Found, pressure: PatchPressure, given: Given, tol: float
 ) -> PatchCertificate:
@@ -245,6 +247,7 @@ def principal_value(
     left, right = (chord.apart(x.anchor - e[own], x.offset) for e in (P.a, P.b))
     total = values * np.log(left / -right)
     for k in range(0, len(own), TOGETHER):
+        step_done(0)
         some = slice(k, k + TOGETHER)
         distance = chord.difference(
             x.anchor[some, None] - by.points.anchor, x.offset[some, None] - by.points.offset

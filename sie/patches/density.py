@@ -18,6 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from sie import arguments
 from sie.numerics import chebyshev
+from sie.progress_bar import reported
 from sie.traction.base import Density, in_order, on_surface, reflected, refuse_side, zero_or_nan
 
 from .chord import Points
@@ -164,6 +165,7 @@ class PatchPressure(Density):
             out[inside] = in_order(self._inside, points.x[inside])
         return np.asarray(out.reshape(x.shape))
 
+    @reported("pressure")
     def _inside(self, x: Array) -> Array:
         o = self.operator
         points, k, _ = self.placed(x)

@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 
 from sie.errors import ContactError, LoadError
 from sie.numerics.interval import EPS
+from sie.progress_bar import reported, step_done
 
 from .newton import conditions, moves
 from .of_scene import Problem, changed
@@ -86,6 +87,7 @@ class Width(NamedTuple):
         return missed / self.growth
 
 
+@reported("load of the half-width, trial")
 def contact_of_half_width(problem: Problem, ways: Ways) -> tuple[Problem, Found]:
     """The problem with the load of its half-width, and the patches under that.
 
@@ -95,6 +97,7 @@ def contact_of_half_width(problem: Problem, ways: Ways) -> tuple[Problem, Found]
     now, factor, last, outside = search.first(), FIRST, np.inf, 0
     sizes, lightest = [np.inf] * SLOW, LIGHTEST * now.load
     for _ in range(LOADS):
+        step_done()
         step = now.step(search.r)
         if search.reached(now, step, last) and now.found is not None:
             return changed(problem, load=now.load), now.found

@@ -22,6 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie.numerics.interval import EPS
+from sie.progress_bar import step_done
 
 from .bounds import CLOSED
 from .gap_rows import across_gaps
@@ -193,6 +194,7 @@ def solve(
     for step in range(min(most + MOST_STEPS * state.patches.number, longest)):
         if len(sizes) == most:
             break
+        step_done()
         _, linear = conditions(state, pieces, given)
         y = linear.solution
         asked = wished(state, linear, y, damping.turns)

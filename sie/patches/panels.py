@@ -217,19 +217,28 @@ def distance_of(parameter: Array, width: Array) -> tuple[Array, Array, Array]:
     return distance, root, np.where(inner, 0.5 * w * root, 2.0 * parameter)
 
 
-def gap_panels(
-    patches: Patches, pieces: Pieces, outside: bool = False, farthest: float = FARTHEST
-) -> GapPanels:
-    """The panels of all gaps; `outside` adds the outer ones, or per period the last."""
-    rule = FINE if outside else LONG
-    a, b, N, periodic = patches.a, patches.b, patches.number, patches.chord.periodic
-    # rows: the sides of the gaps, from patch i upwards and from patch i + 1 downwards
+def _sides(
+    N: int, outside: bool, periodic: bool
+) -> tuple[Index, NDArray[np.bool_], NDArray[np.bool_]]:
+    """The gap that each side belongs to, whether it is at the right of it, and of an inner gap.
+
+    A gap i has two sides, from patch i upwards and from patch i + 1 downwards.
+    """
     number, at_right = (v.ravel() for v in np.indices((N + 1, 2)))
     number, at_right = number - 1, at_right == 1
     inner = (number >= 0) & (number < N - 1 + periodic)
     outer = ((number == -1) & at_right) | ((number == N - 1) & ~at_right)
     kept = (inner & (outside | (number < N - 1))) | (outer & ~inner & outside & (not periodic))
-    number, at_right, inner = number[kept], at_right[kept], inner[kept]
+    return number[kept], at_right[kept], inner[kept]
+
+
+def gap_panels(
+    patches: Patches, pieces: Pieces, outside: bool = False, farthest: float = FARTHEST
+) -> GapPanels:
+    """The panels of all gaps; `outside` adds the outer ones, or per period the last."""
+    rule = FINE if outside else LONG
+    a, b, N = patches.a, patches.b, patches.number
+    number, at_right, inner = _sides(N, outside, patches.chord.periodic)
     k = (number + at_right) % N
     edge = np.where(at_right, a[k], b[k])
     piece = np.where(at_right, pieces.locate(a)[k], pieces.locate(b, "left")[k])

@@ -24,6 +24,7 @@ from sie.friction.loads import Loads
 from sie.friction.memory import SlippedLayer
 from sie.friction.slip_state import Slip
 from sie.numerics.interval import Interval
+from sie.progress_bar import reported, step_done
 
 from .dissipation import PatchDissipation
 
@@ -58,11 +59,13 @@ class PathEnergy:
             self._known += list(accumulate(lost, initial=self._known[-1] if known else 0.0))[1:]
         return self._known[index]
 
+    @reported("dissipated energy, step")
     def _in_steps(self, steps: range) -> list[float]:
         """The energies lost in the steps that end at these points."""
         path, lost = self.path, dict.fromkeys(steps, 0.0)
         upright: dict[float, list[tuple[int, SlippedLayer]]] = {}
         for k in steps:
+            step_done()
             state = path.turning_points[k]
             if state.marched or _untimed(state):
                 lost[k] += self._of_march(k)

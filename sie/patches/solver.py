@@ -19,6 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie.errors import ContactError, LoadError
+from sie.progress_bar import reported
 
 from . import newton
 from .gap import gap, overlaps
@@ -65,6 +66,7 @@ class Exhausted(Exception):
     """The effort of a search is spent."""
 
 
+@reported("patches of contact, step")
 def contact_near(problem: Problem, near: Found) -> Found | None:
     """The patches of a problem from those under a close load; None if that does not find them."""
     problem = replace(problem, effort=Effort())
@@ -79,6 +81,7 @@ def contact_near(problem: Problem, near: Found) -> Found | None:
     return None
 
 
+@reported("patches of contact, step")
 def contact(problem: Problem) -> Found:
     """The patches of a problem. Raises ContactError where none are certified."""
     problem = replace(problem, effort=Effort())

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from sie.numerics import chebyshev
+from sie.progress_bar import step_done
 
 from .chord import Chord, Points
 from .tree import CHARGES, CHUNK, FAR, POINTS, Level, Separation
@@ -124,6 +125,8 @@ def multiply(total: Any, row: Index, value: Any) -> None:
     total[row[first]] *= np.multiply.reduceat(value, first)
 
 
-def parts(rows: int, columns: int) -> list[slice]:
+def parts(rows: int, columns: int) -> Iterator[slice]:
     size = max(CHUNK // columns, 1)
-    return [slice(start, start + size) for start in range(0, rows, size)]
+    for start in range(0, rows, size):
+        step_done(0)
+        yield slice(start, start + size)

@@ -26,6 +26,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from sie.progress_bar import step_done
+
 Array = NDArray[np.float64]
 Index = NDArray[np.intp]
 
@@ -271,6 +273,7 @@ class _Search:
         """Halve the boxes until none can hold a value above the accuracy."""
         size = max(PART // (8 * len(self.h.s)), 1)
         for _ in range(MOST_HALVINGS):
+            step_done(0)
             count = self.boxes.point.size
             if not count:
                 break

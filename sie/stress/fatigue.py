@@ -27,6 +27,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from sie import arguments
 from sie.errors import ContactError
+from sie.progress_bar import reported, step_done
 
 from .critical_plane import NEARLY, Parameter, StressHistory, on_grid, worst_planes
 from .surface_search import columns, largest
@@ -102,6 +103,7 @@ def fatemi_socie(states: Sequence[Any], k: float, yield_stress: float) -> Criter
     return Criterion(lambda unit: Parameter(k * (unit / yield_stress), 1.0), modulus)
 
 
+@reported("critical planes, depth")
 def at_points(
     states: Sequence[Any], criterion: Criterion, x: ArrayLike | None, y: ArrayLike
 ) -> CriticalPlane:
@@ -133,6 +135,7 @@ def _value(criterion: Criterion, parameter: Parameter, unit: float, value: Array
 
 def _worst_x(states: Sequence[Any], criterion: Criterion, y: float) -> float:
     """The position at a depth where the parameter is largest."""
+    step_done()
     x = columns(_tractions(states), y)
     h, unit = _in_unit(_history(states, x, y))
     parameter = criterion.parameter(unit)

@@ -26,6 +26,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from sie import arguments
 from sie.problem.material import NO_POISSON, Elastic, Plane
+from sie.progress_bar import counted
 from sie.traction.base import Density, shallow
 
 Array = NDArray[np.float64]
@@ -293,7 +294,8 @@ class Stress:
         first: Any = np.empty(self.x.shape, dtype=kind)
         outs = [out.reshape(-1) for out in (first, second) if out is not None]
         x, y = (v.reshape(-1) if v.flags.c_contiguous else v.flat for v in (self.x, self.y))
-        for i in range(0, first.size, PART):
+        parts = range(0, first.size, PART)
+        for i in counted("stress, part", parts, len(parts)):
             x_part, y_part = x[i : i + PART], y[i : i + PART]
             surface = y_part <= self.tractions.depth_of_surface
             for at, is_surface in ((surface, True), (~surface, False)):

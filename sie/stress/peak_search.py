@@ -24,6 +24,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from sie.progress_bar import reported, step_done
+
 from .half_plane import Tractions, potentials
 from .scan_columns import RATIO, Mesh, mesh_of, thinned
 from .surface_peaks import WORTH, Maximum, Measure, on_surface, slope, surface_values
@@ -90,6 +92,7 @@ class Local(NamedTuple):
     yy: Array
 
 
+@reported("largest stress")
 def largest(tractions: Tractions, measure: Measure) -> tuple[Maximum, ...]:
     """The largest value in the body, and every place where it is reached, from the left.
 
@@ -179,6 +182,7 @@ def _rows(
     columns, shallow, distance = mesh.x, SHALLOW * mesh.scale(mesh.x), mesh.distance
     y, rows, best = DEEPEST * 0.5 * float(mesh.marks[-1] - mesh.marks[0]), [], known
     while columns.size:
+        step_done(0)
         levels = y / RATIO ** np.arange(LEVELS)
         xs = []
         for level in levels.tolist():
@@ -257,6 +261,7 @@ def _climbed(tractions: Tractions, measure: Measure, mesh: Mesh, z: Complex) -> 
     for k in range(STEPS):
         if not z.size:
             break
+        step_done(0)
         at = _local(tractions, z)
         here = measure.value(at.value)
         highest = max(highest, here.max())

@@ -13,6 +13,8 @@ from collections.abc import Callable, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from sie.progress_bar import step_done
+
 from .half_plane import Tractions
 from .scan_columns import thinned
 
@@ -68,6 +70,7 @@ def largest(x: Array, values: Array, best_of: BestOf, rounds: int = ROUNDS) -> t
     lo, at, hi = x[np.maximum(top - 1, 0)], x[top], x[np.minimum(top + 1, len(x) - 1)]
     _, value = best_of(at[:, None])
     for turn in range(rounds):
+        step_done(0)
         near = np.linspace(lo, hi, POINTS, axis=1)
         k, found = best_of(near)
         better = found > value

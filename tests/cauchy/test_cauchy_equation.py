@@ -131,50 +131,39 @@ def test_free_numbers_may_be_an_array():
 # -- nodes and weights ----------------------------------------------------------------------------
 
 
+def recurrence(a, b, n):
+    """A_k and B_k of the monic Jacobi polynomials, P_k+1 = (s - A_k) P_k - B_k P_k-1."""
+    total = a + b
+    A = [(b - a) / (total + 2)]
+    B = [mp.zero, 4 * (1 + a) * (1 + b) / ((2 + total) ** 2 * (3 + total))]
+    for k in range(1, n + 1):
+        twice = 2 * k + total
+        A.append((b - a) * total / (twice * (twice + 2)))
+        if k > 1:
+            B.append(4 * k * (k + a) * (k + b) * (k + total) / (twice**2 * (twice**2 - 1)))
+    return A, B
+
+
 def exact_rule(weight, nodes):
     """The Gauss rule in 40 digits, from guesses: Newton on the monic recurrence (Szegö 1939),
     Christoffel's weights.
     """
-    n, total = len(nodes), -weight.kappa
+    n, total = len(nodes), mp.mpf(-weight.kappa)
     small = weight.alpha if abs(weight.alpha) <= abs(weight.beta) else weight.beta
     a = mp.mpmathify(small) if small is weight.alpha else total - mp.mpmathify(small)
     b = total - a
-    A, B = (
-        [(b - a) / (total + 2)],
-        [mp.zero, 4 * (1 + a) * (1 + b) / mp.mpf((2 + total) ** 2 * (3 + total))],
-    )
-    for k in range(1, n + 1):
-        A.append((b - a) * total / mp.mpf((2 * k + total) * (2 * k + total + 2)))
-        if k > 1:
-            B.append(
-                4
-                * k
-                * (k + a)
-                * (k + b)
-                * (k + total)
-                / mp.mpf((2 * k + total) ** 2 * ((2 * k + total) ** 2 - 1))
-            )
+    A, B = recurrence(a, b, n)
     whole = mp.power(2, 1 + total) * mp.gamma(1 + a) * mp.gamma(1 + b) / mp.gamma(2 + total)
     for node in nodes:
         s = mp.mpmathify(node.item())
         for _ in range(2):
-            before, p, slope_before, slope, norm, squares = (
-                mp.zero,
-                mp.one,
-                mp.zero,
-                mp.zero,
-                mp.one,
-                mp.zero,
-            )
+            before, p, norm, squares = mp.zero, mp.one, mp.one, mp.zero
+            slope_before, slope = mp.zero, mp.zero
             for k in range(n):
                 squares += p * p / norm
-                following = (s - A[k]) * p - B[k] * before
-                before, p, slope_before, slope = (
-                    p,
-                    following,
-                    slope,
-                    (s - A[k]) * slope + p - B[k] * slope_before,
-                )
+                x = s - A[k]
+                slope_before, slope = slope, x * slope + p - B[k] * slope_before
+                before, p = p, x * p - B[k] * before
                 norm *= B[k + 1]
             s -= p / slope
         yield s, whole / squares

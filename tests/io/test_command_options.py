@@ -154,7 +154,8 @@ def test_the_library_says_nothing_by_itself(capfd):
 def test_a_long_path_shows_a_bar_on_a_terminal(options, folder, monkeypatch, capsys):
     pytest.importorskip("tqdm")
     (folder / "cycle.toml").write_text(scene_file.example("fretting-cycle"))
-    monkeypatch.setattr(progress_bar, "PATIENCE", 0.0)
+    for wait in ("PATIENCE", "INTERVAL"):
+        monkeypatch.setattr(progress_bar, wait, 0.0)
     monkeypatch.setattr(progress_bar.sys.stderr, "isatty", lambda: True)
     assert main(["solve", "cycle.toml", *options]) == 0
     assert "turning points:" in capsys.readouterr().err

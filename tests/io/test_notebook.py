@@ -129,10 +129,12 @@ CELLS = [
     "sie.follow(file.scene, file.load_path).plot()",
     "from sie import progress_bar; progress_bar.PATIENCE = 0.0\n"
     "found = sie.sweep(file.scene, {'normal_load': [500.0, 600.0]})",
+    "row = sie.Row([sie.Parabola(1.0), sie.Parabola(1.0).shifted(3.0)])\n"
+    "two = sie.solve(sie.Scene(profile=row, modulus=1.0, normal_load=0.3)).patches",
 ]
 
 
-def test_a_kernel_shows_the_table_the_pictures_and_the_bar():
+def test_a_kernel_shows_the_table_the_pictures_and_the_bars():
     nbclient, nbformat = pytest.importorskip("nbclient"), pytest.importorskip("nbformat")
     pytest.importorskip("ipykernel")
     cells = [nbformat.v4.new_code_cell(cell) for cell in CELLS]
@@ -147,3 +149,4 @@ def test_a_kernel_shows_the_table_the_pictures_and_the_bar():
     except ImportError:
         return
     assert any("sweep" in str(output) for output in outputs[3])
+    assert any("patches of contact" in str(output) for output in outputs[4])

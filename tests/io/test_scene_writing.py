@@ -163,6 +163,15 @@ def test_a_profile_that_no_scene_file_can_name_is_refused(profile):
         scene.to_dict()
 
 
+@pytest.mark.parametrize(
+    "place", [lambda both: both.shifted(0.1), lambda both: sie.Row([both, sie.Parabola(1.0)])]
+)
+def test_a_sum_inside_another_profile_is_told_to_be_built_term_by_term(place):
+    profile = place(sie.Parabola(1.0) + sie.Wedge(0.1))
+    with pytest.raises(ValueError, match="each term before they are added"):
+        sie.Scene(profile=profile, modulus=1.0, normal_load=1.0).to_dict()
+
+
 def test_arrays_stand_for_lists_in_a_dict():
     x = np.linspace(-1.0, 1.0, 9)
     trace = {"kind": "sampled", "x": x, "h": tuple(x**2)}

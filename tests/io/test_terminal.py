@@ -5,13 +5,17 @@ columns in plain ASCII.
 import os
 import re
 
+import numpy as np
 import pytest
 from command import run
 
+import sie
 from sie import streams
 from sie.cli import main
+from sie.command_parser import COMMANDS
+from sie.io import scene_file
 from sie.io.report import table
-from sie.io.scene_file import example
+from sie.io.scene_file import example, parse
 from sie.messages import WIDE
 from sie.problem.request import WANTS
 
@@ -25,6 +29,16 @@ SHOWN = {
     "sampled": {"cycle"},
     "sliding": {"cycle", "energy"},
 }
+STEEP = """
+[profile]
+kind = "parabola"
+radius = 1.0
+[body]
+young = 1.0
+poisson = 0.3
+[load]
+half_width = 1.0
+"""
 
 
 @pytest.fixture
@@ -33,6 +47,17 @@ def printed(tmp_path, capsys):
         path = tmp_path / "scene.toml"
         path.write_text(example(name).replace("parts = 4", "parts = 1"))
         assert main(["solve", str(path), *options]) == 0
+        return capsys.readouterr().out
+
+    return of
+
+
+@pytest.fixture
+def planned(tmp_path, capsys):
+    def of(name, *options):
+        path = tmp_path / "scene.toml"
+        path.write_text(example(name))
+        assert main(["plan", str(path), *options]) == 0
         return capsys.readouterr().out
 
     return of
@@ -77,14 +102,54 @@ def test_output_that_goes_to_a_file_is_80_columns_wide(printed, monkeypatch):
 
 
 @pytest.mark.parametrize("wide", [60, 80, 200])
-def test_a_plan_is_broken_to_the_terminal_only(wide, tmp_path, monkeypatch, capsys):
-    path = tmp_path / "scene.toml"
-    path.write_text(example("row"))
-    main(["plan", str(path)])
-    plan = capsys.readouterr().out
+def test_a_plan_is_as_wide_as_the_terminal(wide, planned, monkeypatch):
+    piped = planned("row")
     monkeypatch.setattr(streams.sys.stdout, "isatty", lambda: True, raising=False)
     monkeypatch.setenv("COLUMNS", str(wide))
-    main(["plan", str(path)])
-    broken = capsys.readouterr().out
-    assert max(map(len, broken.splitlines())) <= wide < 150 or broken == plan
-    assert broken.split() == plan.split()
+    shown = planned("row")
+    assert max(map(len, shown.splitlines())) <= wide
+    assert shown.split() == piped.split()
+
+
+@pytest.mark.parametrize("name", scene_file.examples())
+def test_a_plan_that_goes_to_a_file_is_80_columns_wide(name, planned):
+    wants = [want for want in WANTS if want != "cycle"]
+    for options in ([], ["--want", *wants]):
+        assert max(map(len, planned(name, *options).splitlines())) <= WIDE
+
+
+def test_what_goes_on_stands_below_the_last_column():
+    table = "run   edges  " + "by bracketed Newton " * 6
+    first, *others = streams.broken(table, WIDE).splitlines()
+    assert first.startswith("run   edges  by") and others
+    assert all(not line[:13].strip() and line[13] != " " for line in others)
+
+
+def test_a_note_is_80_columns_wide(tmp_path, capsys):
+    path = tmp_path / "scene.toml"
+    path.write_text(STEEP)
+    assert main(["solve", str(path)]) == 0
+    printed = capsys.readouterr().out
+    assert "small strains" in " ".join(printed.split())
+    assert max(map(len, printed.splitlines())) <= WIDE
+
+
+def test_a_comparison_is_80_columns_wide(tmp_path, capsys):
+    """A half of a contact with a tangential load has a long note."""
+    path, mesh = tmp_path / "scene.toml", tmp_path / "fem.csv"
+    path.write_text(example("partial-slip"))
+    solution = sie.solve(parse(path.read_text()).scene)
+    x = np.linspace(0.0, 3.0, 101)
+    rows = zip(x.tolist(), solution.pressure(x).tolist(), strict=True)
+    mesh.write_text("x,p\n" + "".join(f"{x!r},{p!r}\n" for x, p in rows))
+    assert main(["compare", str(path), str(mesh)]) == 0
+    printed = capsys.readouterr().out
+    assert "half of the contact" in printed
+    assert max(map(len, printed.splitlines())) <= WIDE
+
+
+@pytest.mark.parametrize("command", ["", *COMMANDS])
+def test_help_is_80_columns_wide(command, capsys, monkeypatch):
+    monkeypatch.delenv("COLUMNS", raising=False)
+    assert main([*filter(None, [command]), "--help"]) == 0
+    assert max(map(len, capsys.readouterr().out.splitlines())) <= WIDE

@@ -29,6 +29,7 @@ from numpy.typing import NDArray
 from sie.errors import ContactError
 from sie.numerics import chebyshev
 from sie.numerics.root_finding import false_position
+from sie.progress_bar import reported, step_done
 
 from .integral import RATIO, integral
 from .sheared import ShearedContact
@@ -80,6 +81,7 @@ class Growth:
     def edges(self, u: float) -> Array:
         """The edges at u, after a last linear step."""
         if u not in self._known:
+            step_done()
             near = sorted(self._known, key=lambda v: abs(v - u))[:NEIGHBOURS]
             slopes, root, Q = self._known[near[0]][1], None, self.load(u)
             for few in (len(near), 1):
@@ -165,6 +167,7 @@ def _power_of_zone(
     return side * state.friction * float((weight * gradient) @ N)
 
 
+@reported("dissipated energy, state")
 def tangential_energy(state: ShearedContact) -> float:
     """The energy dissipated while Q grew at constant P.
 

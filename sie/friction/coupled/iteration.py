@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie.numerics.interval import EPS
+from sie.progress_bar import step_done
 
 Array = NDArray[np.float64]
 
@@ -72,6 +73,7 @@ def iterated(
         return None
     now, errors = trial(edges), [math.inf] * IDLE
     for _ in range(MOST_STEPS):
+        step_done(0)
         errors.append(_error(now))
         if errors[-1] > 0.5 * errors[-IDLE]:
             break

@@ -24,6 +24,7 @@ from sie.numerics.root_finding import false_position
 from sie.problem.scene import Scene
 from sie.profiles.resolution import refined
 from sie.profiles.slope import Slope
+from sie.progress_bar import reported
 
 from .contact import FALLING, CoupledContact
 from .functions import FlatFunctions, flat_functions
@@ -76,6 +77,7 @@ def _growth(
     return solved_growth(flat, pieces) if pieces else (), kinks
 
 
+@reported("contact of dissimilar bodies")
 def coupled_contact(
     scene: Scene, frictionless: Callable[[Scene], Normal]
 ) -> tuple[Edges, CoupledContact]:

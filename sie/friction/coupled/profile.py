@@ -26,6 +26,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie.numerics.gauss_jacobi import with_weight
+from sie.progress_bar import step_done
 
 from .functions import FlatFunctions
 from .panels import NODES, graded, totals
@@ -226,6 +227,7 @@ class Superposition:
                 for part in self._parts(kernel, panel, x, b):
                     alike.setdefault(part.powers, []).append((panel, part))
             for powers, parts in alike.items():
+                step_done(0)
                 total += self._integral(kernel, powers, parts, x, over_s)
         return total
 

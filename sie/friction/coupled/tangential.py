@@ -36,6 +36,7 @@ from sie.problem.coverage import refuse_corners, refused_load
 from sie.problem.scene import Scene
 from sie.profiles.resolution import refined
 from sie.profiles.slope import Slope
+from sie.progress_bar import reported
 from sie.traction.on_panels import SlidingDensity
 from sie.traction.panels import Panels
 from sie.traction.piece_quadrature import SlidingGeometry
@@ -220,6 +221,7 @@ class TangentialSearch:
 
     # -- the search --------------------------------------------------------------------------------
 
+    @reported("zones of stick and slip")
     def found(self, Q: float) -> Trial:
         """The state under Q.
 

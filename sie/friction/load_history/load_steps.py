@@ -16,6 +16,7 @@ from sie.numerics.interval import EPS
 from sie.problem.load_limit import refuse_sliding
 from sie.problem.load_path import Path
 from sie.problem.scene import Scene
+from sie.progress_bar import counted
 
 from .turning_point import TurningPoint
 
@@ -53,7 +54,7 @@ def turning_points(scene: Scene, path: Path, contacts: Followable) -> tuple[Turn
             named(k, loads, partial(refuse_sliding, f, loads.P, loads.Q))
     start = points[0]._replace(Q=0.0, sigma=0.0)
     state = TurningPoint(start, LoadMemory(contacts.level(start)))
-    for k, loads in enumerate(points):
+    for k, loads in counted("load path", enumerate(points), len(points)):
         step = stepped if k else _layered  # the first point is answered like a scene
         state = named(k, loads, partial(step, contacts, state, loads))
         found.append(state)

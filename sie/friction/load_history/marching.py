@@ -26,6 +26,7 @@ from sie.friction.loads import Loads
 from sie.friction.memory import LoadMemory
 from sie.friction.step_conditions import TESTED
 from sie.numerics.root_finding import false_position
+from sie.progress_bar import reported
 
 from .growing_contact import Course, LoadChange, course
 from .growing_edge import EdgeSticks, edge_sticks
@@ -53,6 +54,7 @@ AT_ONCE = 1e-9  # of a step: slip that begins so soon has begun before
 STOPPED = 1e-9  # of it: an end so near to where it would stop does
 
 
+@reported("step without layers")
 def march(contacts: Marchable, held: Held, start: Loads, loads: Loads) -> TurningPoint:
     """The turning point after a step between two loads, from what it starts from.
 

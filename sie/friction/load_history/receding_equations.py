@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from sie.errors import ContactError
 from sie.friction.slip_zones import Drive, SlipZone, excess
 from sie.numerics.interval import EPS, Interval
+from sie.progress_bar import step_done
 
 from .marched_step import FrozenEdge
 
@@ -73,6 +74,7 @@ class Equations:
         missed, fresh = self.missed(lengths), False
         matrix = self._derivatives(lengths, missed)
         for _ in range(MOST_STEPS):
+            step_done(0)
             size = float(np.abs(missed).max())
             if size <= EPS:
                 break
@@ -117,6 +119,7 @@ class Equations:
             most = 2.0 * self.outer.r - other.length
 
             def short(length: float, k: int = k, other: SlipZone = other) -> bool:
+                step_done(0)
                 zones = [other, other]
                 zones[k] = self.frames[k].zone(length)
                 return self._missed(zones, k) < 0.0

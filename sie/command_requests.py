@@ -1,0 +1,123 @@
+"""What a command is asked for, checked before anything is computed or written.
+
+The scene file, the files that are written, and that none of them is a file that is read.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import pathlib
+import sys
+from dataclasses import replace
+from itertools import combinations
+from types import ModuleType
+
+from . import files
+from .command_parser import STANDARD
+from .io import scene_file
+from .io.answers import wanted
+from .io.scene_file import SceneFile
+from .io.stress_grid import SUFFIXES
+from .messages import choices
+from .problem.request import WANTS
+from .stages import LOG
+
+OUTPUTS = ("plot", "csv", "json", "field")
+
+
+def scene_of(arguments: argparse.Namespace) -> SceneFile:
+    """The scene file, with --want in place of the file's own `want`."""
+    words = getattr(arguments, "want", None) or ()
+    want = scene_file.wants("--want", [name for name in ",".join(words).split(",") if name])
+    if words and not want:
+        raise ValueError(f"--want names nothing: give {choices(WANTS)}")
+    if arguments.scene is None:
+        raise ValueError(
+            f"give the scene file first: sie {arguments.command} scene.toml; "
+            "`sie example` lists some to start from"
+        )
+    standard = arguments.scene == STANDARD
+    file = (
+        scene_file.parse(_standard_input(), "standard input")
+        if standard
+        else scene_file.read(arguments.scene)
+    )
+    LOG.info("read %s: %r", arguments.scene, file.scene)
+    return replace(file, want=want or wanted(file))
+
+
+def _standard_input() -> bytes:
+    if sys.stdin is None:
+        raise ValueError("standard input is closed: give the scene a file")
+    return sys.stdin.buffer.read(scene_file.MOST_BYTES + 1)
+
+
+def outputs_of(arguments: argparse.Namespace) -> dict[str, pathlib.Path]:
+    """The destination of each kind of output. ValueError unless all can be written."""
+    given = ((kind, getattr(arguments, kind, None)) for kind in OUTPUTS)
+    outputs = {kind: pathlib.Path(name) for kind, name in given if name is not None}
+    if "plot" in outputs:
+        _check_picture(outputs["plot"])
+    if "field" in outputs and outputs["field"].suffix[1:].lower() not in SUFFIXES:
+        path = outputs["field"]
+        raise ValueError(
+            f'--field {path} has the suffix "{path.suffix}": use .{", .".join(SUFFIXES)}'
+        )
+    for (first, path), (second, other) in combinations(outputs.items(), 2):
+        if path == other == pathlib.Path(STANDARD):
+            raise ValueError(
+                f"--{first} and --{second} cannot both go to standard output: give one of them a "
+                "file"
+            )
+        if files.same(_place(path), _place(other)):
+            raise ValueError(
+                f"--{second} {other} would overwrite what --{first} writes: give another name"
+            )
+    for path in outputs.values():
+        if path != pathlib.Path(STANDARD):
+            files.writable(path)
+    return outputs
+
+
+def _place(path: pathlib.Path) -> int | pathlib.Path:
+    """The path, or the descriptor of standard output."""
+    return 1 if path == pathlib.Path(STANDARD) else path
+
+
+def refuse_overwriting(
+    arguments: argparse.Namespace, outputs: dict[str, pathlib.Path], file: SceneFile
+) -> None:
+    """ValueError if an output, or what is printed, would go into a file that is read."""
+    scene = 0 if arguments.scene == STANDARD else pathlib.Path(arguments.scene)
+    read: dict[int | pathlib.Path, str] = {scene: "the scene file"}
+    if getattr(arguments, "mesh", None) is not None:
+        read[pathlib.Path(arguments.mesh)] = "the mesh result"
+        deck = arguments.deck or pathlib.Path(arguments.mesh).with_suffix(".inp")
+        read[pathlib.Path(deck)] = "the input deck"
+    read |= dict.fromkeys(file.reads, "a trace that the scene reads")
+    written = {f"--{kind} {path}": _place(path) for kind, path in outputs.items()} | {
+        "standard output": 1
+    }
+    for place, what in read.items():
+        for name, target in written.items():
+            if os.path.isfile(place) and files.same(target, place):
+                raise ValueError(f"{name} would overwrite {what}: give another name")
+
+
+def _check_picture(path: pathlib.Path) -> None:
+    known = picture_style().suffixes()
+    if path.suffix[1:].lower() not in known:
+        raise ValueError(
+            f'--plot {path} has the suffix "{path.suffix}", which Matplotlib does not write: '
+            f"use .{', .'.join(known)}"
+        )
+
+
+def picture_style() -> ModuleType:
+    """The module of the pictures' style; its import shows whether Matplotlib is installed."""
+    try:
+        from .plots import style  # noqa: PLC0415
+    except ImportError:
+        raise ValueError('--plot needs Matplotlib: pip install "plane-contact[plot]"') from None
+    return style

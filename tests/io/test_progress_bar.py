@@ -1,0 +1,286 @@
+"""Work that takes more than a second shows a bar on a terminal; short work opens none."""
+
+import contextlib
+import os
+import subprocess
+import sys
+import threading
+
+import numpy as np
+import pytest
+
+import sie
+from sie import progress_bar
+from sie.cli import main
+from sie.io.scene_file import example, parse
+from sie.progress_bar import Progress, counted, reported, step_done
+
+
+class Clock:
+    """Seconds that pass when a test says so."""
+
+    now = 0.0
+
+    def __call__(self):
+        return self.now
+
+
+class Bar:
+    """What is drawn, in place of a bar of tqdm."""
+
+    def __init__(self, work):
+        self.name, self.total, self.n, self.shown, self.open = work.name, work.total, 0, [], True
+
+    def set_description_str(self, name, refresh):
+        assert not refresh
+        self.name = name
+
+    def set_postfix_str(self, inside):
+        self.shown.append((self.name, self.n, inside))
+
+    def close(self):
+        self.open = False
+
+
+@pytest.fixture
+def clock(monkeypatch):
+    clock = Clock()
+    monkeypatch.setattr(progress_bar, "perf_counter", clock)
+    return clock
+
+
+@pytest.fixture
+def bars(monkeypatch, clock):
+    drawn = []
+    monkeypatch.setattr(progress_bar, "_bar", lambda work: drawn.append(Bar(work)) or drawn[-1])
+    monkeypatch.setattr(progress_bar, "_seen", lambda: True)
+    return drawn
+
+
+# -- what is drawn, and when ----------------------------------------------------------------------
+
+
+def test_nothing_is_drawn_in_the_first_second(clock, bars):
+    with Progress("search", 3) as work:
+        clock.now = 0.99
+        work.update()
+    assert not bars
+
+
+def test_after_a_second_the_steps_are_counted(clock, bars):
+    with Progress("search", 3) as work:
+        work.update()
+        clock.now = 1.0
+        work.update()
+    (bar,) = bars
+    assert (bar.total, bar.shown) == (3, [("search", 2, "")])
+
+
+def test_the_line_changes_ten_times_a_second_at_most(clock, bars):
+    with Progress("search") as work:
+        for k in range(300):
+            clock.now = 1.0 + k / 100.0
+            work.update()
+    assert len(bars[0].shown) == pytest.approx(30, abs=1)
+
+
+def test_steps_inside_are_named_behind_the_work_that_has_a_total(clock, bars):
+    with Progress("sie solve"):
+        for _ in counted("load path", range(2), 2):
+            with Progress("patches, step"):
+                step_done()
+                clock.now += 0.6
+                step_done()
+    (bar,) = bars
+    assert (bar.total, bar.shown) == (2, [("load path", 1, "patches, step 2")])
+
+
+def test_work_without_a_total_shows_its_count(clock, bars):
+    with Progress("smoothing, trial"):
+        clock.now = 2.0
+        step_done()
+    assert bars[0].shown == [("smoothing, trial 1", 1, "")]
+
+
+def test_the_second_is_that_of_all_works_together(clock, bars):
+    with Progress("sie solve"):
+        for name in ("edges", "stress"):
+            with Progress(name):
+                clock.now += 0.6
+                step_done(0)
+    assert bars[0].shown == [("sie solve", 0, "stress")]
+
+
+@pytest.mark.parametrize("error", [ValueError, KeyboardInterrupt])
+def test_the_line_is_wiped_whatever_ends_the_work(error, clock, bars):
+    with contextlib.suppress(error), Progress("search", 2) as work:
+        clock.now = 1.0
+        work.update()
+        raise error
+    assert not bars[0].open
+    with Progress("next", 2) as work:
+        clock.now = 2.5
+        work.update()
+    assert [bar.name for bar in bars] == ["search", "next"]
+
+
+def test_all_work_inside_a_hidden_one_is_hidden(clock, bars):
+    with Progress("", shown=False), Progress("search", 2) as work:
+        clock.now = 9.0
+        work.update()
+    assert not bars
+
+
+def test_a_loop_that_is_left_leaves_no_work_open(clock, bars):
+    for k in counted("search", range(9), 9):
+        if k == 2:
+            break
+    clock.now = 9.0
+    step_done()
+    assert not bars
+
+
+def test_other_threads_draw_nothing(clock, monkeypatch):
+    monkeypatch.setattr(progress_bar, "_in_notebook", lambda: True)
+    seen = [progress_bar._seen()]
+    worker = threading.Thread(target=lambda: seen.append(progress_bar._seen()))
+    worker.start()
+    worker.join()
+    assert not seen[1]
+
+
+def test_a_decorated_function_keeps_its_name_and_answer():
+    @reported("search")
+    def found(x: int) -> int:
+        """Twice x."""
+        return 2 * x
+
+    assert (found(3), found.__name__, found.__doc__) == (6, "found", "Twice x.")
+
+
+# -- what tells its steps --------------------------------------------------------------------------
+
+
+@pytest.fixture
+def told(monkeypatch):
+    """The names of the works that were opened, and how often each told of a step."""
+    counts = {}
+
+    def update(work, steps=1):
+        counts[work.name] = counts.get(work.name, 0) + 1
+
+    entered = Progress.__enter__
+
+    def enter(work):
+        counts.setdefault(work.name, 0)
+        return entered(work)
+
+    monkeypatch.setattr(Progress, "update", update)
+    monkeypatch.setattr(Progress, "__enter__", enter)
+    return counts
+
+
+X = np.linspace(-2.0, 2.0, 201)
+WAVY = sie.Sampled(X, X**2 / 2.0 + 0.1 * np.cos(12.0 * X))
+ROUGH = sie.Scene(profile=WAVY, modulus=1.0, normal_load=0.3)
+ROW = sie.Row([sie.Parabola(1.0), sie.Parabola(1.0).shifted(3.0)])
+SEVERAL = sie.Scene(profile=ROW, modulus=1.0, normal_load=0.3)
+PUNCH = parse(example("rounded-flat")).scene
+CYCLE = parse(example("fatigue"))
+PATH_FILE = parse(example("fretting-cycle"))
+PATH = sie.follow(PATH_FILE.scene, PATH_FILE.load_path)
+DISSIMILAR = parse(example("dissimilar")).scene
+
+
+def test_a_small_solve_opens_no_work(told):
+    solution = sie.solve(PUNCH)
+    solution.pressure(np.linspace(-1.0, 1.0, 1001))
+    solution.stress(X, 0.1).mises  # noqa: B018 -- computed when it is read
+    assert not told
+
+
+@pytest.mark.parametrize(
+    ("work", "name", "least"),
+    [
+        (lambda: sie.solve(SEVERAL).patches, "patches of contact, step", 5),
+        (lambda: sie.solve(SEVERAL).check(), "certificate", 1),
+        (lambda: sie.solve(PUNCH).elastic_limit(), "largest stress", 5),
+        (lambda: sie.solve(PUNCH).stress(np.zeros(9000), 0.1).j2, "stress, part", 3),
+        (lambda: sie.least_smoothing(ROUGH), "smoothing, trial", 3),
+        (lambda: sie.follow(CYCLE.scene, CYCLE.load_path), "load path", 4),
+        (
+            lambda: sie.follow(CYCLE.scene, CYCLE.load_path)[1].energy_lost,
+            "dissipated energy, step",
+            2,
+        ),
+        (lambda: sie.solve(DISSIMILAR).edges, "contact of dissimilar bodies", 5),
+    ],
+)
+def test_long_work_tells_its_steps(work, name, least, told):
+    work()
+    assert told[name] >= least, told
+
+
+def test_a_half_width_counts_its_trials(told):
+    _ = sie.solve(sie.Scene(profile=ROW, modulus=1.0, half_width=1.6)).normal_load
+    assert told["load of the half-width, trial"] >= 2
+
+
+# -- on a terminal --------------------------------------------------------------------------------
+
+SEVERAL_TOML = """
+[profile]
+kind = "row"
+of = [{ kind = "parabola", radius = 1.0 }, { kind = "parabola", radius = 1.0, shifted = 3.0 }]
+[body]
+young = 1.0
+poisson = 0.3
+[load]
+normal_load = 0.3
+"""
+# The command, whose bars do not wait for a second.
+COMMAND = (
+    "import sys; from sie import progress_bar; progress_bar.PATIENCE = 0.0; "
+    "from sie.cli import main; sys.exit(main())"
+)
+
+
+def on_terminal(arguments, folder):
+    """The exit code of the command and what it writes on a terminal as its standard error."""
+    pty = pytest.importorskip("pty")
+    pytest.importorskip("tqdm")
+    ours, theirs = pty.openpty()
+    pytest.importorskip("termios").tcsetwinsize(theirs, (24, 80))
+    done = subprocess.Popen(
+        [sys.executable, "-c", COMMAND, *arguments],
+        stdout=subprocess.PIPE,
+        stderr=theirs,
+        cwd=folder,
+    )
+    os.close(theirs)
+    written = b""
+    with contextlib.suppress(OSError):  # Linux's word for the end
+        while piece := os.read(ours, 4096):
+            written += piece
+    os.close(ours)
+    printed = done.communicate()[0]
+    return done.returncode, printed.decode(), written.decode()
+
+
+def test_a_long_solve_shows_what_it_does_and_wipes_it(tmp_path):
+    (tmp_path / "scene.toml").write_text(SEVERAL_TOML)
+    code, printed, shown = on_terminal(["solve", "scene.toml"], tmp_path)
+    assert code == 0 and "contact" in printed
+    assert "sie solve: 00:0" in shown and "patches of contact" in shown
+    assert not shown.split("\r")[-1].strip() and "\n" not in shown
+
+
+@pytest.mark.parametrize("option", [["--quiet"], ["--log", "info"]])
+def test_no_bar_is_shown_where_silence_or_a_log_is_asked_for(option, tmp_path, monkeypatch, bars):
+    scene = tmp_path / "scene.toml"
+    scene.write_text(SEVERAL_TOML)
+    monkeypatch.setattr(progress_bar, "PATIENCE", 0.0)
+    assert main(["solve", str(scene), *option]) == 0
+    assert not bars
+    assert main(["solve", str(scene)]) == 0
+    assert bars
