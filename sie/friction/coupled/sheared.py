@@ -25,6 +25,7 @@ from numpy.typing import ArrayLike, NDArray
 from sie.contact.known_contact import Edges
 from sie.numerics import chebyshev
 from sie.numerics.interval import Interval
+from sie.problem.coverage import old_slip_width
 from sie.problem.scene import Scene
 from sie.profiles.base import Profile
 from sie.traction.base import on_line, zero_or_nan
@@ -222,10 +223,12 @@ class ShearedContact:
         """The least slip along Q in a slip zone, over the largest; positive by the friction law.
 
         It is that of the rate with Q, and that under Q of what was in contact before, which is left
-        out where it is less than the error of γ.
+        out where it is less than the error of γ, and next to the old edge, where the slip of the
+        normal load went on under small loads.
         """
         (left, right), (x1, e1, e2, x2) = self._gained, self.state.zones
-        gained = left(left.cuts[left.cuts >= -self.search.normal.b]) - left(left.cuts[-1:])
+        inner = self.search.normal.b * (1.0 - old_slip_width(self.search.beta, self.friction))
+        gained = left(left.cuts[left.cuts >= -inner]) - left(left.cuts[-1:])
         gained = np.append(gained, right(right.cuts))
         least, rounding = float(gained.min()), RESOLVED * self.search.stress * max(e1 - x1, x2 - e2)
         least = least / float(np.abs(gained).max()) if least < -rounding else 0.0
