@@ -15,9 +15,8 @@ slip, and a Q against the sign of β is the mirror image.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import cached_property, lru_cache
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -34,8 +33,7 @@ from sie.traction.on_panels import SlidingDensity
 from .gradient import RESOLVED, SlipGradient
 from .integral import RATIO, Integral, integral, towards_ends
 from .tangential import TangentialSearch, Trial
-from .traction import Panels, resolved_panels
-from .two_sided import TwoSidedTraction
+from .two_sided import Known, TwoSidedTraction, both_tractions
 
 Array = NDArray[np.float64]
 
@@ -316,41 +314,15 @@ class ShearedContact:
         def shear(x: Array) -> Array:
             return self.turn * self.frame_shear(self.in_frame(x))
 
-        @lru_cache(maxsize=1)
-        def halves() -> tuple[tuple[Panels, ...], tuple[Panels, ...]]:
-            return self._half(at, 1.0, (pressure, shear)), self._half(at, -1.0, (pressure, shear))
-
-        P = self.search.normal.load
-        about = self.flip * self.moment
-        return (
-            TwoSidedTraction(
-                pressure,
-                lambda: tuple(half[0] for half in halves()),
-                at,
-                P,
-                self.marks,
-                self.contact,
-                self.axis * P + about,
-            ),
-            TwoSidedTraction(
-                shear,
-                lambda: tuple(half[1] for half in halves()),
-                at,
-                self.turn * self.Q,
-                self.marks,
-                self.contact,
-            ),
+        (a1, a2), P = self._exponents, self.search.normal.load
+        known = Known(
+            at,
+            self.marks,
+            (a2, a1) if self.flip > 0.0 else (a1, a2),
+            (P, self.turn * self.Q),
+            self.axis * P + self.flip * self.moment,
         )
-
-    def _half(
-        self, at: float, side: float, functions: tuple[Callable[[Array], Array], ...]
-    ) -> tuple[Panels, ...]:
-        """Panels of one side of a place, counted from it."""
-        ends = [side * (x - at) for x in self.marks if side * (x - at) > 0.0]
-        a1, a2 = self._exponents
-        power = a1 if side == self.flip else a2
-        own = tuple((lambda y, f=f: f(at + side * y)) for f in functions)
-        return resolved_panels(own, tuple(sorted(ends)), power)
+        return both_tractions((pressure, shear), known)
 
     @property
     def frame_marks(self) -> tuple[float, ...]:
