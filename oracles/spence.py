@@ -9,8 +9,12 @@ equations, integrated once from the axis, are for β > 0
 
 The contact grows cell by cell. In each step a cell either sticks, and g stays as it was, or slips
 outwards with q = f p; an active set finds which. The error is of the first order in the cells.
+
+Under P and Q in proportion the contact is not symmetric. Both of its edges are given then, in one
+proportion while it grows, and P and Q are found: p is 0 in the cells beside.
 """
 
+from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -132,3 +136,66 @@ def growing_contact(rise: Array, n: int, beta: float, friction: float, first: in
         p, q, sticks = grid.step(rise[: m + 1], slip, guess)
         slip = grid.slip(p, q)
     return GridContact(grid.x[:n], p, q, sticks, 2.0 * grid.h * float(p.sum()))
+
+
+class ObliqueContact(NamedTuple):
+    """The state under P and Q: midpoints, p and q there, which cells stick, and both loads."""
+
+    x: Array
+    pressure: Array
+    shear: Array
+    sticks: NDArray[np.bool_]
+    loads: tuple[float, float]
+
+
+def oblique_contact(
+    rise: Callable[[Array], Array],
+    edges: tuple[float, float],
+    n: int,
+    material: tuple[float, float],
+) -> ObliqueContact:
+    """A profile pressed and sheared from x = 0 until its contact ends at these edges.
+
+    rise        E*/2 h
+    n           cells on either side of 0; as many steps
+    material    β and f
+    """
+    (beta, friction), part = material, np.linspace(0.0, 1.0 + 1.0 / n, n + 2)
+    ends = np.append(edges[0] * part[:0:-1], edges[1] * part)
+    x, width = 0.5 * (ends[1:] + ends[:-1]), np.diff(ends)
+
+    def primitive(s: Array) -> Array:  # ∫ ln|s| ds
+        values: Array = s * np.log(np.abs(s)) - s
+        return values
+
+    log = (primitive(x[:, None] - ends[:-1]) - primitive(x[:, None] - ends[1:])) / np.pi
+    total = (np.tri(len(x), k=-1) + 0.5 * np.eye(len(x))) * width
+    height, slip, signs = rise(x), np.zeros(len(x)), np.zeros(len(x))
+    for m in range(2, n + 1):
+        c, wide = np.arange(n + 1 - m, n + 1 + m), np.arange(n - m, n + 2 + m)
+        for _ in range(MOST):
+            matrix, right = np.zeros((4 * m + 2, 4 * m + 2)), np.zeros(4 * m + 2)
+            rows = 2 * m + 2  # of (1), where p and q of these cells are unknown, and two constants
+            matrix[:rows, : 2 * m], right[:rows] = log[np.ix_(wide, c)], height[wide]
+            matrix[:rows, 2 * m : 4 * m] = -beta * total[np.ix_(wide, c)]
+            matrix[:rows, -2] = -1.0
+            stuck, slipping = np.flatnonzero(signs[c] == 0.0), np.flatnonzero(signs[c])
+            at = rows + stuck
+            matrix[at, : 2 * m] = beta * total[np.ix_(c[stuck], c)]
+            matrix[at, 2 * m : 4 * m] = log[np.ix_(c[stuck], c)]
+            matrix[at, -1], right[at] = -1.0, slip[c[stuck]]
+            matrix[rows + slipping, 2 * m + slipping] = 1.0
+            matrix[rows + slipping, slipping] = -friction * signs[c[slipping]]
+            found = np.linalg.solve(matrix, right)
+            p, q = found[: 2 * m], found[2 * m : 4 * m]
+            now = log[:, c] @ q + beta * (total[:, c] @ p)
+            moved = (now - slip)[c] - found[-1]
+            new = np.where((signs[c] == 0.0) & (np.abs(q) > friction * p), np.sign(q), signs[c])
+            new[moved * signs[c] < 0.0] = 0.0
+            if (new == signs[c]).all():
+                break
+            signs[c] = new
+        else:
+            raise AssertionError("the active set does not settle")
+        slip = now
+    return ObliqueContact(x[c], p, q, signs[c] == 0.0, (float(width[c] @ p), float(width[c] @ q)))

@@ -14,6 +14,8 @@ each point to the next all loads change in proportion to time. What is exact, an
     one end alone passes an earlier    step by step, by the shear at the start of each
     one, or slip turns at one edge     (`friction.marching`); at constant P also a stick zone that
                                        travels; several stick zones, all of which recede
+    dissimilar bodies                  P and Q in proportion from zero, under a power law
+                                       (`friction.coupled.proportional`)
 
 `friction.memory` computes the layers that a step changes, `friction.partial_slip` the slip of a
 single step, `friction.path_slip` the state at one point, and `patches.path_energy` the energy.
@@ -35,14 +37,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import higher_layers
-from .certificate.result import ShearCertificate
+from .certificate.coupled_shear_check import sheared_certificate
+from .certificate.result import Certificate, ShearCertificate
 from .certificate.shear_check import marched_certificate
 from .contact.inequalities import slope_rises
-from .contact.known_contact import Normal
+from .contact.known_contact import Edges, Normal
 from .errors import ContactError, LoadError
+from .friction.coupled.proportional import ProportionalContact, proportional_contact
+from .friction.coupled.two_sided import TwoSidedTraction
 from .friction.dissipation import Dissipation
 from .friction.load_history.known_zones import KnownZones
-from .friction.load_history.load_steps import Followable, turning_points
+from .friction.load_history.load_steps import Followable, proportional_points, turning_points
 from .friction.load_history.marching import march
 from .friction.load_history.path_slip import MarchedSlip, PathSlip, held, step_shift
 from .friction.load_history.turning_point import TurningPoint
@@ -56,7 +61,7 @@ from .patches.full import FullContact
 from .patches.path_energy import PathEnergy
 from .plan import Plan, Step
 from .problem.load_path import Path
-from .problem.path_scene import unsheared
+from .problem.path_scene import in_proportion, unsheared
 from .problem.request import ECONOMY
 from .problem.scene import Scene
 from .progress_bar import counted
@@ -163,7 +168,10 @@ class History(Sequence[Solution]):
         self._shifts: dict[int, float] = {}
         self._dissipation: dict[float, Dissipation] = {}
         self._work_in_patches: dict[float, PatchDissipation] = {}
-        self.turning_points = steps(scene, path, self)
+        self.in_proportion = steps is turning_points and in_proportion(scene, path)
+        self.turning_points = (
+            proportional_points(path) if self.in_proportion else steps(scene, path, self)
+        )
 
     def __len__(self) -> int:
         return len(self.turning_points)
@@ -177,7 +185,8 @@ class History(Sequence[Solution]):
             return [self[k] for k in range(*index.indices(len(self)))]
         k = range(len(self))[index]
         if k not in self._points:
-            self._points[k] = PathSolution(self, k)
+            kind = ProportionalSolution if self.in_proportion else PathSolution
+            self._points[k] = kind(self, k)
         return self._points[k]
 
     def __iter__(self) -> Iterator[Solution]:
@@ -350,10 +359,8 @@ class History(Sequence[Solution]):
         Plan
             A step of the plan for each step of the path, printed as a table.
         """
-        how = (
-            f"marched: {point.why}" if point.marched else "layers: contacts superposed"
-            for point in self.turning_points
-        )
+        known = "P and Q in proportion" if self.in_proportion else "layers: contacts superposed"
+        how = (f"marched: {point.why}" if point.marched else known for point in self.turning_points)
         return Plan(tuple(Step(f"step {k}", True, reason) for k, reason in enumerate(how)))
 
     def plot(self, ax: Any = None, units: Any = None) -> Any:
@@ -508,3 +515,53 @@ class PathSolution(Solution):
 
     def __repr__(self) -> str:
         return f"sie.follow({self.history.scene!r}, {self.history.path!r})[{self.index}]"
+
+
+class ProportionalSolution(PathSolution):
+    """The solution of dissimilar bodies at a point of a path in proportion from zero."""
+
+    @cached_property
+    def coupled(self) -> tuple[Edges, ProportionalContact]:  # type: ignore[override]
+        """The edges and the state."""
+        loads = self.history.turning_points[self.index].loads
+        if loads.P == 0.0:
+            raise LoadError("the path is at P = 0 here: nothing touches; ask for a later point")
+        return proportional_contact(self.scene)
+
+    @cached_property
+    def normal(self) -> Normal:
+        """The contact, as of `Solution`."""
+        return Normal(self.coupled[0], False)
+
+    @property
+    def sheared(self) -> bool:
+        """Whether shear follows from a pressure that is known."""
+        return False
+
+    @cached_property
+    def pressure(self) -> TwoSidedTraction:  # type: ignore[override]
+        """The pressure p(x), a stress, as of `Solution`."""
+        return self.coupled[1].tractions[0]
+
+    @cached_property
+    def certificate(self) -> Certificate:
+        """The certificate that `check` returns."""
+        return sheared_certificate(self.coupled[1], self.scene, self.tol)
+
+    @property
+    def stick(self) -> tuple[tuple[float, float], ...]:
+        """The stick zone at this point."""
+        return self.coupled[1].stick
+
+    @property
+    def energy_lost(self) -> float:
+        """Energy that friction dissipated since the beginning of the path."""
+        return self.coupled[1].energy
+
+    @property
+    def shift(self) -> float:
+        """Raises ContactError: the shift without slip is not known."""
+        raise ContactError(
+            "the shift that slip adds under P and Q in proportion is not solved for dissimilar "
+            "bodies: it is counted from a bonded contact under the same loads, which is not solved"
+        )

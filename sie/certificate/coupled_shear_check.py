@@ -5,7 +5,8 @@ They are measured on p and q alone, as in `coupled_check`.
     residual   max |1/π PV∫p/(x - t) dt - β q - E*/2 h'| / peak   in the whole contact
     of (12)    max |γ - γ'| / largest |q|,   γ = 1/π PV∫q/(x - t) dt + β p   in stick
 
-γ' is the same under P alone: what sticks keeps it. The integrals are Gauss rules on panels that
+γ' is the same under P alone: what sticks keeps it. Where P and Q grew in proportion under a power
+law it is a constant times a power of x on either side. The integrals are Gauss rules on panels that
 shrink towards every place where a traction is not smooth, with the value at x subtracted.
 """
 
@@ -19,6 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie.contact.small_strains import notes
+from sie.friction.coupled.proportional import ProportionalContact
 from sie.friction.coupled.sheared import ShearedContact
 from sie.numerics.gauss_jacobi import with_weight
 from sie.numerics.interval import EPS
@@ -29,6 +31,7 @@ from .coupled_check import OUTSIDE, gradient_of_slip
 from .result import Certificate, ShearCertificate
 
 Array = NDArray[np.float64]
+State = ShearedContact | ProportionalContact
 
 PROMISED, OF_SHEAR = 1e-10, 1e-9  # of the largest pressure, and of the largest shear in (12)
 NODES, RATIO = 14, 4.0
@@ -50,7 +53,7 @@ class Values(NamedTuple):
 
 
 @reported("certificate")
-def sheared_certificate(state: ShearedContact, scene: Scene, tol: float) -> Certificate:
+def sheared_certificate(state: State, scene: Scene, tol: float) -> Certificate:
     """Measured on p and q, and on those under P alone."""
     p, q = state.tractions
     marks = _marks(state)
@@ -60,14 +63,14 @@ def sheared_certificate(state: ShearedContact, scene: Scene, tol: float) -> Cert
     at_p, at_q = p(x), q(x)
     Hp, Hq = _principal(values, values.p, x, at_p), _principal(values, values.q, x, at_q)
     peak, of_shear = float(values.p.max()), float(np.abs(values.q).max())
-    normal, beta = state.search.normal, scene.beta
+    beta, P = scene.beta, scene.normal_load
+    assert P is not None
     H = scene.profile.slope(x)
-    missed = float(np.abs(Hp - beta * at_q - normal.half_modulus * H).max()) / peak
+    missed = float(np.abs(Hp - beta * at_q - 0.5 * scene.Estar * H).max()) / peak
     ((lo, hi),) = state.stick
     stuck = (x > lo) & (x < hi)
-    before = gradient_of_slip(normal, np.abs(x[stuck] - state.axis), beta)
+    before = _kept_gradient(state, x[stuck], beta)
     drift = float(np.abs((Hq + beta * at_p)[stuck] - before).max(initial=0.0)) / of_shear
-    P = normal.load
     r, rounding = state.contact.r, EPS * state.contact.r / float(np.diff(marks).min())
     gaps = _gaps(state, scene)
     return Certificate(
@@ -84,11 +87,25 @@ def sheared_certificate(state: ShearedContact, scene: Scene, tol: float) -> Cert
     )
 
 
+def _kept_gradient(state: State, x: Array, beta: float) -> Array:
+    """What the slip gradient was when x stuck, times E*/2."""
+    if isinstance(state, ProportionalContact):
+        return state.kept_gradient(x)
+    return gradient_of_slip(state.search.normal, np.abs(x - state.axis), beta)
+
+
 def _of_shear(
-    state: ShearedContact, scene: Scene, values: Values, drift: float, tol: float
+    state: State,
+    scene: Scene,
+    values: Values,
+    drift: float,
+    tol: float,
 ) -> ShearCertificate:
     """What is measured on q; `drift` is the change of the slip gradient in the stick zone."""
     Q, peak, size = scene.tangential_load, float(values.p.max()), np.abs(values.q)
+    way = f"towards {'+' if Q > 0.0 else '-'}x"
+    if isinstance(state, ProportionalContact):
+        way = f"{'outwards' if scene.beta > 0.0 else 'inwards'} on both sides"
     excess = float((size - scene.friction * values.p).max()) / (scene.friction * peak)
     return ShearCertificate(
         residual=drift,
@@ -98,12 +115,12 @@ def _of_shear(
         abscissae=EPS + 16.0 * EPS * peak / float(size.max()),
         condition=1.0,
         advancing=True,
-        kind=f"towards {'+' if Q > 0.0 else '-'}x beside the stick zone; β couples p and q",
+        kind=f"{way} beside the stick zone; β couples p and q",
         tol=max(tol, OF_SHEAR),
     )
 
 
-def _marks(state: ShearedContact) -> tuple[float, ...]:
+def _marks(state: State) -> tuple[float, ...]:
     """The marks of the tractions that are apart."""
     apart = NARROW * state.contact.r
     kept = [state.marks[0]]
@@ -113,7 +130,7 @@ def _marks(state: ShearedContact) -> tuple[float, ...]:
     return (*kept, state.marks[-1])
 
 
-def _gaps(state: ShearedContact, scene: Scene) -> Array:
+def _gaps(state: State, scene: Scene) -> Array:
     """Gaps beside the contact."""
     contact, beyond = state.contact, state.contact.r * np.array(OUTSIDE)
     gaps = state.gap(np.append(contact.m - beyond, contact.m + beyond), scene.profile)

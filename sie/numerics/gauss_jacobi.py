@@ -15,6 +15,8 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 
+LARGEST = 160.0  # sum of the exponents: gamma functions overflow beyond
+
 
 class Rule(NamedTuple):
     """∫_0^1 f dx = Σ weight f(x) where f is x^b (1 - x)^a times a smooth function g."""
@@ -40,7 +42,10 @@ def gauss_jacobi(n: int, a: float, b: float) -> Rule:
         last = beside[j - 1] * before if j else 0.0
         before, value = value, ((t - middle[j]) * value - last) / beside[j]
         total += value * value
-    mass = math.gamma(a + 1.0) * math.gamma(b + 1.0) / math.gamma(a + b + 2.0)
+    if a + b < LARGEST:
+        mass = math.gamma(a + 1.0) * math.gamma(b + 1.0) / math.gamma(a + b + 2.0)
+    else:
+        mass = math.exp(math.lgamma(a + 1.0) + math.lgamma(b + 1.0) - math.lgamma(a + b + 2.0))
     rule = Rule(0.5 * (1.0 + t), 0.5 * (1.0 - t), mass / total)
     for array in rule:
         array.flags.writeable = False

@@ -72,13 +72,14 @@ def refused_load(kappa: float, loads: tuple[float, float, float], spreads: bool)
     if spreads:
         why = (
             "the contact spreads so fast that surfaces stick or slip back which came into contact "
-            f"under Q, as far as |Q| = {least:.6g} = {least / limit:.4g} f P. What they do depends "
-            "on every state before and is not solved; "
+            f"under Q, as far as |Q| = {least:.6g} = {_part(least / limit)} f P. The slip gradient "
+            "that they keep from when they were touched depends on every state before and is not "
+            "solved; "
         ) + ("give a larger |Q| up to f P" if least < limit else "let the bodies slide")
     elif Q < least < math.inf:
         why = (
             "the zones of stick and slip that larger loads leave were followed down to |Q| = "
-            f"{least:.6g} = {least / limit:.4g} f P, where they end; what is below it is not "
+            f"{least:.6g} = {_part(least / limit)} f P, where they end; what is below it is not "
             "solved; give a larger |Q| up to f P"
         )
     else:
@@ -89,12 +90,24 @@ def refused_load(kappa: float, loads: tuple[float, float, float], spreads: bool)
     )
 
 
+def _part(part: float) -> str:
+    """A part of f P in words that tell it from 1."""
+    return f"{part:.4g}" if part < 0.99 or part == 1.0 else f"(1 - {1.0 - part:.3g})"
+
+
+def old_slip_width(beta: float, friction: float) -> float:
+    """About the widest zone, in half-widths, that keeps the slip of the normal load under Q.
+
+    It lies at the edge behind. A bonded edge oscillates with the exponent η, over distances up to a
+    few half-widths; the sense of slip turns where its phase has passed that of f and a right angle.
+    """
+    eta = math.atanh(abs(beta)) / math.pi
+    return 8.0 * math.exp(-(0.5 * math.pi + math.atan(friction)) / eta)
+
+
 def refuse_corners(scene: Scene) -> NoReturn:
     """Raises ContactError: under Q the contact would end at a corner of the indenter."""
-    # A bonded edge oscillates with this exponent, over distances from the edge up to a few
-    # half-widths; the sense of slip turns where its phase has passed that of f and a right angle
-    eta = math.atanh(abs(scene.beta)) / math.pi
-    width = 8.0 * math.exp(-(0.5 * math.pi + math.atan(scene.friction)) / eta)
+    width = old_slip_width(scene.beta, scene.friction)
     raise ContactError(
         f"dissimilar bodies (β = {scene.beta:.4g}) with friction = {scene.friction:g} under "
         f"tangential_load = {scene.tangential_load:g}: the contact reaches a corner of the "

@@ -5,9 +5,24 @@ from __future__ import annotations
 from dataclasses import replace
 
 from sie.errors import ContactError
+from sie.numerics.interval import EPS
 
 from .load_path import Path
 from .scene import Scene, refuse_no_scene
+
+
+def in_proportion(scene: Scene, path: Path) -> bool:
+    """Whether P and Q of dissimilar bodies in partial slip grow in proportion from zero."""
+    if not (scene.beta and scene.friction) or scene.bonded or scene.sliding:
+        return False
+    if scene.coupling != "full" or scene.tilt or scene.moment or any(path.turns):
+        return False
+    start, *points = path.points
+    if any(start) or any(sigma for _, _, sigma in points):
+        return False
+    last, Q, _ = points[-1]
+    growing = all(a[0] < b[0] for a, b in zip(path.points, points, strict=False))
+    return growing and all(abs(q * last - Q * p) <= 8.0 * EPS * abs(Q) * p for p, q, _ in points)
 
 
 def refuse_uncovered(scene: Scene) -> None:
@@ -20,10 +35,10 @@ def refuse_uncovered(scene: Scene) -> None:
         )
     if scene.beta and scene.friction and not scene.sliding:
         raise ContactError(
-            f"a path of dissimilar bodies (β = {scene.beta:.4g}) with friction is not solved: what "
-            "sticks again after unloading of P or a reversal of Q keeps a slip gradient that "
-            "depends on every state before; solve P, then a Q that grows, as scenes, or give "
-            "dundurs = 0 to neglect β"
+            f"a path of dissimilar bodies (β = {scene.beta:.4g}) with friction is solved where P "
+            "and Q grow in proportion from (0, 0, 0) only: what sticks again after unloading of P "
+            "or a reversal of Q keeps a slip gradient that depends on every state before; solve P, "
+            "then a Q that grows, as scenes, or give dundurs = 0 to neglect β"
         )
 
 
@@ -33,7 +48,9 @@ def unsheared(scene: Scene, path: Path) -> Scene:
     Raises ValueError or ContactError where a scene has no load paths, or the path is none, or one
     of them turns the indenter by tilt and the other by moment.
     """
-    refuse_uncovered(scene)
+    known = isinstance(path, Path) and isinstance(scene, Scene) and in_proportion(scene, path)
+    if not known:
+        refuse_uncovered(scene)
     if not isinstance(path, Path):
         raise ValueError(f"{path!r} is not a path: give sie.Path([(P, Q, σ), ...])")
     for turned, held, name in (

@@ -405,6 +405,13 @@ def test_slip_of_a_flat_is_the_integral_of_its_gradient():
     assert gradient == pytest.approx(gamma, rel=1e-7)  # E*/2 = 1
 
 
+@pytest.mark.parametrize("exponent", [10.0, 30.0, 170.0])
+def test_certificate_holds_for_large_exponents(exponent):
+    certificate = solved(sie.Power(exponent, 0.4)).check()
+    assert certificate.ok
+    assert max(certificate.residual, certificate.shear.residual) < 5e-12
+
+
 def test_slip_of_a_power_law_scales_with_the_half_width():
     one, other = (solved(sie.Power(2.5, 0.4), half_width=b) for b in (1.0, 2.0))
     x = np.array([0.1, 0.5, 0.7, 0.95])

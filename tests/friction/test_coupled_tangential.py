@@ -533,14 +533,21 @@ def test_stick_of_what_came_into_contact_under_the_load_is_refused():
         (None, 0.49, 0.06),
         (sie.Polynomial((0, 0, 0.5, 0, 2.7)), 0.488, 0.059),
         (sie.RoundedFlat(0.5, 1.0), 0.34, 1.06),
+        # The slip of the normal load goes on at the old edge under a small load
+        (None, 0.409, 0.0227),
+        (sie.FromFunction(slope="sinh(x)"), 0.39, 0.0118),
+        # There are zones only next to f P
+        (None, 0.243, 3.77),
+        (sie.Polynomial((0, 0, 0.5, 0, 0.0211)), 0.276, 3.856),
     ],
 )
 def test_refusal_of_a_small_load_names_the_least_that_is_certified(profile, beta, friction):
     message, words = refused(profile, beta, friction, 1e-5), "came into contact under Q"
-    least = float(re.search(r"\|Q\| = \S+ = (\S+) f P[.,]", message)[1])
+    least = float(re.search(r"as far as \|Q\| = (\S+) = ", message)[1]) / friction
+    beside = 0.01 * min(least, 30.0 * (1.0 - least))
     assert words in message
-    assert solved(profile, beta, friction, 1.01 * least).check().ok
-    assert words in refused(profile, beta, friction, 0.99 * least)
+    assert solved(profile, beta, friction, least + beside).check().ok
+    assert words in refused(profile, beta, friction, least - beside)
 
 
 def test_certificate_is_not_ok_where_slip_would_oppose_the_load():

@@ -185,7 +185,9 @@ class CoupledContact:
         else:
             # Smooth and even about the axis under a flat base
             first = -self.marks[0] if self.flat_base else 0.0
-            values[inside] = interpolated(direct, np.array((first, *self.marks)), y[inside])
+            power = max(1.0, *(panel.power for panel in self.growth))
+            marks = np.array((first, *self.marks))
+            values[inside] = interpolated(direct, marks, y[inside], power)
         return values
 
     def _of_corner(

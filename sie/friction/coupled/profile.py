@@ -29,12 +29,13 @@ from sie.numerics.gauss_jacobi import with_weight
 from sie.progress_bar import step_done
 
 from .functions import FlatFunctions
-from .panels import NODES, graded, totals
+from .panels import LONGEST, NODES, graded, totals
 from .tables import chopped, summed
 
 Array = NDArray[np.float64]
 
 NEAREST = 1e-17  # of the half-width, to a singularity of P' that x may be on
+STEEPEST = 20.0  # of the logarithm of a power of s, on a panel at most
 
 
 @dataclass(frozen=True, eq=False)
@@ -296,7 +297,9 @@ class Superposition:
         """∫ P' kernel ds, or ds/s, over all intervals with these powers, for each x."""
         columns = zip(*(part[:-1] for _, part in parts), strict=True)
         which, from_x, from_lo, length, to_c, before, after = map(np.concatenate, columns)
-        owner, ahead, left, weight = graded(length, before, after, powers)
+        steepest = max(panel.power for panel, _ in parts)
+        longest = min(LONGEST, STEEPEST / max(steepest, 1.0))
+        owner, ahead, left, weight = graded(length, before, after, powers, longest)
         to_c = to_c[owner][:, None] + (ahead if kernel.hi == self.flat.c else left)
         from_x, from_lo = from_x[owner][:, None] + ahead, from_lo[owner][:, None] + ahead
         at = x[which[owner]][:, None]

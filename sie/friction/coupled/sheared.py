@@ -15,9 +15,8 @@ slip, and a Q against the sign of β is the mirror image.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import cached_property, lru_cache
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -25,6 +24,7 @@ from numpy.typing import ArrayLike, NDArray
 from sie.contact.known_contact import Edges
 from sie.numerics import chebyshev
 from sie.numerics.interval import Interval
+from sie.problem.coverage import old_slip_width
 from sie.problem.scene import Scene
 from sie.profiles.base import Profile
 from sie.traction.base import on_line, zero_or_nan
@@ -33,8 +33,7 @@ from sie.traction.on_panels import SlidingDensity
 from .gradient import RESOLVED, SlipGradient
 from .integral import RATIO, Integral, integral, towards_ends
 from .tangential import TangentialSearch, Trial
-from .traction import Panels, resolved_panels
-from .two_sided import TwoSidedTraction
+from .two_sided import Known, TwoSidedTraction, both_tractions
 
 Array = NDArray[np.float64]
 
@@ -222,10 +221,12 @@ class ShearedContact:
         """The least slip along Q in a slip zone, over the largest; positive by the friction law.
 
         It is that of the rate with Q, and that under Q of what was in contact before, which is left
-        out where it is less than the error of γ.
+        out where it is less than the error of γ, and next to the old edge, where the slip of the
+        normal load went on under small loads.
         """
         (left, right), (x1, e1, e2, x2) = self._gained, self.state.zones
-        gained = left(left.cuts[left.cuts >= -self.search.normal.b]) - left(left.cuts[-1:])
+        inner = self.search.normal.b * (1.0 - old_slip_width(self.search.beta, self.friction))
+        gained = left(left.cuts[left.cuts >= -inner]) - left(left.cuts[-1:])
         gained = np.append(gained, right(right.cuts))
         least, rounding = float(gained.min()), RESOLVED * self.search.stress * max(e1 - x1, x2 - e2)
         least = least / float(np.abs(gained).max()) if least < -rounding else 0.0
@@ -313,41 +314,15 @@ class ShearedContact:
         def shear(x: Array) -> Array:
             return self.turn * self.frame_shear(self.in_frame(x))
 
-        @lru_cache(maxsize=1)
-        def halves() -> tuple[tuple[Panels, ...], tuple[Panels, ...]]:
-            return self._half(at, 1.0, (pressure, shear)), self._half(at, -1.0, (pressure, shear))
-
-        P = self.search.normal.load
-        about = self.flip * self.moment
-        return (
-            TwoSidedTraction(
-                pressure,
-                lambda: tuple(half[0] for half in halves()),
-                at,
-                P,
-                self.marks,
-                self.contact,
-                self.axis * P + about,
-            ),
-            TwoSidedTraction(
-                shear,
-                lambda: tuple(half[1] for half in halves()),
-                at,
-                self.turn * self.Q,
-                self.marks,
-                self.contact,
-            ),
+        (a1, a2), P = self._exponents, self.search.normal.load
+        known = Known(
+            at,
+            self.marks,
+            (a2, a1) if self.flip > 0.0 else (a1, a2),
+            (P, self.turn * self.Q),
+            self.axis * P + self.flip * self.moment,
         )
-
-    def _half(
-        self, at: float, side: float, functions: tuple[Callable[[Array], Array], ...]
-    ) -> tuple[Panels, ...]:
-        """Panels of one side of a place, counted from it."""
-        ends = [side * (x - at) for x in self.marks if side * (x - at) > 0.0]
-        a1, a2 = self._exponents
-        power = a1 if side == self.flip else a2
-        own = tuple((lambda y, f=f: f(at + side * y)) for f in functions)
-        return resolved_panels(own, tuple(sorted(ends)), power)
+        return both_tractions((pressure, shear), known)
 
     @property
     def frame_marks(self) -> tuple[float, ...]:

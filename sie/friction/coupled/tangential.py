@@ -58,7 +58,7 @@ NOWHERE = np.zeros(0)
 WINDOW = 1.02  # times the widest contact: where the slope is resolved
 FIRST = (0.5, 0.99, 0.9, 0.1)  # parts of f P from which the load is followed
 AT_EDGE = 1e-4  # half-widths
-SLIVER = 1e-2  # of it: where the last point to stick is so near, there are zones only next to f P
+FITTING = 0.3  # of the room about the last point to stick: a stick zone that is sure to fit in it
 # Half-widths: nearer edges pass a corner of the profile; others keep such a part of the distance
 AT_CORNER, NEARER = 1e-4, 0.03
 FOLDS = 1.5  # by which a step may change a logarithm
@@ -231,7 +231,7 @@ class TangentialSearch:
         if answer is not None and self.least_slip(answer) >= 0.0:
             return answer
         least, opposed = math.inf, self._spreads
-        for load in () if opposed else tuple(part * self.limit for part in FIRST):
+        for load in () if opposed else tuple(part * self.limit for part in (*FIRST, self._fitting)):
             if Q < least <= load:  # from there one arrives where one has been
                 continue
             first = self._newton(self.start(load), load, ROUGHLY)
@@ -246,9 +246,8 @@ class TangentialSearch:
                     break
             elif first is not None:
                 opposed = True
-        beside = self._last_stick[0] - self._bounds[0] < SLIVER * self.normal.b
-        if opposed or (least == math.inf and beside):
-            least, opposed = min(least, self.limit), True
+        if opposed:
+            least = min(least, self.limit)
         raise refused_load(self.beta * self.friction, (Q, least, self.limit), opposed)
 
     def least_slip(self, trial: Trial) -> float:
@@ -281,6 +280,12 @@ class TangentialSearch:
     def _spreads(self) -> bool:
         """Whether surfaces beside the contact of P alone are the last to slip."""
         return bool(self._last_stick[0] == self._looked_at[0])
+
+    @property
+    def _fitting(self) -> float:
+        """The part of f P next to 1 whose stick zone is far from both of its bounds."""
+        (lo, hi), (x0, half) = self._bounds, self._last_stick
+        return 1.0 - (FITTING * min(x0 - lo, hi - x0, half) / half) ** 2
 
     @cached_property
     def _last_stick(self) -> tuple[float, float]:

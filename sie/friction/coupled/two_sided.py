@@ -8,7 +8,8 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from functools import cached_property
+from functools import cached_property, lru_cache, partial
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -16,7 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 from sie.numerics.interval import Interval
 from sie.traction.base import Complex, on_line
 
-from .traction import HalfPotential, OnHalves, Panels
+from .traction import HalfPotential, OnHalves, Panels, resolved_panels
 
 Array = NDArray[np.float64]
 
@@ -88,3 +89,52 @@ class TwoSidedTraction(OnHalves):
         F, dF = right(z, derivative)
         G, dG = (v.conj() for v in left(-z.conj(), derivative))
         return F - G, dF + dG
+
+
+class Known(NamedTuple):
+    """What is known of p and q beside their values.
+
+    split       a place in the stick zone
+    marks       where they or a derivative are not smooth, ascending, with the edges
+    powers      of the distances from the left edge and from the right one
+    loads       P and Q
+    first       ∫p x dx
+    """
+
+    split: float
+    marks: tuple[float, ...]
+    powers: tuple[float, float]
+    loads: tuple[float, float]
+    first: float
+
+
+def both_tractions(
+    values: tuple[Callable[[Array], Array], ...], known: Known
+) -> tuple[TwoSidedTraction, TwoSidedTraction]:
+    """p and q, which share their panels."""
+    split, marks, powers, loads, first = known
+    contact = Interval(marks[0], marks[-1])
+
+    def half(side: float, power: float) -> tuple[Panels, ...]:
+        ends = sorted(side * (x - split) for x in marks if side * (x - split) > 0.0)
+        own = tuple(partial(_beside, function, split, side) for function in values)
+        return resolved_panels(own, tuple(ends), power)
+
+    @lru_cache(maxsize=1)
+    def halves() -> tuple[tuple[Panels, ...], tuple[Panels, ...]]:
+        return half(1.0, powers[1]), half(-1.0, powers[0])
+
+    def panels(k: int) -> tuple[Panels, ...]:
+        return tuple(half[k] for half in halves())
+
+    p, q = (
+        TwoSidedTraction(
+            values[k], partial(panels, k), split, loads[k], marks, contact, (first, None)[k]
+        )
+        for k in (0, 1)
+    )
+    return p, q
+
+
+def _beside(function: Callable[[Array], Array], split: float, side: float, y: Array) -> Array:
+    return function(split + side * y)

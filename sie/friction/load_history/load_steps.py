@@ -65,6 +65,11 @@ def loads_of(path: Path) -> list[Loads]:
     return [Loads(*point, turn) for point, turn in zip(path.points, path.turns, strict=True)]
 
 
+def proportional_points(path: Path) -> tuple[TurningPoint, ...]:
+    """The points of a path in proportion from zero, at which nothing has to be remembered."""
+    return tuple(TurningPoint(loads, LoadMemory(loads.P)) for loads in loads_of(path))
+
+
 def named(
     k: int, loads: Loads, step: Callable[[], Result], place: str = "step {} of the path, to"
 ) -> Result:
