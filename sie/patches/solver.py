@@ -314,9 +314,11 @@ def _rounded(state: State) -> tuple[object, ...]:
 
 
 def _after(event: Event, state: State, pieces: Pieces, given: Given) -> State:
-    if event.kind == "smooth":  # a cut may leave the end without pull
+    # a cut may leave the end without pull; an edge that stalls at a concave corner asks for contact
+    # beyond it
+    if event.kind in ("smooth", "stall"):
         found = findings(Operator(state.patches, pieces, np.where(state.sharp, state.charge, 0.0)))
-        if found.tension:
+        if found.tension or (event.kind == "stall" and found.overlap):
             return mended(state, found, pieces)
     left = after(event, state, pieces)
     # no pressure on what is left has the moment: the patches that shrink go on to shrink
