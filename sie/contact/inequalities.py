@@ -39,6 +39,7 @@ NAMED = 3  # intervals that a message names
 ROUNDING = 8.0 * EPS
 # points in contact at which the sign of the pressure is tested, at least 3 on every piece
 SCANNED = 600
+ZOOMS, ZOOMED = 5, 10  # around its minima: how often, and places each time
 
 
 def slope_rises(density: SlopeDensity, slope: Slope) -> bool:
@@ -129,6 +130,7 @@ def verify_inequalities(density: SlopeDensity, slope: Slope) -> None:
     x = np.concatenate((_scan(density.contact, slope), inner(density.contact, slope.breaks)))
     p = density(x)
     peak = float(p[np.isfinite(p)].max())
+    x, p = _with_minima(x, p, density)
     patch = (
         f"a single patch of contact [{density.interval[0]:.6g}, {density.interval[1]:.6g}] would"
     )
@@ -160,6 +162,24 @@ def verify_inequalities(density: SlopeDensity, slope: Slope) -> None:
             edges=density.interval,
             overlap=intervals,
         )
+
+
+def _with_minima(x: Array, p: Array, density: SlopeDensity) -> tuple[Array, Array]:
+    """Places and pressures, and those around minima that may be negative between the places."""
+    order = np.argsort(x)
+    x, p = x[order], p[order]
+    k = 1 + np.flatnonzero((p[1:-1] <= p[:-2]) & (p[1:-1] <= p[2:]) & (x[2:] > x[:-2]))
+    # a parabola through three values has its vertex above this
+    k = k[3.0 * p[k] < p[k - 1] + p[k + 1]]
+    lo, hi = x[k - 1], x[k + 1]
+    for _ in range(ZOOMS if k.size else 0):
+        between = lo[:, None] + (hi - lo)[:, None] * np.linspace(0.0, 1.0, ZOOMED)
+        values = density(between.ravel()).reshape(between.shape)
+        lowest = np.argmin(values, axis=1).clip(1, ZOOMED - 2)[:, None]
+        lo, hi = (np.take_along_axis(between, lowest + s, axis=1)[:, 0] for s in (-1, 1))
+        x, p = np.append(x, between), np.append(p, values)
+    order = np.argsort(x, kind="stable")
+    return x[order], p[order]
 
 
 def relative_gaps(density: SlopeDensity, slope: Slope) -> tuple[Array, Array]:

@@ -4,8 +4,9 @@ residual      max |1/π PV∫p(t)/(x - t) dt - E*/2 (h' + θ)| / peak; per perio
               (π/λ) cot(π(x - t)/λ)
 equilibrium   |∫p dx - P| / P, |∫p x dx - M| / (P r)
 inequalities  the lowest bound of D over the largest D, and places where the gap would be negative
-condition     relative change of the narrowest patch per relative change of the load; it is large
-              where a patch is about to appear, or two to merge
+condition     relative change of the narrowest patch or gap per relative change of the load, or of
+              the half-width that is given; it is large where a patch is about to appear, or two to
+              merge
 """
 
 from __future__ import annotations
@@ -20,11 +21,12 @@ from sie.progress_bar import reported, step_done
 
 from .chord import Points
 from .density import PatchPressure
+from .measure import edge_ratio
 from .newton import Linear, conditions, moves
 from .operator import Found, Operator
 from .panels import LONG, PatchPanels
-from .result import LEAST, PatchCertificate
-from .state import Given, State
+from .result import CLOSE, LEAST, PatchCertificate
+from .state import Given
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
@@ -42,7 +44,6 @@ PLACES = 120  # at which it is, about
 TOGETHER = 32  # of them at once
 EXPLAINED = 16.0  # times what half an ulp of the edges changes
 MOST = 1e-3  # of the peak: where that is more nothing is certified
-CLOSE = 1e4  # condition from which a patch is about to appear, or two to merge
 
 
 @reported("certificate")
@@ -63,7 +64,7 @@ def certificate(
         found_moment = float(rule.weight @ (p * (rule.points.x - middle))) + load * middle
         moment = abs(found_moment - G * given.moment) / (asked * hull)
     linear = conditions(found.state, o.pieces, given)[1]
-    condition = conditioning(found.state, linear, given)
+    condition = conditioning(found, given)
     return PatchCertificate(
         residual=_residual(pressure, (rule, p), (places, at)) / peak,
         force=abs(load - asked) / asked,
@@ -75,24 +76,26 @@ def certificate(
         tol=tol,
         tension=tuple((t.lo, t.hi) for t in found.findings.tension),
         overlap=tuple((v.lo, v.hi) for v in found.findings.overlap),
-        notes=_notes(condition),
+        notes=_notes(condition, "load" if given.half_width is None else "half-width"),
     )
 
 
-def _notes(condition: float) -> tuple[str, ...]:
+def _notes(condition: float, asked: str) -> tuple[str, ...]:
     if condition < CLOSE:
         return ()
     sentence = (
-        "note: a patch of contact is about to appear, or two to merge: a change of the load by "
-        f"1e-9 changes the narrowest patch by {1e-9 * condition:.0e} of its width"
+        f"note: a patch of contact is about to appear, or two to merge: a change of the {asked} by "
+        f"1e-9 changes the narrowest patch or gap by {1e-9 * condition:.0e} of its width"
     )
     return (sentence,)
 
 
-def conditioning(state: State, linear: Linear, given: Given) -> float:
-    """|d ln r / d ln P| of the patch for which it is largest."""
-    move = moves(state, linear, given.load).reshape(-1, 2)
-    change = np.abs(move).max(axis=1) / state.patches.r
+def conditioning(found: Found, given: Given) -> float:
+    """The largest |d e / d ln P| of an edge e over its patch or gap; of r, where that is given."""
+    state = found.state
+    asked = given if given.half_width is None else given._replace(load=np.nan)
+    linear = conditions(state, found.operator.pieces, asked)[1]
+    change = np.abs(moves(state, linear, asked.size)) / state.patches.narrower
     return float(np.nan_to_num(change, nan=np.inf).max(initial=0.0))
 
 
@@ -106,6 +109,9 @@ def _rounding(o: Operator, linear: Linear, given: Given, peak: float) -> float:
     P, N = o.patches, o.patches.number
     charge = 0.25 * linear.intensity * np.spacing(np.abs(P.edges))
     missed = np.sqrt(((linear.matrix[:, : 2 * N] * charge) ** 2).sum(axis=1))
+    # also where the condition of a patch gave way to that of a gap
+    columns = edge_ratio(P, np.arange(N)) * P.chord.cosine(P.edges - P.c[:, None])
+    missed[:N] = np.sqrt(((columns * charge) ** 2).sum(axis=1))
     beside = o.others(np.arange(N), Points(P.c[:, None], np.zeros((N, 1))))[:, 0]
     hull = 0.5 * float(P.b[-1] - P.a[0])
     terms = np.abs(o.pieces.series[o.panels.piece]).sum(axis=1)

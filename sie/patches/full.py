@@ -27,7 +27,7 @@ from .bounds import DEEPEST, NODES, TENSION, halves, lower_bound
 from .density import AROUND, NARROW
 from .measure import NEAR
 from .pieces import Pieces
-from .result import GRADING, LEAST, PatchCertificate
+from .result import CLOSE, GRADING, LEAST, PatchCertificate
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -40,6 +40,8 @@ CLOSED = 1e-12  # periods: a gap at a concave corner that is no wider is taken f
 LEVELS, DEEP = 12, 30
 SUSPECTS = 16  # places of lowest pressure on a grid: tension there rules full contact out
 CHUNK = 1 << 18
+ZOOMS, ZOOMED = 6, 10  # around the least pressure: how often, and places each time
+OPENING = "note: full contact is about to end: a gap opens where the load falls by {:.0e} of it"
 
 
 @dataclass(frozen=True, eq=False)
@@ -231,11 +233,15 @@ class FullPressure(Density):
         conjugate = np.fft.irfft(1j * harmonics, n)
         return np.asarray(x[np.argsort(conjugate)[:SUSPECTS]])
 
+    @property
+    def mean(self) -> float:
+        return self.load / self.period
+
     @cached_property
     def lowest(self) -> float:
         """A lower bound of p over its mean; below 0 where p is negative."""
         lo, hi, _ = self.panels
-        mean, lowest = self.load / self.period, np.inf
+        mean, lowest = self.mean, np.inf
         suspected = float(self(self._suspects()).min())
         if suspected < -TENSION * mean:
             return suspected / mean
@@ -281,6 +287,7 @@ class FullContact:
         at = (lo + (hi - lo) * 0.45)[:: max(len(lo) // 100, 1)]
         own = piece[:: max(len(lo) // 100, 1)]
         values = pressure(at)
+        condition = pressure.mean / max(_minimum(pressure, x, p), TENSION * pressure.mean)
         kernel = (np.pi / pressure.period) / np.tan(np.pi * (at[:, None] - x) / pressure.period)
         total = ((p - values[:, None]) * kernel) @ w / np.pi
         residual = np.abs(total - pressure.half_modulus * pressure.pieces.value(own, at, 0.0)).max()
@@ -290,10 +297,24 @@ class FullContact:
             moment=0.0,
             lowest_pressure=min(pressure.lowest, 0.0),
             patches=1,
-            condition=0.0,
+            condition=condition,
             measured_to=LEAST,
             tol=tol,
+            notes=() if condition < CLOSE else (OPENING.format(1.0 / condition),),
         )
+
+
+def _minimum(pressure: FullPressure, x: Array, p: Array) -> float:
+    """The least pressure, from places around the least of these."""
+    k = int(np.argmin(p))
+    lo, hi = x[max(k - 1, 0)], x[min(k + 1, len(x) - 1)]
+    lowest = float(p[k])
+    for _ in range(ZOOMS):
+        x = np.linspace(lo, hi, ZOOMED)
+        p = pressure(x)
+        k = int(np.argmin(p))
+        lo, hi, lowest = x[max(k - 1, 0)], x[min(k + 1, ZOOMED - 1)], min(lowest, float(p[k]))
+    return lowest
 
 
 def full_contact(

@@ -45,12 +45,13 @@ class Clusters(NamedTuple):
 
 
 def across_gaps(P: Patches, k: GapPanels, weight: Array) -> Array:
-    """A (N - 1, 2N) for weights on the nodes of the gaps."""
+    """A (N - 1, 2N) for weights on the nodes of the gaps; (N, 2N) of a period that is closing."""
     N = P.number
+    number, end = N - 1 + P.closing, np.append(P.a[1:], P.a[0] + P.chord.period)
     first, last = np.arange(0, N, TOGETHER), np.minimum(np.arange(0, N, TOGETHER) + TOGETHER, N) - 1
     edges = Clusters.between(P.a[first], P.b[last])
-    behind = first < N - 1
-    gaps = Clusters.between(P.b[first[behind]], P.a[np.minimum(last + 1, N - 1)[behind]])
+    behind = first < number
+    gaps = Clusters.between(P.b[first[behind]], end[np.minimum(last, number - 1)[behind]])
     e = np.append(P.edges, np.repeat(P.edges[-1:], 2 * (-N % TOGETHER))).reshape(len(first), -1)
     # by cluster, gap in it, cluster, edge in it
     out = np.zeros((len(gaps.middle), TOGETHER, *e.shape))
@@ -63,7 +64,7 @@ def across_gaps(P: Patches, k: GapPanels, weight: Array) -> Array:
             i, j = I[some], J[some]
             kernel = 1.0 / P.chord.beyond(gaps.points(i), edges.points(j))
             out[i, :, j, :] = sources[i] @ kernel.transpose(0, 2, 1) @ places[j]
-    return out.reshape(out.shape[0] * TOGETHER, -1)[: N - 1, : 2 * N]
+    return out.reshape(out.shape[0] * TOGETHER, -1)[:number, : 2 * N]
 
 
 def _far(P: Patches, gaps: Clusters, edges: Clusters) -> NDArray[np.bool_]:

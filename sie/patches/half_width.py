@@ -23,6 +23,7 @@ from sie.progress_bar import reported, step_done
 from .newton import conditions, moves
 from .of_scene import Problem, changed
 from .operator import Found
+from .panels import Patches
 
 Array = NDArray[np.float64]
 
@@ -31,6 +32,7 @@ SETTLED = 1e-9  # of the load: steps below, that stop shrinking, are rounding
 # Of the load: to this two loads are told apart on both sides of a jump of r(P) ...
 JUMP = 1e-5
 LEAST = 1e-11  # ... and where r(P) may be just steep
+CLOSER = 0.3  # of the distance in ln r from which the contact of r was not found
 SLOW = 3  # steps in which a bracket has to halve
 CLOSE = 4.0  # factor of the load: up to this the patches of one load are a start for another ...
 CLOSEST = 1.01  # ... and up to this the only one
@@ -43,6 +45,19 @@ LOADS = 100
 NEARER = (1.0, 0.5, 0.25, 0.1, 0.03, 0.01)
 ASIDE = (0.5, 0.3, 0.7, 0.1, 0.9)
 SAMPLES = 256  # places of the slope from which the first load is guessed
+
+
+def _leaves_open(outer: Patches, inner: Patches, width: float) -> bool:
+    """Whether patches between some and others, per period, may leave a gap of this width."""
+    period = outer.chord.period
+    a, b = (np.concatenate((e - period, e, e + period)) for e in (outer.a, outer.b))
+    for lo, hi in zip(inner.b, np.append(inner.a[1:], inner.a[0] + period), strict=True):
+        near = (b >= lo) & (a <= hi)
+        start, stop = np.maximum(a[near], lo), np.minimum(b[near], hi)
+        least, most = start - stop[:, None], stop - start[:, None]
+        if np.triu((least <= width) & (width <= most)).any():
+            return True
+    return False
 
 
 class Ways(NamedTuple):
@@ -98,6 +113,8 @@ def contact_of_half_width(problem: Problem, ways: Ways) -> tuple[Problem, Found]
     sizes, lightest = [np.inf] * SLOW, LIGHTEST * now.load
     for _ in range(LOADS):
         step_done()
+        if (direct := search.direct(now)) is not None:
+            return direct
         step = now.step(search.r)
         if search.reached(now, step, last) and now.found is not None:
             return changed(problem, load=now.load), now.found
@@ -122,18 +139,19 @@ class Search:
 
     below: Width | None = None
     above: Width | None = None
+    tried = np.inf  # how far off in ln r a contact was that did not lead to that of r
 
     def __init__(self, problem: Problem, ways: Ways) -> None:
         r = problem.given.half_width
         assert r is not None
         self.problem, self.ways, self.r = problem, ways, r
         lo, hi = problem.domain
-        widest = 0.5 * (problem.chord.period if problem.chord.periodic else hi - lo)
-        if r > widest * (1.0 + ROUNDING * EPS):
+        self.widest = 0.5 * (problem.chord.period if problem.chord.periodic else hi - lo)
+        if r > self.widest * (1.0 + ROUNDING * EPS):
             whose = "half of the period" if problem.chord.periodic else "that of the indenter"
             raise LoadError(
-                f"the half-width {r:.6g} exceeds {whose}, {widest:.6g}: give at most that, or a "
-                "normal_load"
+                f"the half-width {r:.6g} exceeds {whose}, {self.widest:.6g}: give at most that, or "
+                "a normal_load"
             )
 
     def first(self) -> Width:
@@ -145,6 +163,22 @@ class Search:
         H = H[np.isfinite(H)] + self.problem.given.tilt
         guess = self.r * (float(np.abs(H).max(initial=0.0)) or 1.0)
         return self.at((guess * STARTS).tolist(), None)
+
+    def direct(self, now: Width) -> tuple[Problem, Found] | None:
+        """The patches of the half-width itself, from those of another; None if that fails."""
+        missed, narrowest = abs(float(np.log(self.r / now.r))), 4.0 * EPS * self.widest
+        if now.found is None or now.constant or self.widest - self.r <= narrowest:
+            return None
+        if missed > CLOSER * self.tried:  # it would fail as it did before
+            return None
+        self.tried = missed
+        found = self.ways.near(changed(self.problem, load=np.nan), now.found)
+        if found is None:
+            return None
+        given = self.problem.given._replace(load=0.0)
+        linear = conditions(found.state, found.operator.pieces, given)[1]
+        load = float(linear.missed[2 * found.state.patches.number - 1])
+        return changed(self.problem, load=load), found
 
     def at(self, loads: Iterable[float], error: ContactError | None) -> Width:
         """The half-width under the first of some loads for which patches are found."""
@@ -192,8 +226,9 @@ class Search:
                 raise LoadError(self._of_many(now))
             return True
         # The step may ask for less than the load resolves, or for no less than the one before. A
-        # bisection is no such step: it leads away.
-        return abs(step) <= ROUNDING * EPS or 0.5 * last <= abs(step) < SETTLED
+        # bisection is no such step: it leads away. Next to full contact r is steep in the load.
+        rounded = abs(step) <= ROUNDING * EPS or 0.5 * last <= abs(step) < SETTLED
+        return rounded and missed < SETTLED
 
     def bracketed(self, now: Width) -> tuple[Width, Width] | None:
         """Half-widths on both sides of r, the lighter load first; None if there are none yet."""
@@ -226,13 +261,16 @@ class Search:
         """Whether no lighter load than that of `above` can have the half-width.
 
         At fixed tilt the outermost edges under a lighter load are on its patches, and not between
-        those of `below`. Per period the cut may be another one, and with a moment the tilt.
+        those of `below`; per period so are those of its widest gap. With a moment the tilt may be
+        another one.
         """
-        if self.problem.given.moment is not None or self.problem.chord.periodic:
+        if self.problem.given.moment is not None:
             return True
         if not (self.below and self.above and self.below.found and self.above.found):
             return False
         P, inner = self.above.found.state.patches, self.below.found.state.patches
+        if P.chord.periodic:
+            return not _leaves_open(P, inner, P.chord.period - 2.0 * self.r)
         left, right = P.a <= inner.a[0], P.b >= inner.b[-1]
         least = np.maximum(P.a, inner.b[-1]) - np.minimum(P.b, inner.a[0])[:, None]
         most = P.b - P.a[:, None]
@@ -245,12 +283,16 @@ class Search:
             return LoadError(self._of_none())
         G = self.problem.half_modulus
         low, high = (
-            f"{w.r:.6g} at normal_load = {G * w.load:.12g}" for w in (self.below, self.above)
+            f"{w.r:.12g} at normal_load = {G * w.load:.12g}" for w in (self.below, self.above)
+        )
+        way, cause = (
+            ("jumps", "as a patch of contact appears beyond the others")
+            if self.jumps
+            else ("rises", "and rounding hides the patches between")
         )
         return LoadError(
-            f"no load was found that gives half_width = {self.r:.6g}: it jumps from {low} to "
-            f"{high}, as a patch of contact appears beyond the others; give normal_load, or a "
-            "half_width that is not between these"
+            f"no load was found that gives half_width = {self.r:.12g}: it {way} from {low} to "
+            f"{high}, {cause}; give normal_load, or a half_width that is not between these"
         )
 
     def _of_none(self) -> str:

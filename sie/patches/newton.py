@@ -69,10 +69,15 @@ class Linear(NamedTuple):
 
 
 def conditions(state: State, pieces: Pieces, given: Given) -> tuple[Operator, Linear]:
+    """The conditions of the patches, then of the gaps between, of the load and of the moment.
+
+    Where a period is closing that of the widest patch gives way to the condition of the last gap:
+    ∫ g' dx over a period is a sum of all C_j, and rounding in them moves the middle of a gap s by
+    1/s² times as much as rounding in its own condition.
+    """
     P = state.patches
     o = Operator(P, pieces, np.where(state.sharp, state.charge, 0.0))
     N, chord, e = P.number, P.chord, P.edges
-    k = np.repeat(np.arange(N), 2)
     tilt = state.tilt + o.H0
     missed, matrix = np.zeros(2 * N + 1), np.zeros((2 * N + 1, 2 * N + 1))
     C, plain = o.closures()
@@ -80,40 +85,87 @@ def conditions(state: State, pieces: Pieces, given: Given) -> tuple[Operator, Li
     ratio = edge_ratio(P, np.arange(N))
     matrix[:N, : 2 * N] = ratio * chord.cosine(e - P.c[:, None])
     K, across = closures(o, ratio)
-    missed[N : 2 * N - 1], matrix[N : 2 * N - 1, : 2 * N] = K, across
-    arm = chord.apart(e - P.c[k])
-    x = o.panels.points.x
-    missed[2 * N - 1] = (o.b * (o.H + tilt)).sum() - given.load
-    matrix[2 * N - 1] = np.append(arm, o.b.sum())
-    if given.moment is not None:
-        missed[2 * N] = (o.b * (o.H + tilt) * x).sum() - given.moment
-        matrix[2 * N] = np.append(arm * e, (o.b * x).sum())
-    else:
-        matrix[2 * N, 2 * N] = 1.0
+    rows = np.append(np.arange(N, 2 * N - 1), np.argmax(P.r))[: len(K)]
+    missed[rows], matrix[rows, : 2 * N] = K, across
+    matrix[rows, 2 * N] = 0.0
+    missed[2 * N - 1 :], matrix[2 * N - 1 :] = _balance(o, tilt, given)
     charged = matrix[:, : 2 * N] @ o.Y
-    charged[N : 2 * N - 1] = 0.0  # D contains them
+    charged[rows] = 0.0  # D contains them
     charged[2 * N] *= given.moment is not None
     intensity = np.where(state.sharp, 0.0, at_edges(o))
-    return o, Linear(missed + charged, matrix, intensity)
+    linear = Linear(missed + charged, matrix, intensity)
+    return o, _of_width(state, linear, given.half_width) if given.by_width else linear
+
+
+def _balance(o: Operator, tilt: float, given: Given) -> tuple[Array, Array]:
+    """The conditions of the load, and of the moment where that is given."""
+    P, x = o.patches, o.panels.points.x
+    arm = P.chord.apart(P.edges - np.repeat(P.c, 2))
+    missed = np.array([(o.b * (o.H + tilt)).sum() - given.load, 0.0])
+    rows = np.stack((np.append(arm, o.b.sum()), np.append(0.0 * arm, 1.0)))
+    if given.moment is not None:
+        missed[1] = (o.b * (o.H + tilt) * x).sum() - given.moment
+        rows[1] = np.append(arm * P.edges, (o.b * x).sum())
+    return missed, rows
+
+
+def outermost(patches: Patches) -> tuple[int, int]:
+    """The edges on both sides of all patches; per period, of its widest gap."""
+    last = int(np.argmax(patches.gaps)) if patches.chord.periodic else patches.number - 1
+    return 2 * last + 1, (2 * last + 2) % (2 * patches.number)
+
+
+def _of_width(state: State, linear: Linear, r: float | None) -> Linear:
+    """The conditions with half of the distance of the outermost edges in place of the load."""
+    P, D = state.patches, linear.intensity
+    assert r is not None
+    last, first = outermost(P)
+    missed, matrix = linear.missed.copy(), linear.matrix.copy()
+    n = 2 * P.number - 1
+    if P.chord.periodic:
+        missed[n] = (P.chord.period - 2.0 * r) - float(P.gaps[last // 2])
+    else:
+        missed[n] = float(P.edges[last] - P.edges[first]) - 2.0 * r
+    matrix[n] = 0.0
+    for edge, sign in ((last, 2.0), (first, -2.0)):
+        if not state.sharp[edge]:
+            matrix[n, edge] = sign / (D[edge] if D[edge] > 0.0 else np.abs(D).mean())
+    return Linear(missed, matrix, D)
 
 
 def closures(o: Operator, ratio: Array) -> tuple[Array, Array]:
-    """K_i of the N - 1 inner gaps, and their derivatives (N - 1, 2N)."""
+    """K_i of the N - 1 inner gaps, and their derivatives (N - 1, 2N).
+
+    Those of the last gap are added where a period is closing.
+    """
     P, pieces, k = o.patches, o.pieces, o.gaps
-    N = P.number
-    if N == 1:
+    n = P.number - 1 + P.closing
+    if not n:
         return np.zeros(0), np.zeros((0, 2))
     reference, T, D = gap_values(o)
-    base = pieces.value(pieces.locate(P.b[:-1], "left"), P.b[:-1], 0.0)
-    excess = (reference - base[k.gap, None] - T * D / np.pi) * k.dx
-    width = np.bincount(k.gap, k.dx.sum(axis=1), N - 1)
-    integral = np.bincount(k.gap, excess.sum(axis=1), N - 1)
-    K = (pieces.rises(P.b[:-1], P.a[1:], walls=True) - base * width) - integral
-    return K, -across_gaps(P, k, T * k.dx) * ratio[: N - 1] / np.pi
+    b, a = P.b[:n], np.append(P.a[1:], P.a[0] + P.chord.period)[:n]
+    own, next_ = pieces.locate(b, "left"), pieces.locate(a)
+    base = pieces.value(own, b, 0.0)
+    # on one piece from either edge to the middle the reference is H itself, but for a break between
+    simple = (next_ - own <= 1) & (np.bincount(k.gap, ~k.follows, n) == 0.0)
+    broken = simple & (next_ > own)
+    reference = np.where(simple[k.gap, None], 0.0, reference - base[k.gap, None])
+    excess = (reference - T * D / np.pi) * k.dx
+    width = np.bincount(k.gap, k.dx.sum(axis=1), n)
+    integral = np.bincount(k.gap, excess.sum(axis=1), n)
+    risen = np.where(simple, 0.0, pieces.rises(b, a, walls=True) - base * width)
+    break_, middle = (pieces.ends[next_[broken]], 0.0), (b[broken], 0.5 * (a - b)[broken])
+    risen[broken] = pieces.rise(next_[broken], break_, middle)
+    risen[broken] -= pieces.rise(own[broken], break_, middle)
+    across: Array = -across_gaps(P, k, T * k.dx) * ratio[:n] / np.pi
+    return np.asarray(risen - integral), across
 
 
 def moves(state: State, linear: Linear, load: float) -> Array:
-    """The derivatives of the edges (2N,) by ln P; those of sharp ones are 0."""
+    """The derivatives of the edges (2N,) by ln P; those of sharp ones are 0.
+
+    Where a half-width is given they are by the logarithm of that, in place of a load.
+    """
     size = np.abs(linear.matrix).max(axis=1)
     n = 2 * state.patches.number
     right = np.zeros(n + 1)
@@ -201,14 +253,13 @@ def solve(
         # D depends on the charges: they first
         unknown = state.sharp.any() and not state.charge.any()
         damping = damping.limited(state, 0.0 * asked if unknown else asked, pieces.concave)
-        size = relative_size(state, y, _told(state, asked, moves(state, linear, given.load)))
+        size = relative_size(state, y, _told(state, asked, moves(state, linear, given.size)))
         limits = pieces.solid_around(state.patches.c), given.moment is not None
         state, clipped = moved(state, damping.moved, y, limits)
         sizes.append(np.inf if clipped else size)
         whole = np.array_equal(asked, damping.moved)
         if _settled(sizes, enough, whole, state.sharp.any()):
-            wrong = np.flatnonzero(state.sharp & (state.charge * state.outward < 0.0))
-            return state, Event("smooth", int(wrong[0])) if wrong.size else None, step + 1
+            return state, _turning_smooth(state), step + 1
         event = _event(state, asked, damping.insists, pieces)
         if event is not None:
             fewer = after(event, state, pieces)
@@ -239,7 +290,8 @@ def wished(state: State, linear: Linear, y: Array, turns: Array) -> Array:
 
 def _told(state: State, asked: Array, moves: Array) -> Array:
     """The moves of edges, less what doubles of the edges and of the load do not resolve."""
-    least = np.spacing(np.abs(state.patches.edges)) + EPS * np.nan_to_num(np.abs(moves))
+    resolved = EPS * np.where(np.isfinite(moves), np.abs(moves), 0.0)
+    least = np.spacing(np.abs(state.patches.edges)) + resolved
     return np.maximum(np.abs(asked) - ULPS * least, 0.0)
 
 
@@ -288,6 +340,12 @@ def _settled(sizes: list[float], enough: float, whole: bool, sharp: np.bool_) ->
     rate = before if sharp else (last / before) ** 2
     decreased = last < QUADRATIC and before < QUADRATIC and last * rate < enough
     return (decreased and whole) or (last < SETTLED and last >= 0.5 * before)
+
+
+def _turning_smooth(state: State) -> Event | None:
+    """The event of sharp edges whose charges pull."""
+    wrong = np.flatnonzero(state.sharp & (state.charge * state.outward < 0.0)).tolist()
+    return Event("smooth", wrong[0], tuple(wrong[1:])) if wrong else None
 
 
 def _event(state: State, asked: Array, insists: Array, pieces: Pieces) -> Event | None:

@@ -45,6 +45,7 @@ SLACK = 1.3  # the last panel of a graded row is longer than the others by no mo
 MANY = 6.0  # breaks on a patch, on average: short panels from there on
 # half-widths of the whole contact: how far out the gap is tested where the indenter does not end
 FARTHEST = 1e4
+LITTLE = 0.25  # of a period
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,6 +73,17 @@ class Patches:
         """Widths of the gaps to the right of each patch; inf beside the last one on the line."""
         following = np.append(self.a[1:], self.a[0] + self.chord.period)
         return np.asarray(following - self.b)
+
+    @cached_property
+    def narrower(self) -> Array:
+        """The half-width of its patch or the gap beside it, the shorter, of each edge (2N,)."""
+        beside = np.stack((np.append(self.gaps[-1], self.gaps[:-1]), self.gaps), axis=1).ravel()
+        return np.minimum(np.repeat(self.r, 2), beside)
+
+    @property
+    def closing(self) -> bool:
+        """Whether little is left open of a period."""
+        return self.chord.periodic and bool(self.gaps.sum() < LITTLE * self.chord.period)
 
     @cached_property
     def whole(self) -> Array:
@@ -218,7 +230,7 @@ def distance_of(parameter: Array, width: Array) -> tuple[Array, Array, Array]:
 
 
 def _sides(
-    N: int, outside: bool, periodic: bool
+    N: int, outside: bool, closing: bool, periodic: bool
 ) -> tuple[Index, NDArray[np.bool_], NDArray[np.bool_]]:
     """The gap that each side belongs to, whether it is at the right of it, and of an inner gap.
 
@@ -228,17 +240,22 @@ def _sides(
     number, at_right = number - 1, at_right == 1
     inner = (number >= 0) & (number < N - 1 + periodic)
     outer = ((number == -1) & at_right) | ((number == N - 1) & ~at_right)
-    kept = (inner & (outside | (number < N - 1))) | (outer & ~inner & outside & (not periodic))
+    kept = (inner & (outside | closing | (number < N - 1))) | (
+        outer & ~inner & outside & (not periodic)
+    )
     return number[kept], at_right[kept], inner[kept]
 
 
 def gap_panels(
     patches: Patches, pieces: Pieces, outside: bool = False, farthest: float = FARTHEST
 ) -> GapPanels:
-    """The panels of all gaps; `outside` adds the outer ones, or per period the last."""
+    """The panels of all gaps; `outside` adds the outer ones, or per period the last.
+
+    Where a period is closing the last is there as well.
+    """
     rule = FINE if outside else LONG
     a, b, N = patches.a, patches.b, patches.number
-    number, at_right, inner = _sides(N, outside, patches.chord.periodic)
+    number, at_right, inner = _sides(N, outside, patches.closing, patches.chord.periodic)
     k = (number + at_right) % N
     edge = np.where(at_right, a[k], b[k])
     piece = np.where(at_right, pieces.locate(a)[k], pieces.locate(b, "left")[k])

@@ -20,12 +20,12 @@ def after(event: Event, state: State, pieces: Pieces) -> State:
     P = state.patches
     a, b, sharp = P.a.copy(), P.b.copy(), state.sharp.copy()
     if event.kind == "smooth":
-        k = event.number // 2
-        sharp[event.number] = False
-        if event.number % 2:
-            b[k] -= 0.1 * P.r[k]
-        else:
-            a[k] += 0.1 * P.r[k]
+        wrong = np.array([event.number, *event.others])
+        left, right = wrong[wrong % 2 == 0] // 2, wrong[wrong % 2 == 1] // 2
+        inward = _smoothed(P, state.charge, pieces)
+        sharp[wrong] = False
+        a[left] += inward[2 * left]
+        b[right] -= inward[2 * right + 1]
         charge = np.where(sharp, state.charge, 0.0)
         return State(Patches(a, b, P.chord), sharp, charge, state.tilt)
     if event.kind == "vanish":
@@ -42,6 +42,18 @@ def after(event: Event, state: State, pieces: Pieces) -> State:
         gaps = gaps[gaps < len(a) - 1]
         return bounded(np.delete(a, gaps + 1), np.delete(b, gaps), pieces, P.chord, state.tilt)
     return state
+
+
+def _smoothed(P: Patches, charge: Array, pieces: Pieces) -> Array:
+    """How far inside its end a sharp edge of this charge would be smooth, about, (2N,).
+
+    The charge y of an edge that moves by δ is D δ/2, and D is π H' on one patch.
+    """
+    piece = np.stack((pieces.locate(P.a), pieces.locate(P.b, "left")), axis=1).ravel()
+    curvature = np.maximum(pieces.curvature(piece, P.edges), 0.0)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        inward = np.nan_to_num(2.0 * np.abs(charge) / (np.pi * curvature), nan=np.inf)
+    return np.asarray(np.minimum(inward, SHORT * np.repeat(P.r, 2)))
 
 
 def mended(state: State, found: Findings, pieces: Pieces) -> State:
@@ -93,7 +105,10 @@ def _wrapped(a: Array, b: Array, period: float) -> tuple[Array, Array]:
 
 
 def _added(overlap: Overlap, state: State, pieces: Pieces) -> tuple[float, float] | None:
-    """A patch where the bodies overlap: as deep as a parabola that its load presses in."""
+    """A patch where the bodies overlap: as deep as a parabola that its load presses in.
+
+    At a corner of the indenter it is as wide as one that a wedge of that slope presses in.
+    """
     P = state.patches
     x = overlap.x
     curvature = float(pieces.curvature(int(pieces.locate(x)), x))
@@ -107,7 +122,11 @@ def _added(overlap: Overlap, state: State, pieces: Pieces) -> tuple[float, float
             )
         wide = min(r, 0.5 * distance)
     elif wide == 0.0:
+        slope = abs(float(pieces.value(int(pieces.locate(x)), x, 0.0)) + state.tilt)
         wide = 0.1 * distance
+        for _ in range(20):
+            deep = 0.5 * slope * (np.log(max(2.0 * distance / wide, 1.1)) + 0.5)
+            wide = min(overlap.depth / deep, 0.1 * distance) if deep > 0.0 else wide
     return x - wide, x + wide
 
 

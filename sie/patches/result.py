@@ -12,6 +12,7 @@ import numpy as np
 GRADING = 0.4  # parts of a panel shrink towards its ends by this factor
 LEAST = 8.0 * float(np.finfo(float).eps)
 WIDE = 79
+CLOSE = 1e4  # condition from which a patch is about to appear, or two to merge
 
 
 class OfShear(Protocol):
@@ -44,7 +45,8 @@ class PatchCertificate:
     force, moment     of equilibrium
     lowest_pressure   the lowest bound of p over its root, relative to the largest, 0 if positive
     patches           how many there are
-    condition         relative change of the narrowest patch per relative change of the load
+    condition         relative change of the narrowest patch or gap per relative change of the load;
+                      in full contact that of the lowest pressure
     measured_to       what the rounding of the edges to doubles changes in them
     tol               what was asked for
     tension, overlap  intervals where p < 0 in contact, gap < 0 beside it: () if verified by bounds
@@ -90,7 +92,7 @@ class PatchCertificate:
             ("equilibrium of forces, |∫p - P| / P", f"{self.force:.1e}"),
             ("equilibrium of moments, |∫px - M| / (P r)", f"{self.moment:.1e}"),
             ("lowest bound of p / root, over the largest", f"{self.lowest_pressure:+.1e}"),
-            ("narrowest patch, change per change of the load", f"{self.condition:.1e}"),
+            ("narrowest patch or gap, per change of the load", f"{self.condition:.1e}"),
         ]
         allowed = max(self.tol, self.measured_to)
         verdict = f"certified to {allowed:.0e}" if self.ok else f"NOT certified to {allowed:.0e}"

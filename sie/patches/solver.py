@@ -28,7 +28,7 @@ from .of_scene import Problem, changed
 from .operator import Found, Operator
 from .panels import Patches
 from .pieces import Pieces
-from .repairs import after, apart, bounded, mended, one_period
+from .repairs import after, apart, bounded, mended
 from .start import cells_of, grid_pressure
 from .start_state import start_of
 from .state import Effort, Event, Findings, Given, State, balances
@@ -113,14 +113,17 @@ def _in_windows(problem: Problem) -> Found:
 def _in_one_period(found: Found, problem: Problem) -> Found:
     """The same contact; per period the first patch begins in that of the profile.
 
-    The widest gap follows the last patch. Sharp edges that rounding moves off the indenter's end,
-    and patches about to merge, are left where they are.
+    The widest gap follows the last patch, of equal ones the first. Sharp edges stay on the ends of
+    the indenter, and patches about to merge are left where they are.
     """
     P, state = found.state.patches, found.state
     if not P.chord.periodic:
         return found
-    last = int(np.argmax(P.gaps * (1.0 + SAME * (np.arange(P.number) == P.number - 1))))
-    a, b = one_period(P.a, P.b, P.chord.period)
+    starts = np.roll(P.a, -1) - problem.domain[0]
+    starts -= P.chord.period * np.floor(starts / P.chord.period + SAME)
+    widest = P.gaps >= (1.0 - SAME) * P.gaps.max()
+    last = int(np.argmin(np.where(widest, starts, np.inf)))
+    a, b = (np.append(e[last + 1 :], e[: last + 1] + P.chord.period) for e in (P.a, P.b))
     if last == P.number - 1:
         a, b = P.a, P.b
     turns = np.floor((a[0] - problem.domain[0]) / P.chord.period + SAME) * P.chord.period
@@ -128,7 +131,10 @@ def _in_one_period(found: Found, problem: Problem) -> Found:
         return found
     turn = -2 * (last + 1)
     sharp, charge = np.roll(state.sharp, turn), np.roll(state.charge, turn)
-    turned = State(Patches(a - turns, b - turns, P.chord), sharp, charge, state.tilt)
+    a, b = a - turns, b - turns
+    lo, hi = found.operator.pieces.solid_around(0.5 * (a + b))
+    a, b = np.where(sharp[::2], lo, a), np.where(sharp[1::2], hi, b)
+    turned = State(Patches(a, b, P.chord), sharp, charge, state.tilt)
     try:
         return settled(turned, found.operator.pieces, problem)
     except ASTRAY:
@@ -241,7 +247,8 @@ def settled(state: State, pieces: Pieces, problem: Problem) -> Found:
     seen: set[tuple[object, ...]] = set()
     for round_ in range(ROUNDS):
         start = _rounded(state)
-        if not state.patches.number or start in seen:  # the same start ends the same again
+        # the same start ends the same again
+        if not state.patches.number or not (state.patches.gaps > 0.0).all() or start in seen:
             break
         seen.add(start)
         accuracy = (ROUGHLY, EARLY_STEPS) if round_ < early else (FINAL, MOST_STEPS)
@@ -310,9 +317,11 @@ def _rounded(state: State) -> tuple[object, ...]:
 
 
 def _after(event: Event, state: State, pieces: Pieces, given: Given) -> State:
-    if event.kind == "smooth":  # a cut may leave the end without pull
+    # a cut may leave the end without pull; an edge that stalls at a concave corner asks for contact
+    # beyond it
+    if event.kind in ("smooth", "stall"):
         found = findings(Operator(state.patches, pieces, np.where(state.sharp, state.charge, 0.0)))
-        if found.tension:
+        if found.tension or (event.kind == "stall" and found.overlap):
             return mended(state, found, pieces)
     left = after(event, state, pieces)
     # no pressure on what is left has the moment: the patches that shrink go on to shrink

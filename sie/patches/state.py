@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -16,12 +17,25 @@ MOST_EFFORT = 1500.0
 
 
 class Given(NamedTuple):
-    """The given load, and tilt or moment, in units of E*/2; a half-width that gave the load."""
+    """The given load, and tilt or moment, in units of E*/2; a half-width that gives the load.
+
+    The load is nan where that is sought.
+    """
 
     load: float
     tilt: float
     moment: float | None
     half_width: float | None = None
+
+    @property
+    def by_width(self) -> bool:
+        """Whether the half-width is given and no load of it is known."""
+        return math.isnan(self.load)
+
+    @property
+    def size(self) -> float:
+        """The load, or the width that is given in its place."""
+        return 2.0 * (self.half_width or 0.0) if self.by_width else self.load
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,7 +89,7 @@ class Event(NamedTuple):
 
     kind: str
     number: int
-    others: tuple[int, ...] = ()  # all patches that vanish, all gaps that merge
+    others: tuple[int, ...] = ()  # all patches that vanish, gaps that merge, the other such edges
 
 
 class Tension(NamedTuple):

@@ -20,6 +20,7 @@ from .state import Tension
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
 
+MANY = 1 << 14  # parts more than panels: where D is next to nothing but for one place they are few
 HALVED = 42  # times the distance from a concave corner is
 
 
@@ -46,6 +47,8 @@ def tensions(o: Operator) -> tuple[tuple[Tension, ...], float]:
         open_ = ~enough & ~negative.any(axis=1) & (depth < DEEPEST - 1)
         if not open_.any():
             break
+        if np.count_nonzero(open_) > MANY + len(k.lo):
+            raise FloatingPointError("rounding of D hides its sign")
         lo, hi = halves(lo[open_], hi[open_])
         panel = np.tile(panel[open_], 2)
     corners, deepest = _at_corners(o)

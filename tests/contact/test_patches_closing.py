@@ -85,3 +85,58 @@ def test_the_ridge_between_two_parabolas_that_close_in_stands_off_as_its_pressur
     expected = float(rise - 2 / digits.pi * digits.quad(work, ends))
     (found,) = solved(profile=row, normal_load=load).gap([0.0])
     assert found == pytest.approx(expected, rel=1e-11)
+
+
+# -- waves that close without a corner -------------------------------------------------------------
+
+
+def two_harmonics(gap, second):
+    """A wave A1 sin(2πx) + A2 sin(4πx) of the slope, and the load per E*/2 that leaves a gap.
+
+    p/G = cos(πx) sqrt(S² - sin²(πx)) (α + β sin²(πx)), S = cos(π gap/2), for β = -8 A2 and
+    α = 2 A1 - β (1 - S²)/2; the load is α S²/2 + β S⁴/8.
+    """
+    S2, beta = DIGITS.cos(DIGITS.pi * gap / 2) ** 2, -8 * DIGITS.mpf(second)
+    alpha = 2 - beta * (1 - S2) / 2
+    slope = sie.FromFunction(f"sin(2*pi*x) + {second}*sin(4*pi*x)")
+    return sie.Periodic(slope, 1.0), float(alpha * S2 / 2 + beta * S2**2 / 8)
+
+
+def quartic_wells(gap):
+    """h = x⁴/4 - x²/2 on [-b, -a] and [a, b]: a² + b² = 2, P = π G (b² - a²)²/8."""
+    return sie.FromFunction("x**3 - x", domain=(-3.0, 3.0)), np.pi * (1.0 - gap * gap / 4) ** 2 / 2
+
+
+@pytest.mark.parametrize("second", [0.0, -0.0625, 0.0625])
+@pytest.mark.parametrize("gap", [1e-2, 1e-5, 1e-7])
+def test_a_wave_of_a_given_half_width_has_its_load_up_to_full_contact(gap, second):
+    profile, load = two_harmonics(gap, second)
+    solution = sie.solve(sie.Scene(profile=profile, modulus=2.0, half_width=0.5 - 0.5 * gap))
+    assert solution.normal_load == pytest.approx(load, rel=2e-14)
+    ((a, b),) = solution.patches
+    assert a + b == pytest.approx(0.0, abs=1e-13)
+    assert solution.check().ok
+
+
+def resolved(solution):
+    """The relative error of a gap that rounding of the load, and of the sums for it, leaves."""
+    return 64.0 * np.finfo(float).eps * solution.check().condition
+
+
+@pytest.mark.parametrize("second", [0.0, -0.0625, 0.0625])
+@pytest.mark.parametrize("gap", [1e-2, 1e-4, 1e-5, 1e-6])
+def test_a_wave_under_a_load_closes_as_far_as_the_load_resolves(gap, second):
+    profile, load = two_harmonics(gap, second)
+    solution = sie.solve(sie.Scene(profile=profile, modulus=2.0, normal_load=load))
+    half = 0.5 - 0.5 * gap
+    assert solution.patches[0] == pytest.approx((-half, half), abs=gap * resolved(solution))
+    assert solution.check().ok
+
+
+@pytest.mark.parametrize("gap", [1e-1, 1e-2, 1e-3, 1e-4, 1e-5])
+def test_two_wells_under_a_load_close_as_far_as_the_load_resolves(gap):
+    profile, load = quartic_wells(gap)
+    solution = sie.solve(sie.Scene(profile=profile, modulus=2.0, normal_load=load))
+    (_, b), (a, _) = solution.patches
+    assert a - b == pytest.approx(gap, rel=resolved(solution))
+    assert solution.check().ok

@@ -94,3 +94,16 @@ def test_a_flat_in_a_bowl_is_at_its_own_height(distance, load):
     apart = solved(profile=sie.Row([part, flat]), normal_load=load)
     assert np.array(whole.patches) == pytest.approx(np.array(apart.patches), rel=1e-10)
     assert whole.check().ok
+
+
+def test_a_patch_missing_beyond_a_concave_corner_is_found_where_the_edge_beside_it_stalls():
+    """Newton's method takes no edge over a corner: what overlaps beyond has to become a patch."""
+    rng = np.random.default_rng([7, 8416])
+    rng.uniform(-6, 2)
+    n = int(rng.integers(2, 51))
+    radii, x = 10 ** rng.uniform(-0.7, 0.7, n), np.cumsum(rng.uniform(0.2, 1.8, n))
+    heights = rng.uniform(0, 0.1, n)
+    parts = zip(radii.tolist(), x.tolist(), heights.tolist(), strict=True)
+    row = sie.Row([sie.Parabola(r).shifted(at).raised(z) for r, at, z in parts])
+    solution = sie.solve(sie.Scene(profile=row, modulus=1.0, normal_load=6.16))
+    assert solution.check().ok
