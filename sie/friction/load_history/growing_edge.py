@@ -34,8 +34,9 @@ from sie.numerics.interval import Interval
 from .end_motion import SAME, EndMotion
 from .growing_contact import Course
 from .marched_step import FrozenEdge, Held, MarchedStep, places
+from .moving_zone import GRADED, PLAIN, Panel, rows_of
 from .slip_onset import Onset
-from .sticking_zone import GRADED, PLAIN, Panel, Zone, added, rows_of
+from .sticking_zone import StickingZone
 
 Array = NDArray[np.float64]
 
@@ -53,7 +54,7 @@ class EdgeSticks(MarchedStep):
     slips    the sign of the slip that begins at the edge at the end, 0 if none does
     """
 
-    zone: Zone
+    zone: StickingZone
     panels: tuple[Panel, ...]
     share: float
     error: float = 0.0
@@ -98,7 +99,7 @@ class EdgeSticks(MarchedStep):
 
     def in_stick(self, x: Array) -> Array:
         bound = (self.signs[0] or self.signs[1]) * self.friction
-        way = added(self.zone, self.panels, self.zone.direction * x)
+        way = self.zone.added(self.panels, self.zone.direction * x)
         q: Array = bound * (self.pressure(x) - way) - self.before.lacking(bound, x)
         return q
 
@@ -171,7 +172,7 @@ def edge_sticks(
     """
     direction = 1.0 if signs[0] else -1.0
     s, f = signs[0] or signs[1], course.contacts.scene.friction
-    zone = Zone(course, direction, course.rates.mirrored(direction), s, f)
+    zone = StickingZone(course, direction, course.rates.mirrored(direction), s, f)
     old = before.pressure.contact
     inner = before.stick if goes_on else old
     start = inner.x1 if direction > 0.0 else -inner.x2
@@ -184,7 +185,8 @@ def edge_sticks(
     marks = sorted({direction * x for x in places(before, edge)})
     marks = [u for u in marks if u > start + SAME * old.r]
     motion = EndMotion(zone, missing)
-    panels, slips = motion.way(start, share, marks)
+    panels, event = motion.way(start, share, marks)
+    slips = (s, -s)[event] if event >= 0 else 0.0
     judge = motion.end_from_fewer(panels)
     rho = 0.5 * (float(zone.edge(np.array(panels[-1].until))) - panels[-1].end)
     error = abs(judge - panels[-1].end) / rho

@@ -174,7 +174,8 @@ class Trial:
             return all(opens(complex(left * pull - rise), zone, contact, arm) for zone in zones)
         if self.constant:
             return True  # arccosh v <= sqrt(v² - 1)
-        return now.keeps_direction(LoadChange(self.contacts, self.start, self.end))
+        rates = now.slip_rates(LoadChange(self.contacts, self.start, self.end))
+        return rates.keep_direction(now.pressure, now.stick)
 
     def _located(
         self, before: Receded | None, end: Receded, shares: tuple[float, float]
