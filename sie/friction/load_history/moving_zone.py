@@ -136,6 +136,17 @@ class MovingZone(ABC):
         """B at times."""
         return self.strain(time) - self.sign * self.rates.tau / self.friction
 
+    def held(self, panel: Panel, w: Array) -> tuple[Array, Array]:
+        """(A - π ρ B) sqrt(r/ρ) if the edge ahead sticks, and 2 (dP - π r G dθ), at nodes w.
+
+        Slip there begins by s where the first is negative, and by -s where it is the larger one.
+        """
+        time, u = panel.times(w), panel.start + panel.length * w**2
+        near, far = self.edge(time), self.far_edge(time)
+        rho, r = 0.5 * (near - u), 0.5 * (near - far)
+        held = (self.load - math.pi * rho * self.turn(time)) * np.sqrt(r / rho)
+        return held, 2.0 * (self.rates.P - math.pi * r * self.strain(time))
+
     @abstractmethod
     def half(self, u: float, time: float) -> float:
         """A length over which what happens at the end changes."""

@@ -63,13 +63,15 @@ class Receded(MarchedStep):
     found     the stick zone, and the zones in which q changed
     error     what the equations of the ends miss, over the loads
     change    the change of loads in the whole step, None at constant pressure
-    begun     the share of the step at its start, which it ends
+    begun     the share of the step at its start
+    share     that at its end
     """
 
     found: SlipZones
     error: float = 0.0
     change: LoadChange | None = None
     begun: float = 0.0
+    share: float = 1.0
 
     @property
     def stick(self) -> Interval:
@@ -89,10 +91,6 @@ class Receded(MarchedStep):
         assert change is not None
         p, loads, stick = change.pressure(share), change.shear(share), (near or self).stick
         return receded(self.before, p, self.friction, loads, Ends(self.signs, near=stick))
-
-    def slip_rates(self, change: LoadChange) -> SlipRates:
-        """The rates of slip, the time as a share of the step."""
-        return SlipRates(change.rates, self.friction, self.signs)
 
     def in_stick(self, x: Array) -> Array:
         q: Array = self.before.shear(x) + self.friction * self.found.shear(x)
@@ -191,7 +189,7 @@ def moving_work(part: Receded, change: LoadChange) -> float:
     The ends of the stick zone change their speed at marks, beyond which power is a series in the
     root of time.
     """
-    begun, known = part.begun, {1.0: part}
+    begun, end, known = part.begun, part.share, {part.share: part}
 
     def state(share: float) -> Receded:
         if share not in known:
@@ -199,14 +197,14 @@ def moving_work(part: Receded, change: LoadChange) -> float:
             known[share] = part.at(share, known[nearest])
         return known[share]
 
-    rates = part.slip_rates(change)
+    rates = SlipRates(change.rates, part.friction, part.signs)
 
     def power(share: float) -> float:
         now = state(share)
         return rates.power(now.pressure, now.stick)
 
-    cuts = sorted({begun, 1.0, *_passages(part, state)})
-    scale, total = power(0.5 * (begun + 1.0)), 0.0
+    cuts = sorted({begun, end, *_passages(part, state)})
+    scale, total = power(0.5 * (begun + end)), 0.0
     for lo, hi in pairwise(cuts):
 
         def rate(v: float, lo: float = lo, hi: float = hi) -> float:
@@ -220,7 +218,8 @@ def moving_work(part: Receded, change: LoadChange) -> float:
 
 def _passages(part: Receded, state: Callable[[float], Receded]) -> list[float]:
     """The shares of the step at which an end of the stick zone passes a mark."""
-    begun = part.begun + EARLY * (1.0 - part.begun)
+    end = part.share
+    begun = part.begun + EARLY * (end - part.begun)
     first = state(begun).stick
     shares = []
     for k in (0, 1):
@@ -233,6 +232,6 @@ def _passages(part: Receded, state: Callable[[float], Receded]) -> list[float]:
             def settled(a: float, b: float, value: float) -> bool:
                 return b - a <= SURE or abs(value) <= SURE * part.stick.r
 
-            values = ahead(begun), ahead(1.0)
-            shares.append(false_position(ahead, begun, 1.0, values, settled))
+            values = ahead(begun), ahead(end)
+            shares.append(false_position(ahead, begun, end, values, settled))
     return shares

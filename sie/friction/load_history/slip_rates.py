@@ -32,6 +32,7 @@ from .marched_step import FrozenEdge
 Array = NDArray[np.float64]
 
 FEWEST, MOST = 6, 400  # midpoints
+BESIDE = 1e-12  # of the half-width: next to an end of the stick zone
 TURNED = 1e-9  # of the fastest slip: what may seem to turn, which is rounding
 
 
@@ -67,7 +68,7 @@ class SlipRates:
         root = np.sqrt(v * (v + 2.0))
         rate = load / math.pi * np.log1p(v + root) + (1.0, -1.0)[side] * rho * turn * root
         if self.signs[0] != self.signs[1]:
-            length = (x2 - c2, c1 - x1)[side][..., None]
+            length = np.maximum((x2 - c2, c1 - x1)[side], 0.0)[..., None]
             sine, step = midpoints(length, 2.0 * rho[..., None])
             inner, from_edge = length * sine, length * (1.0 - sine)
             at = (1.0, -1.0)[side] * (half[..., None] - from_edge)
@@ -100,6 +101,11 @@ class SlipRates:
         room = TURNED * max(float(np.abs(g).max(initial=0.0)) for g in rates)
         return all(float(g.min(initial=0.0)) >= -room for g in rates)
 
+    def onwards(self, contact: Interval, stick: Interval) -> Array:
+        """By how much slip goes on next to the left and the right end, which then recede."""
+        ends, near = Ends.at(stick, contact), np.array(BESIDE * stick.r)
+        return np.array([s * float(self.beside(k, near, ends)) for k, s in enumerate(self.signs)])
+
     def power(self, pressure: SlopeDensity, stick: Interval) -> float:
         """f ∫ p |dΔg/dt| dx."""
         found = self.in_zones(pressure, stick)
@@ -112,7 +118,8 @@ def midpoints(length: Array, apart: Array) -> tuple[Array, float]:
     They are as many as integrands over a zone of this length ask for that are singular so far
     from it.
     """
-    ratio = float((apart / np.maximum(length, EPS * apart)).min())
+    ratios = apart / np.maximum(length, EPS * apart)
+    ratio = float(np.fmin.reduce(ratios, axis=None, initial=1.0))  # nan where no zone was found
     growth = 4.0 * math.asinh(math.sqrt(max(ratio, EPS)))
     n = min(max(math.ceil(-math.log(0.1 * EPS) / growth), FEWEST), MOST)
     return np.sin(0.5 * math.pi * (np.arange(n) + 0.5) / n) ** 2, 0.5 * math.pi / n

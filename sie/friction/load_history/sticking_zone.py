@@ -28,11 +28,7 @@ class StickingZone(MovingZone):
 
     def room(self, panel: Panel, w: Array) -> tuple[Array, ...]:
         """By how much the edge sticks: what it may lose until it slips by s, and by -s."""
-        time, u = panel.times(w), panel.start + panel.length * w**2
-        near, far = self.edge(time), self.far_edge(time)
-        rho, r = 0.5 * (near - u), 0.5 * (near - far)
-        grown = 2.0 * (self.rates.P - math.pi * r * self.strain(time))
-        held = (self.load - math.pi * rho * self.turn(time)) * np.sqrt(r / rho)
+        held, grown = self.held(panel, w)
         return held, grown - held
 
     def added(self, panels: tuple[Panel, ...], place: Array) -> Array:
