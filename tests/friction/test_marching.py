@@ -26,6 +26,13 @@ TO_THE_EDGE = [(1, 0, 0), (1, 0.67, 0.9)]
 # An edge of contact grows and sticks: slip begins at the other one, or after both have stuck.
 ONE_STICKS = [(1, 0, 0), (1.3, 0.5, 0.6)]
 BOTH_STICK = [(1, 0, 0), (1.6, 0.2, 0.2), (1.9, 0.7, 0.5)]
+# An end advances while the pressure changes: to the end of the step, until its zone of slip
+# vanishes at an edge that grows, or that retreats, and at once from farther out.
+ADVANCES = [(1, 0, 0), (1.17, 0.25, -0.485)]
+UNTIL_STUCK = [(1, 0, 0), (1.07, -0.325, -0.42)]
+UNTIL_TURNED = [(1, 0, 0), (1.2, -0.6, -0.4), (1.17, 0.15, 0.41)]
+JUMPS = [(1, 0, 0, 0), (0.981, 0.565, -0.091, 0.01), (1.026, 0.563, 0.327, 0.024)]
+JUMPS += [(0.953, 0.389, 0.396, -0.005)]
 TOGETHER = [(1, 0, 0, 0), (1.2, 0.55, 0.1, -0.02), (0.9, -0.3, -0.1, 0.02), (1.2, 0.55, 0.1, -0.02)]
 
 
@@ -148,10 +155,45 @@ def test_slip_begins_at_a_growing_edge_where_the_rates_reach_friction():
     assert parts[0].stick.x1 == pytest.approx(-r, abs=1e-12)
 
 
+def kinds(solution):
+    parts = solution.history.turning_points[-1].marched
+    return [type(part).__name__ for part in parts]
+
+
+@pytest.mark.parametrize(
+    ("scene", "points", "due"),
+    [
+        (LOPSIDED, ADVANCES, ["Receded", "EndAdvances"]),
+        (HERTZ, UNTIL_STUCK, ["Receded", "EndAdvances", "EdgeSticks"]),
+        (LOPSIDED, UNTIL_TURNED, ["Receded", "EndAdvances", "Receded"]),
+        (LOPSIDED, JUMPS, ["EndAdvances"]),
+    ],
+)
+def test_an_end_that_stops_while_the_pressure_changes_advances(scene, points, due):
+    solution = followed(scene, points)[-1]
+    assert kinds(solution) == due and solution.check().ok
+
+
+def test_an_end_advances_by_as_much_as_its_equation_says():
+    """A = π B ρ + 2 ∫ p' sqrt((x - c1)/(x - c2)) dx beyond c2, Hertz: p' = P'/(π sqrt(r² - x²))."""
+    solution = followed(HERTZ, [(1, 0, 0), (1.03185, -0.147875, -0.1911)])[-1]
+    part = solution.history.turning_points[-1].marched[-1]
+    (P, Q, sigma), r, (c1, c2) = solution.history.path.points[-1], solution.edges[1], part.stick[:2]
+    dP, dQ, dtau = P - P0, Q, 0.25 * sigma
+    s = part.signs[0]
+    angle = 0.5 * np.pi * (np.arange(40) + 0.5) / 40
+    x = c2 + (r - c2) * np.sin(angle) ** 2
+    # dx over the roots of x - c2 and r - x is twice the change of the angle.
+    there = dP / np.pi * np.sqrt((x - c1) / (x + r)) * np.pi / 40
+    B = -s * dtau / f
+    due = np.pi * B * 0.5 * (c2 - c1) + 2.0 * there.sum()
+    assert dP - s * dQ / f == pytest.approx(due, rel=1e-11)
+
+
 # -- laws -----------------------------------------------------------------------------------------
 
 GROWING = [ONE_STICKS, BOTH_STICK]
-ALL = [MEAN_STRESS, TURNED, TRAVELLING, TO_THE_EDGE, *GROWING]
+ALL = [MEAN_STRESS, TURNED, TRAVELLING, TO_THE_EDGE, *GROWING, ADVANCES]
 
 
 @pytest.mark.parametrize("points", GROWING)

@@ -18,7 +18,7 @@ from sie.numerics import chebyshev
 from sie.numerics.interval import EPS
 from sie.numerics.root_finding import false_position
 
-from .sticking_zone import GRADED, ROUGH, Panel, Zone, added, kernel
+from .moving_zone import GRADED, ROUGH, MovingZone, Panel
 
 Array = NDArray[np.float64]
 
@@ -28,7 +28,7 @@ FIRST, SHORTEST = 0.05, 1e-8  # of ρ: the first panel, and the shortest
 MOST_STEPS, SETTLED, ROUNDING = 12, 1e-14, 1e-9  # of Newton's method, of the series
 MOST_PANELS = 300
 SAME = 1e-12  # of a half-width: places that are nearer to each other are one
-WATCHED = np.linspace(0.0, 1.0, 17)  # of a panel: where it is seen whether the edge sticks
+WATCHED = np.linspace(0.0, 1.0, 17)  # of a panel: where it is seen whether all goes on
 OFTEN, DOUBLED, HALVED = 24, 4, 40
 STEADY = np.ones(2)  # of M, for time in proportion to the distance
 
@@ -41,19 +41,21 @@ class EndMotion:
     missing    q* at places (1-d) where the end arrives, as it was at the start
     """
 
-    zone: Zone
+    zone: MovingZone
     missing: Callable[[Array], Array]
 
-    def way(self, u: float, time: float, marks: list[float]) -> tuple[tuple[Panel, ...], float]:
-        """The way from a place at a time until the edge slips, and the sign of that slip.
+    def way(self, u: float, time: float, marks: list[float]) -> tuple[tuple[Panel, ...], int]:
+        """The way from a place at a time until an event, and which of `room` is lost there.
 
-        The sign is 0 where the course is over before.
+        It is -1 where the course is over before.
         """
         panels: list[Panel] = []
-        rho, over = self._half(u, time), self.zone.course.hi
+        rho, over = self.zone.half(u, time), self.zone.course.hi
         length = FIRST * rho
         while len(panels) < MOST_PANELS:
-            most = min(*(m - u for m in marks if m > u + SAME * rho), self._half(u, time), math.inf)
+            most = min(
+                *(m - u for m in marks if m > u + SAME * rho), self.zone.half(u, time), math.inf
+            )
             length = most if length > 0.7 * most else length
             panel = self._panel(tuple(panels), (u, length, time), TERMS)
             if panel is None:
@@ -63,10 +65,10 @@ class EndMotion:
                 continue
             if panel.until >= over:
                 panel = replace(panel, last=float(panel.root(np.array(over))))
-            panel, slips = _until_slip(self.zone, panel)
+            panel, event = _until_event(self.zone, panel)
             panels.append(panel)
-            if panel.last < 1.0 or slips:
-                return tuple(panels), slips
+            if panel.last < 1.0 or event >= 0:
+                return tuple(panels), event
             u, time = u + length, panel.until
             length *= 2.0
         raise ContactError("the end of the stick zone does not recede steadily")
@@ -83,9 +85,6 @@ class EndMotion:
         reached = replace(last, last=float(last.root(np.array(min(panels[-1].until, time)))))
         return reached.end
 
-    def _half(self, u: float, time: float) -> float:
-        return 0.5 * (float(self.zone.edge(np.array(time))) - u)
-
     def _panel(
         self, before: tuple[Panel, ...], place: tuple[float, float, float], terms: int
     ) -> Panel | None:
@@ -94,7 +93,7 @@ class EndMotion:
         u = start + length * (0.5 * (1.0 + chebyshev.points(terms))) ** 2
         if (u <= start).any():
             return None
-        known = self.missing(u) + added(self.zone, before, u)
+        known = self.missing(u) + self.zone.added(before, u)
         pace = self._first_pace(known[-1:], u[-1:], place)
         if pace is None:
             return None
@@ -103,17 +102,16 @@ class EndMotion:
         if panel is None or terms < TERMS:
             return panel
         c = np.abs(panel.series)
-        resolved = c[-2:].max() * length <= RESOLVED * c.max() * self._half(start, time)
+        resolved = c[-2:].max() * length <= RESOLVED * c.max() * self.zone.half(start, time)
         onwards = panel.pace(0.5 * (1.0 + chebyshev.points(OFTEN))) > 0.0
         return panel if resolved and onwards.all() else None
 
     def _by_newton(self, panel: Panel, u: Array, known: Array) -> Panel | None:
         """The panel whose way brings q* to 0 at places u when the end arrives."""
-        course, before = self.zone.course, math.inf
-        touched, latest = np.full(len(u), course.lo), 3.0 * course.hi - 2.0 * panel.time
+        before, latest = math.inf, 3.0 * self.zone.course.hi - 2.0 * panel.time
         for _ in range(MOST_STEPS):
-            (rate, change), w, times = kernel(self.zone, panel, u, touched, GRADED)
-            if not (np.isfinite(rate).all() and times.max() <= latest):
+            rate, change, w, time = self.zone.own(panel, u, GRADED)
+            if not (np.isfinite(rate).all() and time.max() <= latest):
                 return None
             s, pace = 2.0 * w - 1.0, panel.pace(w)
             T = chebyshev.polynomials(len(u), s)
@@ -132,12 +130,10 @@ class EndMotion:
     ) -> float | None:
         """The constant dt/du with which the end of a panel is reached in time."""
         start, length, time = place
-        touched = np.full(1, self.zone.course.lo)
 
         def missed(pace: float) -> float:
             panel = Panel(start, length, time, 0.5 * pace * STEADY)
-            (rate, _), *_ = kernel(self.zone, panel, last, touched, ROUGH)
-            return float(known[0] + pace * rate.sum())
+            return float(known[0] + pace * self.zone.own(panel, last, ROUGH).rate.sum())
 
         high = (self.zone.course.hi - time) / length
         at_high = missed(high)
@@ -169,23 +165,18 @@ def _derivatives(T: Array, s: Array) -> Array:
     return out
 
 
-def _until_slip(zone: Zone, panel: Panel) -> tuple[Panel, float]:
-    """A panel up to where the edge begins to slip, and in which direction, 0 if it does not."""
-
-    def room(w: Array, k: int) -> Array:
-        return zone.held_by(panel.times(w), panel.start + panel.length * w**2)[k]
-
-    w, last, slips = panel.last * WATCHED, panel.last, 0.0
-    for k, sign in enumerate((zone.sign, -zone.sign)):
-        values = room(w, k)
+def _until_event(zone: MovingZone, panel: Panel) -> tuple[Panel, int]:
+    """A panel up to where room is lost, and in which respect, -1 for none."""
+    w, last, event = panel.last * WATCHED, panel.last, -1
+    for k, values in enumerate(zone.room(panel, w)):
         lost = np.flatnonzero((values[:-1] >= 0.0) & (values[1:] < 0.0))
         if lost.size:
             j = int(lost[0])
             ends, at_ends = ((float(pair[j]), float(pair[j + 1])) for pair in (w, values))
 
             def left(at: float, k: int = k) -> float:
-                return float(room(np.array(at), k))
+                return float(zone.room(panel, np.array(at))[k])
 
             at = false_position(left, *ends, at_ends, lambda a, b, value: b - a <= 4.0 * EPS)
-            last, slips = (at, sign) if at < last else (last, slips)
-    return replace(panel, last=last), slips
+            last, event = (at, k) if at < last else (last, event)
+    return replace(panel, last=last), event

@@ -168,3 +168,17 @@ def course(change: LoadChange, lo: float) -> Course:
                 return Course(change.contacts, change.start, change.end, lo, hi, left, right)
         hi = lo + 0.25 * (hi - lo)
     raise ContactError("the edges of the contact do not move smoothly")
+
+
+class SmoothEdges:
+    """The courses of a step, one after the other."""
+
+    def __init__(self, change: LoadChange) -> None:
+        self.change = change
+        self._last: Course | None = None
+
+    def at(self, share: float) -> Course:
+        """The course that a share of the step is on; shares do not fall."""
+        if self._last is None or share >= self._last.hi:
+            self._last = course(self.change, share)
+        return self._last

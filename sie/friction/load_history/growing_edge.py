@@ -22,7 +22,7 @@ stick zone's layer. `BothStick` has the state where neither edge slips.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
@@ -33,9 +33,11 @@ from sie.numerics.interval import Interval
 
 from .end_motion import SAME, EndMotion
 from .growing_contact import Course
-from .marched_step import FrozenEdge, Held, MarchedStep, places
+from .marched_step import FrozenEdge, Held, places
+from .moved_end import MovedEnd
+from .moving_zone import GRADED, PLAIN, rows_of
 from .slip_onset import Onset
-from .sticking_zone import GRADED, PLAIN, Panel, Zone, added, rows_of
+from .sticking_zone import StickingZone
 
 Array = NDArray[np.float64]
 
@@ -43,20 +45,13 @@ WORK_NODES = 10  # on each panel
 
 
 @dataclass(frozen=True, eq=False)
-class EdgeSticks(MarchedStep):
+class EdgeSticks(MovedEnd):
     """The state after one end of the stick zone receded while the other, an edge, grew and stuck.
 
-    zone     the stick zone in the direction of the edge
-    panels   the time on the way of the end
-    share    the share of the step at its end
-    error    the error of the end of the way over its half-width, from fewer terms
     slips    the sign of the slip that begins at the edge at the end, 0 if none does
     """
 
-    zone: Zone
-    panels: tuple[Panel, ...]
-    share: float
-    error: float = 0.0
+    zone: StickingZone
     slips: float = 0.0
 
     @property
@@ -86,32 +81,15 @@ class EdgeSticks(MarchedStep):
 
         The end changes its speed at a mark, which is left at the edge at that time.
         """
-        before, (zone, panels) = super()._places, (self.zone, self.panels)
-        near = SAME * self.before.pressure.contact.r
-        passed = [
-            panel.time
-            for panel in panels[1:]
-            if np.abs(zone.direction * panel.start - np.array(before)).min() <= near
-        ]
-        left = zone.direction * zone.edge(np.array(passed))
-        return *before, zone.direction * panels[0].start, *left.tolist()
+        before, d = super()._places, self.zone.direction
+        left = [d * float(self.zone.edge(np.array(panel.time))) for panel in self._at_marks(before)]
+        return *before, d * self.panels[0].start, *left
 
     def in_stick(self, x: Array) -> Array:
         bound = (self.signs[0] or self.signs[1]) * self.friction
-        way = added(self.zone, self.panels, self.zone.direction * x)
+        way = self.zone.added(self.panels, self.zone.direction * x)
         q: Array = bound * (self.pressure(x) - way) - self.before.lacking(bound, x)
         return q
-
-    def until(self, share: float) -> EdgeSticks:
-        """The same at an earlier share of the step."""
-        panels = [panel for panel in self.panels if panel.time < share]
-        last = panels[-1]
-        if last.until > share:
-            panels[-1] = replace(last, last=float(last.root(np.array(share))))
-        course = self.zone.course
-        Q, tau = course.shear(share)
-        p = course.pressure(share)
-        return replace(self, pressure=p, Q=Q, tau=tau, panels=tuple(panels), share=share)
 
     def slip(self, x: Array) -> Array:
         place, total = self.zone.direction * x, np.zeros(len(x))
@@ -171,7 +149,7 @@ def edge_sticks(
     """
     direction = 1.0 if signs[0] else -1.0
     s, f = signs[0] or signs[1], course.contacts.scene.friction
-    zone = Zone(course, direction, course.rates.mirrored(direction), s, f)
+    zone = StickingZone(course, direction, course.rates.mirrored(direction), s, f)
     old = before.pressure.contact
     inner = before.stick if goes_on else old
     start = inner.x1 if direction > 0.0 else -inner.x2
@@ -184,7 +162,8 @@ def edge_sticks(
     marks = sorted({direction * x for x in places(before, edge)})
     marks = [u for u in marks if u > start + SAME * old.r]
     motion = EndMotion(zone, missing)
-    panels, slips = motion.way(start, share, marks)
+    panels, event = motion.way(start, share, marks)
+    slips = (s, -s)[event] if event >= 0 else 0.0
     judge = motion.end_from_fewer(panels)
     rho = 0.5 * (float(zone.edge(np.array(panels[-1].until))) - panels[-1].end)
     error = abs(judge - panels[-1].end) / rho

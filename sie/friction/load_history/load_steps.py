@@ -12,12 +12,15 @@ from sie.errors import ContactError
 from sie.friction.load_step import Contacts, NotLayered, Step
 from sie.friction.loads import Loads
 from sie.friction.memory import Layer, LoadMemory, in_proportion, simple
-from sie.numerics.interval import EPS
+from sie.numerics.interval import EPS, Interval
 from sie.problem.load_limit import refuse_sliding
 from sie.problem.load_path import Path
 from sie.problem.scene import Scene
 from sie.progress_bar import counted
+from sie.traction.of_slope import SlopeDensity
 
+from .growing_contact import LoadChange
+from .slip_rates import SlipRates
 from .turning_point import TurningPoint
 
 Result = TypeVar("Result")
@@ -26,12 +29,20 @@ Result = TypeVar("Result")
 class Followable(Contacts, Protocol):
     """The contacts of a path that is followed.
 
+    scene           profile, bodies and friction
     sheared_by      Q and τ of loads
+    pressure_at     the pressure under loads, in one patch
+    by_moment       whether moments are added along the path, not tilts
     in_one_patch    whether the contact is one patch under every load
     march           the turning point after a step that no layers answer
     """
 
+    scene: Scene
+
     def sheared_by(self, loads: Loads) -> tuple[float, float]: ...
+    def pressure_at(self, loads: Loads) -> SlopeDensity: ...
+    @property
+    def by_moment(self) -> bool: ...
     @property
     def in_one_patch(self) -> bool: ...
     def march(self, before: TurningPoint, loads: Loads) -> TurningPoint: ...
@@ -142,7 +153,23 @@ def stepped(contacts: Followable, before: TurningPoint, loads: Loads) -> Turning
         known = before.memory.top is None or _advancing(contacts, before)
         if known and not _advancing(contacts, found):
             return replace(contacts.march(before, loads), why="zones of slip retreat on the way")
+    if found.turned and contacts.in_one_patch and _stops(contacts, before, found):
+        return replace(contacts.march(before, loads), why="a zone of slip retreats on the way")
     return found
+
+
+def _stops(contacts: Followable, before: TurningPoint, point: TurningPoint) -> bool:
+    """Whether an end of the stick zone has stopped on the way, while the pressure changed."""
+    last, top = point.last, point.memory.top
+    if last is None or top is None or before.loads.normal == point.loads.normal:
+        return False
+    state = contacts.first_loading(point.loads.normal, top.thickness, True)
+    zones = [sign * last.sign for *_, sign in state.slipped]
+    if len(zones) != 2 or zones[0] == zones[1]:
+        return False
+    change = LoadChange(contacts, before.loads, point.loads)
+    rates = SlipRates(change.rates, contacts.scene.friction, (zones[0], zones[1]))
+    return bool(rates.onwards(state.contact, Interval(*state.stick[0])).min() < 0.0)
 
 
 def _advancing(contacts: Followable, point: TurningPoint) -> bool:

@@ -7,10 +7,10 @@ constant pressure they do so with slip s to the left and right where
     s1 (ΔQ + π ρ Δτ) > 0,      s2 (ΔQ - π ρ Δτ) > 0,      ρ the half-width of the stick zone.
 
 An end whose slip has another sign now begins anew at the edge of contact. An end at which the sum
-comes to 0 on the way, as ρ shrinks, advances from there on (`travelling_zone`). While the pressure
-changes all signs are tried. Where a second zone of slip opens inside the stick zone, several zones
-stick (`several_sticks`). `trial_step` tests what this rests on; docs/derivations/marching.md has
-the equations.
+comes to 0 on the way, as ρ shrinks, advances from there on (`advancing_end`), and so does one that
+stops while the pressure changes. Then all signs are tried. Where a second zone of slip opens inside
+the stick zone, several zones stick (`several_sticks`). `trial_step` tests what this rests on;
+docs/derivations/marching.md has the equations.
 """
 
 from __future__ import annotations
@@ -28,17 +28,18 @@ from sie.friction.step_conditions import TESTED
 from sie.numerics.root_finding import false_position
 from sie.progress_bar import reported
 
-from .growing_contact import Course, LoadChange, course
+from .advancing_end import EndAdvances, end_advances
+from .growing_contact import Course, LoadChange, SmoothEdges, course
 from .growing_edge import EdgeSticks, edge_sticks
 from .marched_step import Held, MarchedStep
 from .receding_step import Receded
 from .several_sticks import SeveralSticks, in_several_zones
 from .slip_onset import Onset, onsets
 from .stuck_contact import BothStick, both_stick
-from .travelling_zone import Travelled, travelled
 from .trial_step import (
     EXCEEDED,
     ISLAND,
+    TURNS,
     GoesOn,
     Marchable,
     Signs,
@@ -48,7 +49,10 @@ from .trial_step import (
 )
 from .turning_point import TurningPoint
 
-MOST_PARTS = 200  # of a step, in which a stick zone travels by ρ
+MovedStep = EdgeSticks | BothStick | EndAdvances
+
+MEETS = "slip stops at one edge of the contact, and the stick zone would meet a second one there"
+MOST_PARTS = 200  # of a step
 SETTLED = 1e-13  # of the half-width: so well the end of a zone that stops is known
 AT_ONCE = 1e-9  # of a step: slip that begins so soon has begun before
 STOPPED = 1e-9  # of it: an end so near to where it would stop does
@@ -96,54 +100,43 @@ def at_constant_pressure(trial: Trial) -> tuple[MarchedStep, ...]:
         now = parts[-1] if parts else None
         held = now.held if now else trial.held
         trial = replace(trial, held=held, start=start.towards(trial.end, done), begun=done)
-        travels = isinstance(now, Travelled) and not now.at_edge
-        ways = None if travels else _ways(trial)
+        ways = _ways(trial)
         if ways is not None and not isinstance(now, Receded):
             trial = trial.with_signs(*ways)
             share = _stop(trial)
             parts.append(trial.passed(share))
         else:
-            part = travelled(trial.held, trial.held.pressure, trial.friction, trial.shear(1.0))
+            part = _travelled(trial)
             share = part.share
-            if _exceeds(part):
-                raise _opened(trial, part)
             parts.append(part)
         done = 1.0 if share == 1.0 else done + (1.0 - done) * share
         if len(parts) > MOST_PARTS:
-            raise ContactError(f"the stick zone travels by more than {MOST_PARTS} half-widths")
+            raise ContactError(f"the stick zone stops more than {MOST_PARTS} times at an edge")
     return tuple(parts)
 
 
-def _exceeds(part: Travelled) -> bool:
-    return excess(part, part.stick)[0] > EXCEEDED
-
-
-def _opened(trial: Trial, part: Travelled) -> ContactError:
-    """The refusal of a second zone of slip in a stick zone that travels."""
-
-    def exceeds(share: float) -> bool:
-        loads = trial.shear(share)
-        return _exceeds(travelled(trial.held, trial.held.pressure, trial.friction, loads))
-
-    end = "right" if part.direction > 0.0 else "left"
-    return trial.refusal(
-        f"{ISLAND} while the {end} end of the stick zone advances",
-        first_share(exceeds, 0.0, part.share),
-    )
+def _travelled(trial: Trial) -> MovedStep:
+    """The part of a step in which the stick zone travels, of the width 2 |dQ/(π dτ)|."""
+    change = LoadChange(trial.contacts, trial.start, trial.end)
+    dQ, dtau = change.rates.Q, change.rates.tau
+    direction, rear = math.copysign(1.0, dQ) * math.copysign(1.0, dtau), math.copysign(1.0, dQ)
+    signs = (rear, -rear) if direction > 0.0 else (-rear, rear)
+    if trial.held.signs != signs:
+        raise trial.refusal(MEETS, 0.0)
+    return _moving(trial.with_signs(signs, (True, True)), course(change, 0.0), 0.0, direction)
 
 
 def while_pressure_changes(trial: Trial) -> tuple[MarchedStep, ...]:
     """The parts of a step, each with slip, or none, at each edge until that changes."""
     change = LoadChange(trial.contacts, trial.start, trial.end)
+    edges = SmoothEdges(change)
     parts: list[MarchedStep] = []
-    ways, share, edges = onsets(trial.held, change, trial.friction), 0.0, None
+    ways, share = onsets(trial.held, change, trial.friction), 0.0
     while share < 1.0:
         trial = replace(trial, start=change.loads(share), begun=share)
-        if any(not all(way.signs) for way in ways) and (edges is None or share >= edges.hi):
-            edges = course(change, share)
-        part, until, then = _passed(trial, edges or change, share, ways)
+        part, until, then = _passed(trial, edges, share, ways)
         if until - share <= AT_ONCE:  # the rates say that the edge sticks, but for rounding
-            ways = tuple(Onset(then.signs, way.goes_on) for way in ways)
+            ways = tuple(then._replace(goes_on=way.goes_on) for way in ways)
         else:
             parts.append(part)
             trial, ways = replace(trial, held=part.held), (then,)
@@ -154,45 +147,61 @@ def while_pressure_changes(trial: Trial) -> tuple[MarchedStep, ...]:
 
 
 def _passed(
-    trial: Trial, change: LoadChange, share: float, ways: Iterable[Onset]
+    trial: Trial, edges: SmoothEdges, share: float, ways: Iterable[Onset]
 ) -> tuple[MarchedStep, float, Onset]:
     """The part of a step from a share on that passes all tests, its end, and what slips then."""
     problems = []
     for way in ways:
-        now = trial.with_signs(*way)
+        now = trial.with_signs(way.signs, way.goes_on)
         try:
-            if all(way.signs):
-                return replace(now.passed(1.0), change=change, begun=share), 1.0, way
-            assert isinstance(change, Course)
-            part = _growing(now, change, share)
+            if all(way.signs) and not way.advances:
+                return _receding(now, edges, share)
+            part = _moving(now, edges.at(share), share, way.advances)
             return part, part.share, part.then
         except ContactError as problem:
-            problems.append(problem)
-    raise max(problems, key=lambda problem: float(problem.reached.get("share", 0.0)))
+            told = "share" in problem.reached
+            problems.append(problem if told else trial.refusal(str(problem), 0.0))
+    raise max(problems, key=lambda problem: float(problem.reached["share"]))
 
 
-def _growing(trial: Trial, edges: Course, share: float) -> EdgeSticks | BothStick:
-    """The part of a step in which an edge grows and sticks, or both do."""
-    part: EdgeSticks | BothStick
-    if any(trial.signs):
+def _receding(trial: Trial, edges: SmoothEdges, share: float) -> tuple[MarchedStep, float, Onset]:
+    """The part of a step in which both ends recede, until one of them stops and then advances."""
+    part, advances = trial.stop() or (1.0, 0.0)
+    if part == 0.0:
+        moved = _moving(trial, edges.at(share), share, advances)
+        return moved, moved.share, moved.then
+    until = 1.0 if part == 1.0 else share + part * (1.0 - share)
+    whole = replace(trial.passed(part), change=edges.change, begun=share, share=until)
+    return whole, until, Onset(trial.signs, (True, True), advances)
+
+
+def _moving(trial: Trial, edges: Course, share: float, advances: float) -> MovedStep:
+    """The part of a step in which an end advances, an edge grows and sticks, or both do."""
+    part: MovedStep
+    if advances:
+        part = end_advances(trial.held, edges, trial.signs, advances, share)
+    elif any(trial.signs):
         goes_on = trial.goes_on[0 if trial.signs[0] else 1]
         part = edge_sticks(trial.held, edges, trial.signs, goes_on, share)
     else:
         part = both_stick(trial.held, edges, share)
     for tested in TESTED if part.share - share > AT_ONCE else ():
-        now = part.until(share + tested * (part.share - share))
-        if _opens(now, part):
-
-            def opens(at: float, part: EdgeSticks | BothStick = part) -> bool:
-                return _opens(part.until(at), part)
-
-            at = first_share(opens, share, now.share)
-            raise trial.refusal(ISLAND, (at - share) / (1.0 - share))
+        at = share + tested * (part.share - share)
+        said = _wrong(part.until(at), part)
+        if said:
+            at = first_share(lambda at: bool(_wrong(part.until(at), part)), share, at)
+            raise trial.refusal(said, (at - share) / (1.0 - share))
     return part
 
 
-def _opens(state: MarchedStep, end: MarchedStep) -> bool:
-    return excess(state, end.stick)[1] > EXCEEDED
+def _wrong(state: MarchedStep, end: MarchedStep) -> str:
+    """What is wrong with a state on the way, "" for nothing."""
+    advances = isinstance(state, EndAdvances)
+    if excess(state, end.stick)[1] > EXCEEDED:
+        return f"{ISLAND} while an end of the stick zone advances" if advances else ISLAND
+    if isinstance(state, EndAdvances) and not state.slip_goes_on:
+        return TURNS
+    return ""
 
 
 def _ways(trial: Trial) -> tuple[Signs, GoesOn] | None:

@@ -23,9 +23,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie.friction.coupled.traction import Panels, resolved_panels
-from sie.friction.slip_zones import Drive, SlipZone, SlipZones
+from sie.friction.slip_zones import Drive, SlipZones
 from sie.numerics import chebyshev
-from sie.numerics.graded_rule import graded, on_panels
 from sie.numerics.halving import integral
 from sie.numerics.interval import Interval
 from sie.numerics.root_finding import false_position
@@ -35,19 +34,12 @@ from .growing_contact import LoadChange
 from .marched_step import FrozenEdge, Held, MarchedStep, places
 from .panel_shear import SAME
 from .receding_equations import Equations
+from .slip_rates import SlipRates
 
 Array = NDArray[np.float64]
 Side = tuple[float, float, float]
 
-TURNED = 1e-9  # of the fastest slip: what may seem to turn, which is rounding
 OF_SLIP = 1e-11  # of the steepest slip, to which its steepness is resolved
-
-
-_angle, ANGLE = (
-    part.ravel()
-    for part in on_panels(0.5 * math.pi * np.concatenate(([0.0], graded(5), [0.5, 1.0])))
-)
-SINE, COSINE = np.sin(_angle) ** 2, np.cos(_angle) ** 2  # of a zone: graded towards the stick zone
 
 
 class Ends(NamedTuple):
@@ -71,13 +63,15 @@ class Receded(MarchedStep):
     found     the stick zone, and the zones in which q changed
     error     what the equations of the ends miss, over the loads
     change    the change of loads in the whole step, None at constant pressure
-    begun     the share of the step at its start, which it ends
+    begun     the share of the step at its start
+    share     that at its end
     """
 
     found: SlipZones
     error: float = 0.0
     change: LoadChange | None = None
     begun: float = 0.0
+    share: float = 1.0
 
     @property
     def stick(self) -> Interval:
@@ -97,55 +91,6 @@ class Receded(MarchedStep):
         assert change is not None
         p, loads, stick = change.pressure(share), change.shear(share), (near or self).stick
         return receded(self.before, p, self.friction, loads, Ends(self.signs, near=stick))
-
-    def keeps_direction(self, change: LoadChange) -> bool:
-        """Whether slip goes on in the direction of its zone, up to both edges."""
-        rates = [s * g for (_, g), s in zip(self.slip_rates(change), self.signs, strict=True)]
-        room = TURNED * max(float(np.abs(g).max(initial=0.0)) for g in rates)
-        return all(float(g.min(initial=0.0)) >= -room for g in rates)
-
-    def slip_rates(self, change: LoadChange) -> list[tuple[SlipZone, Array]]:
-        """The zones of slip and dΔg/dt in them, the time as a share of the step.
-
-        Slip in one direction s is the layer A = dP - s dQ/f, B = E*/2 dθ - s dτ/f of the stick zone
-
-            dΔg/dt = -2 s f/E* {A/π arccosh v ∓ B ρ sqrt(v² - 1)};
-
-        where it is opposite on the other side, dp acts twice there.
-        """
-        contact, f, rho = self.pressure.contact, self.friction, self.stick.r
-        dP, dQ, dtau, *_ = change.rates
-        strain = float(change.rates.strain(np.array(contact.m), np.array(contact.r)))
-        zones, found = self._whole_zones, []
-        for k, (zone, sign) in enumerate(zip(zones, self.signs, strict=True)):
-            v = zone.from_stick / rho  # v - 1
-            root = np.sqrt(v * (v + 2.0))
-            load, turn = dP - sign * dQ / f, strain - sign * dtau / f
-            rate = load / math.pi * np.log1p(v + root) + (1.0, -1.0)[k] * rho * turn * root
-            if self.signs[0] != self.signs[1]:
-                length = zones[1 - k].length
-                inner, from_edge = length * SINE, length * COSINE
-                at = (-1.0, 1.0)[1 - k] * (contact.r - from_edge)
-                # dp dξ with dξ/sqrt(from_edge) = 2 sqrt(inner) dψ
-                dp = (dP / math.pi - strain * at) / np.sqrt(2.0 * contact.r - from_edge)
-                dp *= 2.0 * np.sqrt(inner) * ANGLE
-                near = zone.from_stick / (zone.from_stick + 2.0 * rho)
-                beyond = inner / (inner + 2.0 * rho)
-                rate -= 4.0 / math.pi * np.arctanh(np.sqrt(near[:, None] * beyond)) @ dp
-            found.append((zone, -sign * f * rate / self.pressure.half_modulus))
-        return found
-
-    @property
-    def _whole_zones(self) -> tuple[SlipZone, SlipZone]:
-        """The zones of slip from the edges of contact, with the pressure."""
-        contact, marks = self.pressure.contact, np.array(self.pressure.breaks)
-        left, right = (
-            FrozenEdge(edge, side, 2.0 * contact.r, self.pressure, marks).zone(side * (edge - end))
-            for side, edge, end in zip(
-                (-1.0, 1.0), (contact.x1, contact.x2), self.reach, strict=True
-            )
-        )
-        return left, right
 
     def in_stick(self, x: Array) -> Array:
         q: Array = self.before.shear(x) + self.friction * self.found.shear(x)
@@ -244,7 +189,7 @@ def moving_work(part: Receded, change: LoadChange) -> float:
     The ends of the stick zone change their speed at marks, beyond which power is a series in the
     root of time.
     """
-    begun, known = part.begun, {1.0: part}
+    begun, end, known = part.begun, part.share, {part.share: part}
 
     def state(share: float) -> Receded:
         if share not in known:
@@ -252,12 +197,14 @@ def moving_work(part: Receded, change: LoadChange) -> float:
             known[share] = part.at(share, known[nearest])
         return known[share]
 
-    def power(share: float) -> float:
-        rates = state(share).slip_rates(change)
-        return part.friction * sum(float(zone.force @ np.abs(g)) for zone, g in rates)
+    rates = SlipRates(change.rates, part.friction, part.signs)
 
-    cuts = sorted({begun, 1.0, *_passages(part, state)})
-    scale, total = power(0.5 * (begun + 1.0)), 0.0
+    def power(share: float) -> float:
+        now = state(share)
+        return rates.power(now.pressure, now.stick)
+
+    cuts = sorted({begun, end, *_passages(part, state)})
+    scale, total = power(0.5 * (begun + end)), 0.0
     for lo, hi in pairwise(cuts):
 
         def rate(v: float, lo: float = lo, hi: float = hi) -> float:
@@ -271,7 +218,8 @@ def moving_work(part: Receded, change: LoadChange) -> float:
 
 def _passages(part: Receded, state: Callable[[float], Receded]) -> list[float]:
     """The shares of the step at which an end of the stick zone passes a mark."""
-    begun = part.begun + EARLY * (1.0 - part.begun)
+    end = part.share
+    begun = part.begun + EARLY * (end - part.begun)
     first = state(begun).stick
     shares = []
     for k in (0, 1):
@@ -284,6 +232,6 @@ def _passages(part: Receded, state: Callable[[float], Receded]) -> list[float]:
             def settled(a: float, b: float, value: float) -> bool:
                 return b - a <= SURE or abs(value) <= SURE * part.stick.r
 
-            values = ahead(begun), ahead(1.0)
-            shares.append(false_position(ahead, begun, 1.0, values, settled))
+            values = ahead(begun), ahead(end)
+            shares.append(false_position(ahead, begun, end, values, settled))
     return shares

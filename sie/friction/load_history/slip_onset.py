@@ -27,10 +27,12 @@ class Onset(NamedTuple):
     """The signs of slip at the left and the right edge, 0 where it sticks, and what goes on.
 
     goes_on    whether each end of the stick zone goes on from where it was
+    advances   1 if the right end advances, -1 if the left one does, 0 if none does
     """
 
     signs: tuple[float, float]
     goes_on: tuple[bool, bool]
+    advances: float = 0.0
 
 
 def onsets(held: Held, change: LoadChange, friction: float) -> tuple[Onset, ...]:

@@ -19,24 +19,33 @@ from itertools import pairwise
 from typing import Protocol
 
 import numpy as np
+from numpy.typing import NDArray
 
 from sie.errors import ContactError
 from sie.friction.loads import Loads
 from sie.friction.step_conditions import SLACK, TESTED, inside, opens
 from sie.numerics.interval import Interval
+from sie.numerics.root_finding import false_position
 from sie.problem.scene import Scene
 from sie.traction.of_slope import SlopeDensity
 
 from .growing_contact import LoadChange
 from .marched_step import Held, MarchedStep
 from .receding_step import Ends, Receded, receded
+from .slip_rates import SlipRates
+
+Array = NDArray[np.float64]
 
 # Places in the stick zone at which |q| <= f p is tested, how near to its ends as powers of 10, and
 # by how much of the largest f p it may be missed.
 SCANNED, NEAREST, EXCEEDED = 200, -7.0, 1e-9
 LOCATED = 1e-7  # of a step: so well it is known where in it what is refused happens
+# So well it is known when an end of the stick zone stops, of a step and of the rate of slip: what
+# the end misses is of the second order.
+SURE, STILL = 1e-10, 1e-9
 
 ISLAND = "the shear in the stick zone reaches f p, and a second zone of slip opens there"
+TURNS = "slip next to an edge of contact turns while it goes on farther in"
 TRY = "this is not covered; change P, Q, σ and tilt in other proportions"
 
 Signs = tuple[float, float]
@@ -124,6 +133,45 @@ class Trial:
             return self.held.pressure
         return self.contacts.pressure_at(self.start.towards(self.end, share))
 
+    def stop(self) -> tuple[float, float] | None:
+        """The share of the step after which an end advances, and 1 if it is the right one, or -1.
+
+        None where slip has one direction, or no end stops. The pressure changes.
+        """
+        if self.signs[0] == self.signs[1]:
+            return None
+        rates = SlipRates(
+            LoadChange(self.contacts, self.start, self.end).rates, self.friction, self.signs
+        )
+
+        def onwards(share: float) -> Array | None:
+            try:
+                state = self.state(share)
+            except ContactError:
+                return None
+            contact = state.pressure.contact
+            return rates.onwards(contact, state.stick) if inside(state.stick, contact) else None
+
+        if all(self.goes_on):
+            at_start = rates.onwards(self.held.pressure.contact, self.held.stick)
+            if at_start.min() <= STILL * abs(at_start).max():
+                return 0.0, (-1.0, 1.0)[int(at_start.argmin())]
+        bracket = _bracket(onwards)
+        if bracket is None:
+            return None
+        (low, at_low), (high, at_high) = bracket
+        k = int(at_high.argmin())
+
+        def rate(share: float) -> float:
+            found = onwards(share)
+            return math.nan if found is None else float(found[k])
+
+        def settled(a: float, b: float, value: float) -> bool:
+            return b - a <= SURE or abs(value) <= STILL * float(at_low[k])
+
+        share = false_position(rate, low, high, (float(at_low[k]), float(at_high[k])), settled)
+        return share, (-1.0, 1.0)[k]
+
     # -- tests -------------------------------------------------------------------------------------
 
     def passed(self, share: float) -> Receded:
@@ -158,7 +206,7 @@ class Trial:
         if excess(now, end.stick)[1] > EXCEEDED:
             return ISLAND
         if not self._keeps_direction(before, now, shares):
-            return "slip next to an edge of contact turns while it goes on farther in"
+            return TURNS
         return ""
 
     def _keeps_direction(
@@ -174,7 +222,9 @@ class Trial:
             return all(opens(complex(left * pull - rise), zone, contact, arm) for zone in zones)
         if self.constant:
             return True  # arccosh v <= sqrt(v² - 1)
-        return now.keeps_direction(LoadChange(self.contacts, self.start, self.end))
+        change = LoadChange(self.contacts, self.start, self.end)
+        rates = SlipRates(change.rates, self.friction, self.signs)
+        return rates.keep_direction(now.pressure, now.stick)
 
     def _located(
         self, before: Receded | None, end: Receded, shares: tuple[float, float]
@@ -191,6 +241,33 @@ class Trial:
         """The refusal of what is wrong after a share of the step."""
         loads, whole = self.start.towards(self.end, share), 1.0 - (1.0 - self.begun) * (1.0 - share)
         return ContactError(f"{said}, at {loads}: {TRY}", share=whole, loads=tuple(loads))
+
+
+def _bracket(
+    onwards: Callable[[float], Array | None],
+) -> tuple[tuple[float, Array], tuple[float, Array]] | None:
+    """Two shares of a step, and by how much slip goes on there: at both ends, and not at one.
+
+    None where it goes on all along, or no state is found beside one where it does not.
+    """
+    low, at_low, at_high = 0.0, None, None
+    for high in TESTED:
+        at_high = onwards(high)
+        if at_high is None or at_high.min() < 0.0:
+            break
+        low, at_low = high, at_high
+    else:
+        return None
+    while (at_low is None or at_high is None) and high - low > LOCATED:
+        middle = 0.5 * (low + high)
+        between = onwards(middle)
+        if between is not None and between.min() >= 0.0:
+            low, at_low = middle, between
+        elif between is None and at_high is not None:
+            low = middle  # zones so short are not found
+        else:
+            high, at_high = middle, between
+    return None if at_low is None or at_high is None else ((low, at_low), (high, at_high))
 
 
 def first_share(wrong: Callable[[float], bool], low: float, high: float) -> float:
