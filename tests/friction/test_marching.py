@@ -281,6 +281,31 @@ def test_the_energy_of_a_closed_march_is_the_area_of_its_loop():
     assert area == pytest.approx(lost, rel=1e-3)
 
 
+# -- loads in phase -------------------------------------------------------------------------------
+
+IN_PHASE = [(1, 0, 0), (0.73, 0.28, -0.112), (1, 0, 0), (0.73, 0.28, -0.112)]
+
+
+def test_loads_that_return_in_phase_bring_back_the_shear_that_they_left():
+    """An edge that grew and stuck slips as it retreats, until it is where it was."""
+    first, grown, again = followed(HERTZ, IN_PHASE)[1:]
+    x = inside(first)
+    assert grown.history.turning_points[2].marched and grown.history.turning_points[3].marched
+    assert again.shear(x) == pytest.approx(first.shear(x), abs=1e-9 * f)
+
+
+def test_a_mesh_tends_to_the_shear_of_loads_in_phase():
+    """Twice the elements and increments, half the error."""
+    states, errors = followed(HERTZ, IN_PHASE), []
+    given = [(P * P0, Q * F, sigma * S, 0.0) for P, Q, sigma in IN_PHASE]
+    for n in (60, 120):
+        mesh = Mesh((-1.2, 1.2), n, 1.0)
+        found = on_a_mesh(mesh, HERTZ.profile.height, f, given, n // 6)
+        pairs = zip(states[1:], found[1:], strict=True)
+        errors.append(max(np.abs(a.shear(mesh.x) - b.shear).mean() for a, b in pairs))
+    assert errors[1] < 0.7 * errors[0] < 0.7 * 0.02 * f
+
+
 # -- a mesh ---------------------------------------------------------------------------------------
 
 

@@ -28,6 +28,7 @@ FIRST, SHORTEST = 0.05, 1e-8  # of ρ: the first panel, and the shortest
 MOST_STEPS, SETTLED, ROUNDING = 12, 1e-14, 1e-9  # of Newton's method, of the series
 MOST_PANELS = 300
 SAME = 1e-12  # of a half-width: places that are nearer to each other are one
+RETURNED = 1e-10  # of a step: what is left of it when its end returns to a mark
 WATCHED = np.linspace(0.0, 1.0, 17)  # of a panel: where it is seen whether all goes on
 OFTEN, DOUBLED, HALVED = 24, 4, 40
 STEADY = np.ones(2)  # of M, for time in proportion to the distance
@@ -67,7 +68,7 @@ class EndMotion:
                 panel = replace(panel, last=float(panel.root(np.array(over))))
             panel, event = _until_event(self.zone, panel)
             panels.append(panel)
-            if panel.last < 1.0 or event >= 0:
+            if panel.last < 1.0 or event >= 0 or over - panel.until <= RETURNED * over:
                 return tuple(panels), event
             u, time = u + length, panel.until
             length *= 2.0

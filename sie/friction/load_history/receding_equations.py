@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import product
+from itertools import chain, product, starmap
 
 import numpy as np
 from numpy.typing import NDArray
@@ -36,18 +36,28 @@ BALANCED = 1e-12
 
 @dataclass(frozen=True, eq=False)
 class Equations:
-    """The equations of the lengths of both zones, relative to the loads."""
+    """The equations of the lengths of both zones, relative to the loads.
+
+    frames    the places from which the zones begin, on the left and the right
+    outer     the interval between them
+    drive     the changes of the loads
+    least     by how much the edges of contact retreat from there, which is less than the lengths
+    """
 
     frames: tuple[FrozenEdge, FrozenEdge]
     outer: Interval
     drive: Drive
+    least: Array
 
     def missed(self, lengths: Sequence[float] | Array) -> Array:
         """By what lengths fail them; infinite where they leave no stick zone."""
-        if not sum(lengths) < 2.0 * self.outer.r:
+        if not self._leaves_stick(lengths):
             return np.full(2, np.inf)
         zones = [frame.zone(length) for frame, length in zip(self.frames, lengths, strict=True)]
         return np.array([self._missed(zones, k) for k in (0, 1)])
+
+    def _leaves_stick(self, lengths: Sequence[float] | Array) -> bool:
+        return bool(sum(lengths) < 2.0 * self.outer.r)
 
     def _missed(self, zones: Sequence[SlipZone], k: int) -> float:
         zone, other = zones[k], zones[1 - k]
@@ -56,14 +66,26 @@ class Equations:
 
     def solution(self, guess: Array | None = None) -> tuple[float, float]:
         """The lengths. Raises ContactError where there are none, or Newton's method finds none."""
-        if guess is not None and (guess > 0.0).all() and guess.sum() < 2.0 * self.outer.r:
-            lengths = self._by_newton(guess)
+        for first in chain((guess,), starmap(self._guess, GUESSES)):
+            if first is None or not ((first > self.least).all() and self._leaves_stick(first)):
+                continue
+            lengths = self._by_newton(first)
             if lengths is not None:
                 return float(lengths[0]), float(lengths[1])
-        for sweeps, halvings in GUESSES:
-            lengths = self._by_newton(self._guess(sweeps, halvings))
-            if lengths is not None:
-                return float(lengths[0]), float(lengths[1])
+        return self._closed()
+
+    def _closed(self) -> tuple[float, float]:
+        """The lengths where loads return to what they were, and a zone has vanished again.
+
+        The shear is what it was too: the equations are fulfilled from one mark to the next.
+        """
+        places = [
+            [least, *(d for d in frame.breaks.tolist() if d > least)]
+            for frame, least in zip(self.frames, self.least.tolist(), strict=True)
+        ]
+        for lengths in product(*places):
+            if np.abs(self.missed(lengths)).max() <= SETTLED:
+                return lengths[0], lengths[1]
         raise ContactError(NO_ZONE)
 
     def _by_newton(self, lengths: Array) -> Array | None:
@@ -107,13 +129,16 @@ class Equations:
 
     def _within(self, lengths: Array, step: Array) -> float:
         """The share of a step that leaves both zones and the stick zone a width."""
-        share = min(1.0, *(0.9 * lengths / np.maximum(-step, TINY)).tolist())
+        share = min(1.0, *(0.9 * (lengths - self.least) / np.maximum(-step, TINY)).tolist())
         left, grown = 2.0 * self.outer.r - lengths.sum(), float(step.sum())
         return share if grown <= left else min(share, 0.9 * left / grown)
 
-    def _guess(self, sweeps: int, halvings: int) -> Array:
-        """Lengths near the longest that fulfil the equations: where p falls, shorter ones may."""
-        lengths = np.full(2, FIRST * self.outer.r)
+    def _guess(self, sweeps: int, halvings: int) -> Array | None:
+        """Lengths near the longest that fulfil the equations: where p falls, shorter ones may.
+
+        None where a zone has none.
+        """
+        lengths = self.least + FIRST * (self.outer.r - self.least)
         for sweep, k in product(range(sweeps), (0, 1)):
             other = self.frames[1 - k].zone(lengths[1 - k])
             most = 2.0 * self.outer.r - other.length
@@ -124,10 +149,11 @@ class Equations:
                 zones[k] = self.frames[k].zone(length)
                 return self._missed(zones, k) < 0.0
 
-            tried = [part * most for part in TRIED]
+            least = float(self.least[k])
+            tried = [least + part * (most - least) for part in TRIED]
             first = next((n for n, length in enumerate(tried) if short(length)), len(tried))
             if sweep and first in {0, len(tried)}:
-                raise ContactError(NO_ZONE)
+                return None
             first = min(first, len(tried) - 1)
             low, high = tried[first], tried[first - 1] if first else most
             for _ in range(halvings):

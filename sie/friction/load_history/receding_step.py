@@ -167,7 +167,8 @@ def receded(
 
     frames = beside(left, -1.0, signs[0]), beside(right, 1.0, signs[1])
     drive = Drive((Q - before.Q) / friction, math.pi * (tau - before.tau) / friction, *signs)
-    equations = Equations(frames, outer, drive)
+    least = np.maximum([new.x1 - left, right - new.x2], 0.0)
+    equations = Equations(frames, outer, drive, least)
     guess = None if near is None else np.array([near.x1 - left, right - near.x2])
     lengths = equations.at_marks(equations.solution(guess))
     zones = frames[0].zone(lengths[0]), frames[1].zone(lengths[1])
