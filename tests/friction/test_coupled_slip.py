@@ -18,6 +18,7 @@ from sie.friction.coupled import flat as coupled_flat
 from sie.friction.coupled.flat import flat_punch
 from sie.friction.coupled.functions import flat_functions
 from sie.friction.coupled.growth import power_law_moment
+from sie.friction.coupled.panels import graded
 from sie.friction.coupled.traction import DEGREE, HalfPotential, Panels, on_panels, resolved_panels
 from sie.friction.coupled.zones import NODES, _from_others
 from sie.numerics.gauss_jacobi import gauss_jacobi
@@ -170,6 +171,20 @@ def test_stick_zone_takes_few_eigenvalues(beta, friction, monkeypatch):
     assert len(calls) <= 8
 
 
+@pytest.mark.parametrize(("beta", "friction"), [(0.05, 1.5), (0.1, 4.0), (0.1, 2.0), (0.001, 10.0)])
+def test_a_narrow_slip_zone_takes_few_large_systems(beta, friction, monkeypatch):
+    sizes = []
+    solve = np.linalg.solve
+
+    def counted(matrix, right):
+        sizes.append(len(right))
+        return solve(matrix, right)
+
+    monkeypatch.setattr(np.linalg, "solve", counted)
+    punch = coupled_flat.flat_punch.__wrapped__(beta, friction)
+    assert sizes.count(len(punch.weight)) <= 3
+
+
 @pytest.mark.parametrize(("beta", "friction"), [(0.05, 0.5), (0.001, 10.0)])
 @pytest.mark.parametrize("half_flat", [0.05, 0.5])
 def test_load_of_a_rounded_flat_takes_few_panels_however_narrow_the_slip_zone(
@@ -177,7 +192,19 @@ def test_load_of_a_rounded_flat_takes_few_panels_however_narrow_the_slip_zone(
 ):
     state = solved(sie.RoundedFlat(half_flat, 1.0), beta, friction).coupled[1]
     assert state.flat.rest < 1e-11
-    assert len(state.growth) <= 16
+    assert len(state.growth) <= 8
+
+
+@pytest.mark.parametrize("near", [1e-15, 1e-9, 1e-3, 10.0])
+@pytest.mark.parametrize("power", [-0.5, 0.5])
+def test_few_panels_integrate_a_power_of_the_distance_from_a_place_beside(near, power):
+    one, far = np.array([1.0]), np.array([np.inf])
+    whole = ((1.0 + near) ** (1.0 + power) - near ** (1.0 + power)) / (1.0 + power)
+    _, ahead, _, weight = graded(one, near * one, far)
+    assert float((weight * (near + ahead) ** power).sum()) == pytest.approx(whole, rel=2e-14)
+    _, _, left, back = graded(one, far, near * one)
+    assert float((back * (near + left) ** power).sum()) == pytest.approx(whole, rel=2e-14)
+    assert max(len(weight), len(back)) <= 1 + math.log1p(1.0 / near) / 6.0
 
 
 @pytest.mark.parametrize("name", ["rounded flat", "parabola", "kinked"])

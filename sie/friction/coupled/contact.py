@@ -236,7 +236,9 @@ class CoupledContact:
         """
         ahead = y - self.b
         none = np.full(len(y), np.inf)
-        owner, places, _, weight = graded(ahead, np.full(len(y), NEAR_EDGE * self.b), none)
+        owner, places, _, weight = graded(
+            ahead, np.full(len(y), NEAR_EDGE * self.b), none, near=0.0
+        )
         H = self.hilbert_outside((self.b + places).ravel()).reshape(places.shape)
         return totals(owner, H * weight, len(y)) / self.half_modulus
 
