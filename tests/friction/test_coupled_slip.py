@@ -18,8 +18,9 @@ from sie.friction.coupled import flat as coupled_flat
 from sie.friction.coupled.flat import flat_punch
 from sie.friction.coupled.functions import flat_functions
 from sie.friction.coupled.growth import power_law_moment
+from sie.friction.coupled.half_potential import DEGREE, HalfPotential, Panels
 from sie.friction.coupled.panels import graded
-from sie.friction.coupled.traction import DEGREE, HalfPotential, Panels, on_panels, resolved_panels
+from sie.friction.coupled.traction import on_panels, resolved_panels
 from sie.friction.coupled.zones import NODES, _from_others
 from sie.numerics.gauss_jacobi import gauss_jacobi
 
@@ -149,7 +150,7 @@ def test_panels_of_a_traction_end_at_its_rounding():
         places.append(y.size)
         return np.sqrt(1.0 - y) * (1.0 + 1e-10 * np.sin(1e12 * y))
 
-    (panels,) = resolved_panels((rough,), (1.0,), 0.5)
+    (panels,) = resolved_panels(rough, (1.0,), 0.5)
     assert sum(places) < 1e4
     assert on_panels(panels, np.array([0.3])) == pytest.approx(math.sqrt(0.7), rel=1e-9)
 
@@ -376,6 +377,33 @@ def test_potential_of_a_constant_is_a_logarithm_however_near_a_node_of_its_rule(
     F, dF = half(z, derivative=True)
     np.testing.assert_allclose(F, np.log(z / (z - 1.0)) / math.pi, rtol=1e-14)
     np.testing.assert_allclose(dF, (1.0 / z - 1.0 / (z - 1.0)) / math.pi, rtol=1e-13)
+
+
+@pytest.mark.parametrize("name", ["flat", "parabola", "rounded flat"])
+def test_a_potential_at_many_points_is_that_at_each(name):
+    density = solved(PROFILES[name], 0.07, 0.3).shear
+    x, y = np.meshgrid(np.linspace(-2.0, 2.0, 41), np.geomspace(1e-3, 10.0, 25))
+    z = (x + 1j * y).ravel()
+    few = [density.potentials(part) for part in np.array_split(z, len(z) // 5)]
+    many = density.potentials(z)
+    for k, rounding in enumerate((1e-13, 1e-11)):
+        one_by_one = np.concatenate([pair[k] for pair in few])
+        assert many[k] == pytest.approx(one_by_one, abs=rounding * np.abs(one_by_one).max())
+
+
+def test_a_potential_at_many_points_takes_one_rule_for_several_panels(monkeypatch):
+    density = solved(PROFILES["parabola"], 0.07, 0.3).shear
+    x, y = np.meshgrid(np.linspace(-2.0, 2.0, 41), np.linspace(0.02, 2.0, 41))
+    terms = []
+    sums = HalfPotential._of_few
+
+    def counted(self, z, rule, *others):
+        terms.append(len(z) * len(rule[0]))
+        return sums(self, z, rule, *others)
+
+    monkeypatch.setattr(HalfPotential, "_of_few", counted)
+    density.cauchy(x + 1j * y)
+    assert sum(terms) < 0.3 * 2 * x.size * density.panels.series.size
 
 
 def test_potential_far_away_is_the_load_over_the_distance():

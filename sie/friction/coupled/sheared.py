@@ -15,7 +15,6 @@ slip, and a Q against the sign of β is the mirror image.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
 
@@ -31,9 +30,10 @@ from sie.traction.base import on_line, zero_or_nan
 from sie.traction.on_panels import SlidingDensity
 
 from .gradient import RESOLVED, SlipGradient
+from .half_potential import Panels
 from .integral import RATIO, Integral, integral, towards_ends
 from .tangential import TangentialSearch, Trial
-from .traction import Panels, resolved_panels
+from .traction import resolved_panels
 from .two_sided import TwoSidedTraction
 
 Array = NDArray[np.float64]
@@ -189,6 +189,11 @@ class ShearedContact:
 
     def frame_shear(self, u: Array) -> Array:
         """q; under a corner of the profile, where p is infinite, the mean of q on both sides."""
+        q: Array = self._frame_tractions(u)[1]
+        return q
+
+    def _frame_tractions(self, u: Array) -> Array:
+        """Rows of p and q."""
         p = self.frame_pressure(u)
         corner = np.isinf(p)
         q = np.empty(len(u))
@@ -197,7 +202,7 @@ class ShearedContact:
             aside = BESIDE * self.state.sliding.contact.r
             beside = (self.frame_shear(u[corner] + step) for step in (-aside, aside))
             q[corner] = 0.5 * sum(beside, np.zeros(int(corner.sum())))
-        return q
+        return np.stack((p, q))
 
     def in_frame(self, x: Array) -> Array:
         """u of x, on the edges where x is."""
@@ -315,7 +320,7 @@ class ShearedContact:
 
         @lru_cache(maxsize=1)
         def halves() -> tuple[tuple[Panels, ...], tuple[Panels, ...]]:
-            return self._half(at, 1.0, (pressure, shear)), self._half(at, -1.0, (pressure, shear))
+            return self._half(at, 1.0), self._half(at, -1.0)
 
         P = self.search.normal.load
         about = self.flip * self.moment
@@ -339,15 +344,18 @@ class ShearedContact:
             ),
         )
 
-    def _half(
-        self, at: float, side: float, functions: tuple[Callable[[Array], Array], ...]
-    ) -> tuple[Panels, ...]:
-        """Panels of one side of a place, counted from it."""
+    def _half(self, at: float, side: float) -> tuple[Panels, ...]:
+        """Panels of p and q on one side of a place, counted from it."""
         ends = [side * (x - at) for x in self.marks if side * (x - at) > 0.0]
         a1, a2 = self._exponents
         power = a1 if side == self.flip else a2
-        own = tuple((lambda y, f=f: f(at + side * y)) for f in functions)
-        return resolved_panels(own, tuple(sorted(ends)), power)
+
+        def both(y: Array) -> Array:
+            signs = np.array([[1.0], [self.turn]])
+            values: Array = signs * self._frame_tractions(self.in_frame(at + side * y))
+            return values
+
+        return resolved_panels(both, tuple(sorted(ends)), power)
 
     @property
     def frame_marks(self) -> tuple[float, ...]:

@@ -16,7 +16,8 @@ from numpy.typing import ArrayLike, NDArray
 from sie.numerics.interval import Interval
 from sie.traction.base import Complex, on_line
 
-from .traction import HalfPotential, OnHalves, Panels
+from .half_potential import HalfPotential, Panels
+from .traction import OnHalves
 
 Array = NDArray[np.float64]
 
