@@ -18,7 +18,9 @@ from sie.friction.coupled import flat as coupled_flat
 from sie.friction.coupled.flat import flat_punch
 from sie.friction.coupled.functions import flat_functions
 from sie.friction.coupled.growth import power_law_moment
-from sie.friction.coupled.traction import DEGREE, HalfPotential, Panels, on_panels, resolved_panels
+from sie.friction.coupled.half_potential import DEGREE, HalfPotential, Panels
+from sie.friction.coupled.panels import graded
+from sie.friction.coupled.traction import on_panels, resolved_panels
 from sie.friction.coupled.zones import NODES, _from_others
 from sie.numerics.gauss_jacobi import gauss_jacobi
 
@@ -148,7 +150,7 @@ def test_panels_of_a_traction_end_at_its_rounding():
         places.append(y.size)
         return np.sqrt(1.0 - y) * (1.0 + 1e-10 * np.sin(1e12 * y))
 
-    (panels,) = resolved_panels((rough,), (1.0,), 0.5)
+    (panels,) = resolved_panels(rough, (1.0,), 0.5)
     assert sum(places) < 1e4
     assert on_panels(panels, np.array([0.3])) == pytest.approx(math.sqrt(0.7), rel=1e-9)
 
@@ -170,6 +172,20 @@ def test_stick_zone_takes_few_eigenvalues(beta, friction, monkeypatch):
     assert len(calls) <= 8
 
 
+@pytest.mark.parametrize(("beta", "friction"), [(0.05, 1.5), (0.1, 4.0), (0.1, 2.0), (0.001, 10.0)])
+def test_a_narrow_slip_zone_takes_few_large_systems(beta, friction, monkeypatch):
+    sizes = []
+    solve = np.linalg.solve
+
+    def counted(matrix, right):
+        sizes.append(len(right))
+        return solve(matrix, right)
+
+    monkeypatch.setattr(np.linalg, "solve", counted)
+    punch = coupled_flat.flat_punch.__wrapped__(beta, friction)
+    assert sizes.count(len(punch.weight)) <= 3
+
+
 @pytest.mark.parametrize(("beta", "friction"), [(0.05, 0.5), (0.001, 10.0)])
 @pytest.mark.parametrize("half_flat", [0.05, 0.5])
 def test_load_of_a_rounded_flat_takes_few_panels_however_narrow_the_slip_zone(
@@ -177,7 +193,19 @@ def test_load_of_a_rounded_flat_takes_few_panels_however_narrow_the_slip_zone(
 ):
     state = solved(sie.RoundedFlat(half_flat, 1.0), beta, friction).coupled[1]
     assert state.flat.rest < 1e-11
-    assert len(state.growth) <= 16
+    assert len(state.growth) <= 8
+
+
+@pytest.mark.parametrize("near", [1e-15, 1e-9, 1e-3, 10.0])
+@pytest.mark.parametrize("power", [-0.5, 0.5])
+def test_few_panels_integrate_a_power_of_the_distance_from_a_place_beside(near, power):
+    one, far = np.array([1.0]), np.array([np.inf])
+    whole = ((1.0 + near) ** (1.0 + power) - near ** (1.0 + power)) / (1.0 + power)
+    _, ahead, _, weight = graded(one, near * one, far)
+    assert float((weight * (near + ahead) ** power).sum()) == pytest.approx(whole, rel=2e-14)
+    _, _, left, back = graded(one, far, near * one)
+    assert float((back * (near + left) ** power).sum()) == pytest.approx(whole, rel=2e-14)
+    assert max(len(weight), len(back)) <= 1 + math.log1p(1.0 / near) / 6.0
 
 
 @pytest.mark.parametrize("name", ["rounded flat", "parabola", "kinked"])
@@ -349,6 +377,33 @@ def test_potential_of_a_constant_is_a_logarithm_however_near_a_node_of_its_rule(
     F, dF = half(z, derivative=True)
     np.testing.assert_allclose(F, np.log(z / (z - 1.0)) / math.pi, rtol=1e-14)
     np.testing.assert_allclose(dF, (1.0 / z - 1.0 / (z - 1.0)) / math.pi, rtol=1e-13)
+
+
+@pytest.mark.parametrize("name", ["flat", "parabola", "rounded flat"])
+def test_a_potential_at_many_points_is_that_at_each(name):
+    density = solved(PROFILES[name], 0.07, 0.3).shear
+    x, y = np.meshgrid(np.linspace(-2.0, 2.0, 41), np.geomspace(1e-3, 10.0, 25))
+    z = (x + 1j * y).ravel()
+    few = [density.potentials(part) for part in np.array_split(z, len(z) // 5)]
+    many = density.potentials(z)
+    for k, rounding in enumerate((1e-13, 1e-11)):
+        one_by_one = np.concatenate([pair[k] for pair in few])
+        assert many[k] == pytest.approx(one_by_one, abs=rounding * np.abs(one_by_one).max())
+
+
+def test_a_potential_at_many_points_takes_one_rule_for_several_panels(monkeypatch):
+    density = solved(PROFILES["parabola"], 0.07, 0.3).shear
+    x, y = np.meshgrid(np.linspace(-2.0, 2.0, 41), np.linspace(0.02, 2.0, 41))
+    terms = []
+    sums = HalfPotential._of_few
+
+    def counted(self, z, rule, *others):
+        terms.append(len(z) * len(rule[0]))
+        return sums(self, z, rule, *others)
+
+    monkeypatch.setattr(HalfPotential, "_of_few", counted)
+    density.cauchy(x + 1j * y)
+    assert sum(terms) < 0.3 * 2 * x.size * density.panels.series.size
 
 
 def test_potential_far_away_is_the_load_over_the_distance():

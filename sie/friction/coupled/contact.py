@@ -22,10 +22,11 @@ from sie.traction.base import on_line, zero_or_nan
 
 from .functions import FlatFunctions
 from .growth import load_slope
-from .interpolation import interpolated
+from .half_potential import Panels
 from .panels import graded, totals
 from .profile import GrowthPanel, Superposition
-from .traction import CoupledTraction, Panels, resolved_panels
+from .tables import interpolated
+from .traction import CoupledTraction, resolved_panels
 
 Array = NDArray[np.float64]
 
@@ -90,7 +91,7 @@ class CoupledContact:
 
         @lru_cache(maxsize=1)
         def panels() -> tuple[Panels, ...]:
-            return resolved_panels((self.pressure, self.shear), self.marks, self.edge_power)
+            return resolved_panels(self.pressure_and_shear, self.marks, self.edge_power)
 
         return (
             CoupledTraction(
@@ -160,6 +161,11 @@ class CoupledContact:
 
     def shear(self, y: Array, rest: Array | None = None) -> Array:
         """q on the right; odd in x."""
+        q: Array = self.pressure_and_shear(y, rest)[1]
+        return q
+
+    def pressure_and_shear(self, y: Array, rest: Array | None = None) -> Array:
+        """Rows of p and q."""
         deficit = self._of(self.superposition.shear_deficit, y)
         deficit += self._of_corner(self.flat.shear_deficit, y, self.b, rest)
         p = self.pressure(y, rest)
@@ -167,7 +173,7 @@ class CoupledContact:
         inside = deficit != 0.0
         q[inside] -= deficit[inside]
         q[y == 0.0] = 0.0
-        return self.sign * q
+        return np.stack((p, self.sign * q))
 
     def slip(self, y: Array) -> Array:
         """The slip since y came into contact, on the right; odd in x."""
@@ -238,7 +244,9 @@ class CoupledContact:
         """
         ahead = y - self.b
         none = np.full(len(y), np.inf)
-        owner, places, _, weight = graded(ahead, np.full(len(y), NEAR_EDGE * self.b), none)
+        owner, places, _, weight = graded(
+            ahead, np.full(len(y), NEAR_EDGE * self.b), none, near=0.0
+        )
         H = self.hilbert_outside((self.b + places).ravel()).reshape(places.shape)
         return totals(owner, H * weight, len(y)) / self.half_modulus
 

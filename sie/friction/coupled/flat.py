@@ -27,6 +27,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field, replace
 from functools import cached_property, lru_cache
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -51,7 +52,9 @@ NARROWEST_RATIO, DOUBTFUL = math.pi / math.log(8.0 / FULL_STICK), 1.05
 # beyond it c = 4 exp(-π K'/2K) is lost even beside a double's smallest lengths
 WIDEST_RATIO = 250.0
 # Of the search for K'/K: where a step ends it, and how fast β² misses its value beside the guess
-SETTLED, STEEPNESS, MOST_STEPS = 1e-14, 0.9, 20
+SETTLED, STEEPNESS, MOST_STEPS = 1e-13, 0.9, 20
+FEWER, ROUGHLY = 0.5, 1e-7  # part of the digits of a first search, and where it ends
+TOGETHER = 2**13  # entries of a matrix that are computed at once
 ALIKE = 1e-8  # the ratios that bound an eigenvalue, where one more step ends the iteration
 
 
@@ -88,11 +91,17 @@ class FlatPunch:
         """h = 1/2 - θ, θ = arctan(βf)/π: p ~ (1 - x)^-h."""
         return 0.5 - self.theta
 
+    def interpolated(self, remainder: Array) -> Array:
+        """The pressure at other nodes, up to a factor."""
+        if len(remainder) == len(self.weight):
+            return self.pressure
+        poles = _poles(self.modulus, remainder)
+        return sum_of_poles(*poles, self.remainder, self.weight * self.pressure)
+
     @cached_property
     def kernel_of_one(self) -> Array:
         """K 1 at the nodes."""
-        one: Array = _kernel(self.modulus, self.remainder, self.remainder) @ self.weight
-        return one
+        return sum_of_poles(*_poles(self.modulus, self.remainder), self.remainder, self.weight)
 
 
 def nodes_for(ratio: float, digits: float = DIGITS) -> int:
@@ -103,7 +112,9 @@ def nodes_for(ratio: float, digits: float = DIGITS) -> int:
     return math.ceil(digits / (4.0 * math.asinh(ratio))) + SPARE
 
 
-def long_rule(ratio: float, a: float, b: float) -> tuple[Array, Array, Array]:
+def long_rule(
+    ratio: float, a: float, b: float, digits: float = ACROSS
+) -> tuple[Array, Array, Array]:
     """Nodes on (0, 1), their distances from 1, and weights for the powers a at 1 and b at 0.
 
     The nearest singularities are at half the interval's length times ratio.
@@ -111,7 +122,7 @@ def long_rule(ratio: float, a: float, b: float) -> tuple[Array, Array, Array]:
     A long interval is cut, as few nodes cost less to find.
     """
     n = math.ceil(1.0 / ratio)
-    nodes = math.ceil(ACROSS / (2.0 * math.asinh(NEARER * min(n * ratio, 1.5)))) + SPARE
+    nodes = math.ceil(digits / (2.0 * math.asinh(NEARER * min(n * ratio, 1.5)))) + SPARE
     if n == 1:
         return with_weight(nodes, a, b)
     ends = with_weight(nodes, 0.0, b), with_weight(nodes, a, 0.0)
@@ -123,43 +134,71 @@ def long_rule(ratio: float, a: float, b: float) -> tuple[Array, Array, Array]:
 
 def _kernel(modulus: Modulus, one: Array, other: Array) -> Array:
     """1/(1 - c² sn²u sn²u') from both cn²: nothing cancels as c approaches 1."""
-    sum_of_both = one[:, None] + other - one[:, None] * other
-    kernel: Array = 1.0 / (modulus.complement**2 + modulus.k**2 * sum_of_both)
-    return kernel
+    near, rise = _poles(modulus, one)
+    kernel = rise[:, None] * other
+    kernel += near[:, None]
+    return np.divide(1.0, kernel, out=kernel)
 
 
-def _quarter(ratio: float, theta: float) -> tuple[Array, Array, Array]:
+def _poles(modulus: Modulus, one: Array) -> tuple[Array, Array]:
+    """Its denominator as a linear function of the other cn²."""
+    square = modulus.k**2
+    return modulus.complement**2 + square * one, square * (1.0 - one)
+
+
+def sum_of_poles(near: Array, rise: Array | float, remainder: Array, masses: Array) -> Array:
+    """Σ masses/(near + rise remainder), of a few places at a time: larger matrices cost more."""
+    rise = np.broadcast_to(rise, near.shape)
+    total, step = np.empty(len(near)), max(1, TOGETHER // len(masses))
+    for k in range(0, len(near), step):
+        part = slice(k, k + step)
+        poles = rise[part, None] * remainder
+        poles += near[part, None]
+        total[part] = np.divide(1.0, poles, out=poles) @ masses
+    return total
+
+
+def _quarter(ratio: float, theta: float, digits: float) -> tuple[Array, Array, Array]:
     """Parts of the quarter period, what remains of it, and weights; K'/K is about ratio.
 
     The rule is for even functions with the power 2θ at the end.
     """
     if ratio < LONG:
-        return long_rule(2.0 * ratio, 2.0 * theta, 0.0)
+        return long_rule(2.0 * ratio, 2.0 * theta, 0.0, digits * ACROSS)
     square, rest, weight = gauss_jacobi(nodes_for(NEARER * min(ratio, 1.5)), 2.0 * theta, -0.5)
     part = np.sqrt(square)
     return part, rest / (1.0 + part), 0.5 * weight * rest ** (-2.0 * theta)
 
 
+class Trial(NamedTuple):
+    """What -ε (2 + ε) exceeds β² by at some K'/K, and the punch with this stick zone."""
+
+    missed: float
+    punch: FlatPunch
+
+
 def _at_ratio(
-    tau: float, beta: float, friction: float, near: float, start: Array | None = None
-) -> tuple[float, FlatPunch]:
-    """-ε (2 + ε) at K'/K = τ, by the rule for `near`, and the punch with this stick zone."""
+    tau: float, punch: tuple[float, float], near: float, before: FlatPunch | None, digits: float
+) -> Trial:
+    """The punch of (β, f) at K'/K = τ, by the rule for `near`, from one that is about the same."""
+    (beta, friction), modulus = punch, modulus_of_ratio(tau)
     theta = math.atan(beta * friction) / math.pi
-    modulus = modulus_of_ratio(tau)
-    part, rest, weight = _quarter(near, theta)
+    part, rest, weight = _quarter(near, theta, digits)
     sn, cn, dn = elliptic_functions(modulus, part, rest)
     W = 2.0 * modulus.K * weight * cn ** (2.0 * theta) * dn ** (2.0 - 2.0 * theta)
     remainder = cn * cn
-    kernel = _kernel(modulus, remainder, remainder) * W
-    eigenvalue, v = _largest(kernel, 1.0 / dn if start is None else start)
+    start = 1.0 / dn if before is None else before.interpolated(remainder)
+    kernel = _kernel(modulus, remainder, remainder)
+    kernel *= W
+    eigenvalue, v = _largest(kernel, start)
     v /= modulus.k ** (2.0 * theta) * (W @ v)
     part, rest, dx = double_exponential()
     _, cn, dn = elliptic_functions(modulus, part, rest)
-    tested = dx * dn * (_kernel(modulus, cn * cn, remainder) @ (W * v))
+    tested = dx * dn * sum_of_poles(*_poles(modulus, cn * cn), remainder, W * v)
     logarithm = np.log(modulus.k * (cn / dn) ** 2)
     epsilon = float(tested @ np.expm1(theta * logarithm)) / float(tested.sum())
-    punch = FlatPunch(beta, friction, False, modulus, sn * sn, remainder, W, v, eigenvalue)
-    return -epsilon * (2.0 + epsilon), punch
+    found = FlatPunch(beta, friction, False, modulus, sn * sn, remainder, W, v, eigenvalue)
+    return Trial(-epsilon * (2.0 + epsilon) - beta * beta, found)
 
 
 def _largest(matrix: Array, v: Array) -> tuple[float, Array]:
@@ -168,12 +207,14 @@ def _largest(matrix: Array, v: Array) -> tuple[float, Array]:
     The largest ratio of (matrix v)/v bounds it, and inverse iteration with this shift keeps v
     positive and converges quadratically (Noda 1971).
     """
-    negative, diagonal = -matrix, np.diag_indices(len(v))
+    diagonal = matrix.reshape(-1)[:: len(v) + 1]
+    own = diagonal.copy()
     for _ in range(MOST_STEPS):
         ratio = (matrix @ v) / v
         bound = float(ratio.max())
-        negative[diagonal] = bound - matrix[diagonal]
-        v = np.asarray(np.linalg.solve(negative, v), dtype=float)
+        diagonal[:] = own - bound
+        v = -np.asarray(np.linalg.solve(matrix, v), dtype=float)
+        diagonal[:] = own
         v /= v.max()
         if bound - float(ratio.min()) <= ALIKE * bound:
             break
@@ -200,11 +241,11 @@ def flat_punch(beta: float, friction: float) -> FlatPunch:
     phase = _phase(beta, friction)
     guess = min(phase / math.atan(friction), WIDEST_RATIO)
     if guess == WIDEST_RATIO:
-        return _at_ratio(guess, beta, friction, guess)[1]
+        return _at_ratio(guess, (beta, friction), guess, None, 1.0).punch
     if guess < DOUBTFUL * NARROWEST_RATIO:
         narrowest = NARROWEST_RATIO
         certain = guess < narrowest / DOUBTFUL
-        if certain or _at_ratio(narrowest, beta, friction, narrowest)[0] > beta * beta:
+        if certain or _at_ratio(narrowest, (beta, friction), narrowest, None, FEWER).missed > 0.0:
             friction = math.tan(phase / narrowest)
             friction = math.tan(_phase(beta, friction) / narrowest)
             return replace(_root(narrowest, beta, friction), bonded=True)
@@ -218,21 +259,24 @@ def _phase(beta: float, friction: float) -> float:
 
 
 def _root(guess: float, beta: float, friction: float) -> FlatPunch:
-    """The punch that meets the condition -ε (2 + ε) = β², by the secant method in ln K'/K."""
-    before, (value, punch) = math.log(guess), _at_ratio(guess, beta, friction, guess)
-    missed_before = value - beta * beta
-    after = before - STEEPNESS * missed_before / (2.0 * value)
-    for _ in range(MOST_STEPS):
-        if abs(after - before) <= SETTLED:
-            break
-        value, punch = _at_ratio(math.exp(after), beta, friction, guess, punch.pressure)
-        missed = value - beta * beta
-        if missed == missed_before:
-            break
-        step = missed * (after - before) / (missed - missed_before)
-        # Of a secant step the next one leaves the product of both
-        settled = abs(step * (after - before)) <= SETTLED and abs(step) <= SETTLED**0.75
-        before, missed_before, after = after, missed, after - step
-        if settled:
-            return _at_ratio(math.exp(after), beta, friction, guess, punch.pressure)[1]
+    """The punch that meets the condition -ε (2 + ε) = β², by the secant method in ln K'/K.
+
+    Where a rule has many nodes one of fewer nodes comes first.
+    """
+    place, slope, step, punch = math.log(guess), 0.0, 0.0, None
+    for digits, settled in ((FEWER, ROUGHLY), (1.0, SETTLED))[int(guess >= LONG) :]:
+        missed = math.inf
+        for _ in range(MOST_STEPS):
+            before = missed
+            missed, punch = _at_ratio(math.exp(place), (beta, friction), guess, punch, digits)
+            if missed == before:
+                break
+            if math.isfinite(before):
+                slope = (before - missed) / step
+            step = missed / (slope or 2.0 * (missed + beta * beta) / STEEPNESS)
+            if abs(step) <= settled and (slope or digits == 1.0):
+                break
+            place -= step
+        place -= step if digits < 1.0 else 0.0
+    assert punch is not None
     return punch

@@ -32,7 +32,7 @@ from numpy.typing import NDArray
 from sie.numerics.elliptic import elliptic_functions
 from sie.numerics.gauss_jacobi import gauss_jacobi
 
-from .flat import FlatPunch, double_exponential, flat_punch, long_rule
+from .flat import FlatPunch, double_exponential, flat_punch, long_rule, sum_of_poles
 from .tables import DEGREE, Points, Table, joined
 
 Array = NDArray[np.float64]
@@ -52,9 +52,9 @@ class FlatFunctions:
         self.sine, self.cosine = math.cos(math.pi * self.theta), math.sin(math.pi * self.theta)
         root = math.sqrt(self.c)  # as far from c as from 1 in the elliptic coordinate
         self.middle, self.beyond = root, self.rest / (1.0 + root)
-        self._scale = self.c ** (2.0 * self.theta)
-        strength = self._scale * punch.eigenvalue / ((1.0 - self.beta**2) * math.pi**2)
-        self._a = strength * punch.weight * punch.pressure
+        self._scale = self.c ** (2.0 * self.theta) / math.pi
+        self._masses = self._scale * punch.weight * punch.pressure
+        self._a = punch.eigenvalue / ((1.0 - self.beta**2) * math.pi) * self._masses
 
     def weight(self, t: Array, e: Array, from_c: Array) -> Array:
         """χ, infinite at the edge."""
@@ -184,13 +184,11 @@ class FlatFunctions:
     # -- A and Ψ, from the eigenvector -------------------------------------------------------------
 
     def _A(self, t: Array, e: Array) -> Array:
-        return _poles(t, e, self.punch.remainder, self._a)
+        return sum_of_poles(e * (1.0 + t), t * t, self.punch.remainder, self._a)
 
     def _Psi(self, t: Array, e: Array) -> Array:
         square = self._beyond_c(t, e) * (t + self.c)
-        kernel = 1.0 / (square[:, None] + self.c**2 * self.punch.remainder)
-        v = self.punch.weight * self.punch.pressure
-        Psi: Array = (self._scale / math.pi) * t * (kernel @ v)
+        Psi: Array = t * sum_of_poles(square, self.c**2, self.punch.remainder, self._masses)
         return Psi
 
     def outside(self, s: Array, e: Array) -> Array:
@@ -200,11 +198,8 @@ class FlatFunctions:
 
     def _potential_outside(self, s: Array, e: Array) -> Array:
         """η Ψ at η = 1/s."""
-        inside = (self.c * s)[:, None] ** 2 * self.punch.remainder
-        kernel = 1.0 / (self.below_one(s, e)[:, None] + inside)
-        v = self.punch.weight * self.punch.pressure
-        potential: Array = (self._scale / math.pi) * (kernel @ v)
-        return potential
+        gap, remainder = self.below_one(s, e), self.punch.remainder
+        return sum_of_poles(gap, (self.c * s) ** 2, remainder, self._masses)
 
     def below_one(self, s: Array, e: Array) -> Array:
         """1 - c² s²."""
@@ -266,7 +261,7 @@ class FlatFunctions:
     def _difference(self) -> Function:
         """S as N - A n, whose error is rounding of numbers of order one: where p needs S."""
         punch, theta = self.punch, self.theta
-        aG = self._a * punch.square * (self._scale / math.pi) * punch.kernel_of_one
+        aG = self._a * punch.square * self._scale * punch.kernel_of_one
         slip = self._slip_points(2.0 - 2.0 * theta, 2.0 * theta)
         inverse = slip.weight / self.weight(*slip[:3])
         s = self._outside(2.0 - 2.0 * theta)
@@ -276,7 +271,7 @@ class FlatFunctions:
             n = 2.0 / math.pi * t * (_inverse(t, e, s.t, s.rest) @ outside)
             n -= 2.0 / math.pi * self.cosine * ((1.0 / (t[:, None] + slip.t)) @ inverse)
             n -= self.beta * self.friction
-            N: Array = t * _poles(t, e, punch.remainder, aG)
+            N: Array = t * sum_of_poles(e * (1.0 + t), t * t, punch.remainder, aG)
             return N - self._A(t, e) * n
 
         return difference
@@ -367,12 +362,6 @@ class FlatFunctions:
         J: Array = (kernel @ r) / math.pi
         J += 2.0 * self.friction * self._due_to(p, 1.0 / (t[:, None] + p.t))
         return J
-
-
-def _poles(t: Array, e: Array, remainder: Array, a: Array) -> Array:
-    """Σ a/(1 - t² s), s = 1 - remainder."""
-    total: Array = (1.0 / ((e * (1.0 + t))[:, None] + (t * t)[:, None] * remainder)) @ a
-    return total
 
 
 def _inverse(t: Array, e: Array, s: Array, rest: Array) -> Array:

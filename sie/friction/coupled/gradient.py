@@ -103,7 +103,7 @@ class SlipGradient:
         f, z = self.flat, panel.origin
         to_c = np.maximum(y * (f.beyond / f.c), (y / f.c - z) - end)
         kink = np.minimum(y + (z + panel.lo), panel.behind)
-        owner, ahead, left, weight = graded(end - panel.lo, kink, to_c, (panel.power, 0.0))
+        owner, ahead, left, weight = graded(end - panel.lo, kink, to_c, (panel.at_start, 0.0))
         scale = (f.middle / y[owner])[:, None]
         # Next to its end J varies over distances as short as the slip zone: 1 - part would lose
         # their digits

@@ -44,7 +44,9 @@ NEGLIGIBLE = 256.0 * EPS
 NO_LESS = 0.7  # of what a panel missed before it was cut
 MOST = 300  # panels: beyond, none is cut
 CUT = 0.4  # of a panel: where it is cut
-FOLDS = 3.0  # of the distance from a kink: how much it grows on a panel, as a logarithm
+# Of the distance from a kink: how much it grows on a panel, as a logarithm, how much more so away
+# from the half-width and from the slip zone at the kink, and the last panel at most, in such panels
+FOLDS, LONGER, ALMOST = 3.0, 0.5, 1.25
 SHORTER = 0.5 * LONGEST  # of a panel of v: beside the kernel its integrand has all of the series
 NEAR = 0.5  # of a panel's length: nearer it is integrated on panels that shrink towards x
 
@@ -88,8 +90,10 @@ def solved_growth(flat: FlatFunctions, pieces: list[Piece]) -> tuple[GrowthPanel
             empty, before = todo.pop()
             panel = _collocated(flat, solved, piece, empty)
             more, missed = panel.load(math.inf), _missed(panel)
-            # P' falls at most as fast as the root of the distance from a corner grows
-            later = math.sqrt((piece.hi - piece.lo) / (panel.hi - panel.lo))
+            # From a kink P' grows with its power; elsewhere it falls at most as the root of the
+            # distance from a corner grows
+            ratio = (piece.hi - piece.lo) / (panel.hi - panel.lo)
+            later = ratio ** max(0.5, 1.0 + panel.power if panel.power else 0.0)
             negligible = missed <= NEGLIGIBLE * abs(load + more) * max(later, 1.0)
             negligible |= panel.hi - panel.lo <= 1.01 * _narrowest(panel.power) * piece.lo
             # Of rounding a shorter panel misses as much
@@ -108,7 +112,7 @@ def _missed(panel: GrowthPanel) -> float:
     """
     size, length = np.abs(panel.series), panel.hi - panel.lo
     tail = float(size[-3:].max())
-    return tail * length ** (1.0 + panel.power) if tail > DECAYED * float(size.max()) else 0.0
+    return tail * length * panel.factor(length) if tail > DECAYED * float(size.max()) else 0.0
 
 
 def _first_power(h: float, piece: Piece, first: bool) -> float:
@@ -122,7 +126,8 @@ def _panels(flat: FlatFunctions, origin: float, piece: Piece, power: float) -> l
     """Panels of a piece, still without their series.
 
     From a place where P' begins with a power of the distance they grow with this distance, beyond
-    that in which the slip zones move through the place.
+    that in which the slip zones move through the place. P' over that power varies with the
+    logarithm of the distance where this is about that of the slip zones, or the half-width, only.
     """
     lo, hi = piece.lo - origin, piece.hi - origin
     if not power:
@@ -133,11 +138,21 @@ def _panels(flat: FlatFunctions, origin: float, piece: Piece, power: float) -> l
             hi,
         ]
         return [_panel(origin, lo, hi) for lo, hi in itertools.pairwise(ends)]
-    first = min(piece.lo * min(max(flat.rest / flat.c, _narrowest(power)), 1.0), hi - lo)
-    n = math.ceil(math.log((hi - lo) / first) / FOLDS)
-    ends = [first * math.exp(k * FOLDS) for k in range(n)] + [hi - lo]
-    later = [_panel(origin, lo + d, lo + e, behind=d) for d, e in itertools.pairwise(ends)]
+    layer = piece.lo * min(flat.rest / flat.c, 1.0)
+    ends, first = [hi - lo], min(max(layer, piece.lo * _narrowest(power)), hi - lo)
+    while ends[-1] > first:
+        end = ends[-1]
+        fold = min(_fold(end / layer), _fold(end / piece.lo))
+        ends.append(first if math.log(end / first) < ALMOST * fold else end * math.exp(-fold))
+    ends.reverse()
+    later = [_panel(origin, lo + d, lo + e, power, d) for d, e in itertools.pairwise(ends)]
     return [_panel(origin, lo, lo + ends[0], power), *later]
+
+
+def _fold(ratio: float) -> float:
+    """How much the distance may grow on a panel that ends at this ratio to a place of P'."""
+    folds = math.log(ratio)
+    return FOLDS - LONGER * folds if folds < 0.0 else (FOLDS + LONGER * folds) / (1.0 + LONGER)
 
 
 def _narrowest(power: float) -> float:
@@ -158,7 +173,8 @@ def _halves(panel: GrowthPanel) -> list[GrowthPanel]:
     """The panel in two; the first is shorter, as kinks of the profile leave powers there."""
     ahead = CUT * (panel.hi - panel.lo) if panel.behind == math.inf else panel.nodes(0.5)
     middle, behind = panel.lo + ahead, panel.behind + ahead
-    return [replace(panel, hi=middle), replace(panel, lo=middle, power=0.0, behind=behind)]
+    power = 0.0 if panel.behind == math.inf else panel.power
+    return [replace(panel, hi=middle), replace(panel, lo=middle, power=power, behind=behind)]
 
 
 def _collocated(
@@ -196,7 +212,9 @@ def _up_to(flat: FlatFunctions, panel: GrowthPanel, part: float, x: Array, beyon
     """The same over a part of the panel."""
     length = np.full(len(x), part)
     kink = np.full(len(x), panel.behind)
-    owner, ahead, left, weight = graded(length, kink, beyond, (panel.power, 0.0), SHORTER)
+    owner, ahead, left, weight = graded(
+        length, kink, beyond, (panel.at_start, 0.0), longest=SHORTER, near=0.0
+    )
     at = panel.origin + x[owner][:, None]
     t, rest = (panel.origin + panel.lo + ahead) / at, (beyond[owner][:, None] + left) / at
     return totals(owner, flat.outside(t, rest) * panel(ahead) * weight, len(x))
@@ -223,11 +241,12 @@ def _own(flat: FlatFunctions, panel: GrowthPanel, x: Array, ahead: Array) -> Arr
     """The matrix that takes the series to ∫P' ρ D(ρ) ds from lo to each x of the panel."""
     to_c = (panel.origin + x) * (flat.rest / flat.c)
     kink = np.full(len(x), panel.behind)
-    owner, inside, left, weight = graded(ahead, kink, to_c, (panel.power, -flat.h), SHORTER)
+    powers = panel.at_start, -flat.h
+    owner, inside, left, weight = graded(ahead, kink, to_c, powers, longest=SHORTER, near=0.0)
     at = panel.origin + x[owner][:, None]
     values = flat.outside((panel.origin + panel.lo + inside) / at, left / at) * weight
     if panel.power:
-        values *= inside**panel.power
+        values *= panel.factor(inside)
     terms = np.einsum("kij,ij->ik", chebyshev.polynomials(DEGREE, panel.variable(inside)), values)
     matrix = np.zeros((len(x), DEGREE))
     np.add.at(matrix, owner, terms)

@@ -17,6 +17,7 @@ Array = NDArray[np.float64]
 
 NODES = 16
 LONGEST = 4.0  # of a panel of v: with NODES the error is (π/2 + 1.86)^-32
+LONGER = 0.5  # of its depth in v: by how much a panel next to a singularity is longer
 GROWTH = 2.0  # a panel's length over its distance from the singularity; with 12 nodes that is 1e-13
 FAR = 1e300  # stands for no singularity
 
@@ -36,28 +37,44 @@ def graded(
     before: Array,
     after: Array,
     powers: tuple[float, float] = (0.0, 0.0),
+    *,
     longest: float = LONGEST,
+    near: Array | float = math.inf,
 ) -> tuple[NDArray[np.intp], Array, Array, Array]:
     """Rules for intervals that singularities lie `before` and `after`: whose, and rows of places.
 
     They are given by their distances from both ends, with weights of an integrand that has these
-    powers there. Panels are equally long in v of `stretched`.
+    powers there. In v of `stretched` panels are the longer the nearer they are to a singularity,
+    as the integral over them is the smaller: to the first one from the distance `near` on, to the
+    other one from the second panel on.
     """
     B, C = np.minimum(before, APART * length), np.minimum(after, APART * length)
-    whole = np.log1p(length / B) + np.log1p(length / C)
+    begin, end = np.log1p(length / B), np.log1p(length / C)
+    growth = LONGER / longest
+    even = begin - np.log1p(np.minimum(near, length) / B), np.minimum(end, longest)
+    first, last = (
+        part + np.log1p(growth * (whole - part)) / growth
+        for part, whole in zip(even, (begin, end), strict=True)
+    )
     least = 2 if powers[0] and powers[1] else 1
-    count = np.maximum(np.ceil(whole / longest).astype(np.intp), least)
+    count = np.maximum(np.ceil((first + last) / longest).astype(np.intp), least)
     owner = np.repeat(np.arange(len(count)), count)
     k = np.arange(len(owner)) - np.repeat(np.cumsum(count) - count, count)
-    step = (whole / count)[owner][:, None]
-    last = count[owner] - 1 - k
-    kind = np.where((k == 0) & ((last > 0) | (powers[1] == 0.0)), 0, np.where(last == 0, 2, 1))
-    z, rest, w = _rules(*powers)
+    remaining = count[owner] - 1 - k
+    kind = np.where(
+        (k == 0) & ((remaining > 0) | (powers[1] == 0.0)), 0, np.where(remaining == 0, 2, 1)
+    )
+    u = first[owner] - ((first + last) / count)[owner] * np.array([k, k + 1.0])
+    beyond = np.maximum(np.abs(u) - np.where(u > 0.0, even[0][owner], even[1][owner]), 0.0)
+    depth = np.copysign(np.abs(u) - beyond + np.expm1(growth * beyond) / growth, u)
+    start = np.where(k == 0, 0.0, begin[owner] - depth[0])[:, None]
+    rest = np.where(remaining == 0, 0.0, end[owner] + depth[1])[:, None]
+    size = (depth[0] - depth[1])[:, None]
+    z, from_end, w = _rules(*powers)
     B, C, length = (column[owner][:, None] for column in (B, C, length))
-    grown, left = step * (k[:, None] + z[kind]), step * (last[:, None] + rest[kind])
+    grown, left = start + size * z[kind], rest + size * from_end[kind]
     ahead, to_end, rate = stretched(length, B, C, grown, left)
-    weight = step * w[kind] * rate
-    return owner, ahead, to_end, weight
+    return owner, ahead, to_end, size * w[kind] * rate
 
 
 def totals(owner: NDArray[np.intp], values: Array, n: int) -> Array:

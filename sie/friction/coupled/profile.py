@@ -34,17 +34,18 @@ from .tables import chopped, summed
 
 Array = NDArray[np.float64]
 
+TOGETHER = 256  # intervals that are integrated at once: larger arrays cost more
 NEAREST = 1e-17  # of the half-width, to a singularity of P' that x may be on
 STEEPEST = 20.0  # of the logarithm of a power of s, on a panel at most
 
 
 @dataclass(frozen=True, eq=False)
 class GrowthPanel:
-    """P'(s) = (s - origin - lo)^power Σ c_k T_k for lo <= s - origin <= hi.
+    """P'(s) = d^power Σ c_k T_k for lo <= s - origin <= hi, d the distance from a place before.
 
-    From the origin, the half-width of a flat base, short panels keep their digits. The series is
-    one in the logarithm of the distance from a place `behind` the panel where P' is not smooth; if
-    that is infinite, one in s.
+    From the origin, the half-width of a flat base, short panels keep their digits. The place, where
+    P' is not smooth, lies `behind` the panel, and the series is one in the logarithm of d; if
+    that is infinite, d = s - origin - lo, and the series is one in s.
     """
 
     origin: float
@@ -57,7 +58,16 @@ class GrowthPanel:
     def __call__(self, ahead: Array) -> Array:
         """P' at s = origin + lo + ahead."""
         values = summed(self._chopped, self.variable(ahead))
-        return values * ahead**self.power if self.power else values
+        return values * self.factor(ahead) if self.power else values
+
+    def factor(self, ahead: Any) -> Any:
+        """d^power."""
+        return (ahead if self.behind == math.inf else self.behind + ahead) ** self.power
+
+    @property
+    def at_start(self) -> float:
+        """The exponent of P' at lo."""
+        return self.power if self.behind == math.inf else 0.0
 
     def variable(self, ahead: Array) -> Array:
         """That of the series."""
@@ -82,7 +92,7 @@ class GrowthPanel:
 
         They serve P' (s - lo)^shift times a smooth function.
         """
-        x, _, w = with_weight(n, 0.0, self.power + shift)
+        x, _, w = with_weight(n, 0.0, self.at_start + shift)
         if self.behind == math.inf:
             return length * x, length * w
         log = math.log1p(length / self.behind)
@@ -144,6 +154,7 @@ class Part(NamedTuple):
     scales.
 
     before, after   distances from either end to the next singularity, inf if there is none
+    near            distance from the first one within which P' is smooth, and less than s
     powers          exponents at both ends
     """
 
@@ -154,6 +165,7 @@ class Part(NamedTuple):
     to_c: Array  # |x/c - s| at the end from which it is counted
     before: Array
     after: Array
+    near: Array
     powers: tuple[float, float]
 
 
@@ -268,9 +280,9 @@ class Superposition:
         c, origin = self.flat.c, panel.origin
         from_lo, nearest = lo - panel.lo, NEAREST * (origin + hi)
         length = x * kernel.span if own_start and own_end else hi - lo
+        to_kink = from_lo if panel.at_start else from_lo + panel.behind
         if own_start:
             from_x = x * kernel.above
-            to_kink = from_lo if panel.power else from_lo + panel.behind
             before = np.minimum(from_x if kernel.above else x, np.maximum(to_kink, nearest))
         else:
             from_x = (origin - x) + lo
@@ -283,8 +295,9 @@ class Superposition:
         after = np.full(len(x), np.inf)
         if kernel.at_c:
             after = length if own_end else np.maximum(to_c, nearest)
-        powers = kernel.power if own_start else panel.power, kernel.at_c if own_end else 0.0
-        return Part(which, from_x, from_lo, length, to_c, before, after, powers)
+        powers = kernel.power if own_start else panel.at_start, kernel.at_c if own_end else 0.0
+        near = np.minimum(to_kink, origin + lo)
+        return Part(which, from_x, from_lo, length, to_c, before, after, near, powers)
 
     def _integral(
         self,
@@ -295,19 +308,28 @@ class Superposition:
         over_s: bool,
     ) -> Array:
         """∫ P' kernel ds, or ds/s, over all intervals with these powers, for each x."""
-        columns = zip(*(part[:-1] for _, part in parts), strict=True)
-        which, from_x, from_lo, length, to_c, before, after = map(np.concatenate, columns)
+        columns = [np.concatenate(c) for c in zip(*(p[:-1] for _, p in parts), strict=True)]
+        first = np.cumsum([0, *(len(part.which) for _, part in parts)])
+        sums = np.empty(first[-1])
         steepest = max(panel.power for panel, _ in parts)
         longest = min(LONGEST, STEEPEST / max(steepest, 1.0))
-        owner, ahead, left, weight = graded(length, before, after, powers, longest)
-        to_c = to_c[owner][:, None] + (ahead if kernel.hi == self.flat.c else left)
-        from_x, from_lo = from_x[owner][:, None] + ahead, from_lo[owner][:, None] + ahead
-        at = x[which[owner]][:, None]
-        s = at + from_x
-        values = kernel.value(at / s, from_x / s, to_c * (self.flat.c / s)) * weight
-        ends = np.searchsorted(owner, np.cumsum([0, *(len(part.which) for _, part in parts)]))
-        for (panel, _), (lo, hi) in zip(parts, itertools.pairwise(ends.tolist()), strict=True):
-            values[lo:hi] *= panel(from_lo[lo:hi])
-        if over_s:
-            values /= s
-        return totals(which[owner], values, len(x))
+        for k in range(0, len(sums), TOGETHER):
+            few = slice(k, k + TOGETHER)
+            which, from_x, from_lo, length, to_c, before, after, near = (c[few] for c in columns)
+            owner, ahead, left, weight = graded(
+                length, before, after, powers, longest=longest, near=near
+            )
+            to_c = to_c[owner][:, None] + (ahead if kernel.hi == self.flat.c else left)
+            from_x, from_lo = from_x[owner][:, None] + ahead, from_lo[owner][:, None] + ahead
+            at = x[which[owner]][:, None]
+            s = at + from_x
+            values = kernel.value(at / s, from_x / s, to_c * (self.flat.c / s)) * weight
+            ends = np.searchsorted(owner, np.clip(first - k, 0, len(which))).tolist()
+            for (panel, _), (lo, hi) in zip(parts, itertools.pairwise(ends), strict=True):
+                if hi > lo:
+                    values[lo:hi] *= panel(from_lo[lo:hi])
+            if over_s:
+                values /= s
+            sums[few] = totals(owner, values, len(which))
+        total: Array = np.bincount(columns[0], sums, minlength=len(x)).astype(float)
+        return total

@@ -217,7 +217,11 @@ class ProportionalContact:
         known = Known(
             self.placement.axis, self.marks, (power, power), (P, self.turn * Q), self.moment
         )
-        return both_tractions((self.pressure, self.shear), known)
+
+        def both(x: Array) -> Array:
+            return np.stack((self.pressure(x), self.shear(x)))
+
+        return both_tractions((self.pressure, self.shear), both, known)
 
 
 def proportional_contact(scene: Scene) -> tuple[Edges, ProportionalContact]:

@@ -188,6 +188,11 @@ class ShearedContact:
 
     def frame_shear(self, u: Array) -> Array:
         """q; under a corner of the profile, where p is infinite, the mean of q on both sides."""
+        q: Array = self._frame_tractions(u)[1]
+        return q
+
+    def _frame_tractions(self, u: Array) -> Array:
+        """Rows of p and q."""
         p = self.frame_pressure(u)
         corner = np.isinf(p)
         q = np.empty(len(u))
@@ -196,7 +201,7 @@ class ShearedContact:
             aside = BESIDE * self.state.sliding.contact.r
             beside = (self.frame_shear(u[corner] + step) for step in (-aside, aside))
             q[corner] = 0.5 * sum(beside, np.zeros(int(corner.sum())))
-        return q
+        return np.stack((p, q))
 
     def in_frame(self, x: Array) -> Array:
         """u of x, on the edges where x is."""
@@ -314,6 +319,10 @@ class ShearedContact:
         def shear(x: Array) -> Array:
             return self.turn * self.frame_shear(self.in_frame(x))
 
+        def both(x: Array) -> Array:
+            values: Array = np.array([[1.0], [self.turn]]) * self._frame_tractions(self.in_frame(x))
+            return values
+
         (a1, a2), P = self._exponents, self.search.normal.load
         known = Known(
             at,
@@ -322,7 +331,7 @@ class ShearedContact:
             (P, self.turn * self.Q),
             self.axis * P + self.flip * self.moment,
         )
-        return both_tractions((pressure, shear), known)
+        return both_tractions((pressure, shear), both, known)
 
     @property
     def frame_marks(self) -> tuple[float, ...]:

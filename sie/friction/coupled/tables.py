@@ -17,6 +17,10 @@ Array = NDArray[np.float64]
 LENGTH, DEGREE = 1.0, 14  # of a panel of v, and of its series: (2 π + 6.4)^-14 is rounding
 STRAIGHT = 0.5  # no longer in v, one panel is straight
 APART = 1e17  # times its length, from an interval: there a singularity is none
+# Of a panel of ln((y - m)/(n - y)), and of its series: (π/1.25 + 2.7)^-20 is rounding
+LOG_LENGTH, LOG_DEGREE = 2.5, 20
+STEEPEST = 10.0  # of the logarithm of a power, on a panel at most
+NEAREST = 1e-6  # of the last mark: next to marks y has too few digits for a series in v
 CHOP = 2e-17  # of the largest coefficient
 
 
@@ -140,3 +144,34 @@ def summed(c: Array, y: Array) -> Array:
     high -= higher
     high += c[0]
     return high
+
+
+def interpolated(
+    function: Callable[[Array], Array], marks: Array, y: Array, power: float = 1.0
+) -> Array:
+    """A costly function at many places y between the first and the last mark, from few values.
+
+    It varies like such a power. Between two marks m and n, next to which the function may have any
+    powers of the distance, it is analytic in v = ln((y - m)/(n - y)) for |Im v| < π: Chebyshev
+    series on panels of v.
+    """
+    length = min(LOG_LENGTH, STEEPEST / power)
+    k = np.clip(np.searchsorted(marks, y) - 1, 0, len(marks) - 2)
+    above, below = y - marks[k], marks[k + 1] - y
+    close = np.minimum(above, below) <= NEAREST * marks[-1]
+    values = np.empty(len(y))
+    if close.any():
+        values[close] = function(y[close])
+    k, place = k[~close], np.log(above[~close] / below[~close]) / length
+    panel = np.floor(place)
+    if not k.size:
+        return values
+    panels, which = np.unique(np.stack((k.astype(float), panel)), axis=1, return_inverse=True)
+    v = length * (panels[1][:, None] + 0.5 * (1.0 + chebyshev.points(LOG_DEGREE)))
+    m, n = (marks[panels[0].astype(np.intp) + j][:, None] for j in (0, 1))
+    ratio = np.exp(-np.abs(v))
+    near = (n - m) * ratio / (1.0 + ratio)
+    nodes = np.where(v < 0.0, m + near, n - near)
+    series = chebyshev.transform(function(nodes.ravel()).reshape(nodes.shape))
+    values[~close] = chebyshev.evaluate(series.T[:, which.ravel()], 2.0 * (place - panel) - 1.0)
+    return values

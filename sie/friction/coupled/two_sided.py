@@ -17,7 +17,8 @@ from numpy.typing import ArrayLike, NDArray
 from sie.numerics.interval import Interval
 from sie.traction.base import Complex, on_line
 
-from .traction import HalfPotential, OnHalves, Panels, resolved_panels
+from .half_potential import HalfPotential, Panels
+from .traction import OnHalves, resolved_panels
 
 Array = NDArray[np.float64]
 
@@ -109,16 +110,15 @@ class Known(NamedTuple):
 
 
 def both_tractions(
-    values: tuple[Callable[[Array], Array], ...], known: Known
+    values: tuple[Callable[[Array], Array], ...], rows: Callable[[Array], Array], known: Known
 ) -> tuple[TwoSidedTraction, TwoSidedTraction]:
-    """p and q, which share their panels."""
+    """p and q, by their values, each alone and both as rows: they share their panels."""
     split, marks, powers, loads, first = known
     contact = Interval(marks[0], marks[-1])
 
     def half(side: float, power: float) -> tuple[Panels, ...]:
         ends = sorted(side * (x - split) for x in marks if side * (x - split) > 0.0)
-        own = tuple(partial(_beside, function, split, side) for function in values)
-        return resolved_panels(own, tuple(ends), power)
+        return resolved_panels(lambda y: rows(split + side * y), tuple(ends), power)
 
     @lru_cache(maxsize=1)
     def halves() -> tuple[tuple[Panels, ...], tuple[Panels, ...]]:
@@ -134,7 +134,3 @@ def both_tractions(
         for k in (0, 1)
     )
     return p, q
-
-
-def _beside(function: Callable[[Array], Array], split: float, side: float, y: Array) -> Array:
-    return function(split + side * y)

@@ -43,7 +43,7 @@ NODES = 12
 CLOSE = 1e-3  # of a panel: nearer to a node a difference quotient has lost digits
 MOST_NODES = 400
 ROUNDINGS = 1e3  # of the edges: cuts that are nearer to each other are one
-TOGETHER = 2**20  # entries of a matrix that are computed at once
+TOGETHER = 2**15  # entries of a matrix that are computed at once
 
 
 class Zones(NamedTuple):

@@ -18,14 +18,15 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field, replace
-from functools import cached_property, partial
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from sie.errors import ContactError
+from sie.friction.coupled.half_potential import Panels
 from sie.friction.coupled.profile import NEAREST
-from sie.friction.coupled.traction import CoupledTraction, Panels, on_panels, resolved_panels
+from sie.friction.coupled.traction import CoupledTraction, on_panels, resolved_panels
 from sie.friction.shear_density import PotentialsOfParts
 from sie.friction.slip_state import GrownSlip, Step
 from sie.friction.slip_zones import Drive, SlipZones, edge_frame, slip_zones
@@ -99,7 +100,10 @@ class GoodmanShear(PotentialsOfParts):
         """
         sides = (1.0,) if self.state.symmetric else (1.0, -1.0)
         power = -0.5 if any(self.state.step.normal.edges.sharp) else 0.5
-        halves = tuple(partial(self._half, side=side) for side in sides)
+
+        def halves(y: Array) -> Array:
+            return np.stack([self._half(y, side) for side in sides])
+
         right, *left = resolved_panels(halves, self._inner, power)
         return right, left[0] if left else right._replace(series=-right.series)
 

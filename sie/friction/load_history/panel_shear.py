@@ -8,7 +8,8 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from sie.friction.coupled.traction import HalfPotential, OnHalves, resolved_panels
+from sie.friction.coupled.half_potential import HalfPotential
+from sie.friction.coupled.traction import OnHalves, resolved_panels
 from sie.numerics.interval import Interval
 from sie.traction.base import Complex, on_line
 
@@ -58,7 +59,7 @@ class PanelShear(OnHalves):
         def from_left(y: Array) -> Array:
             return self._values(np.minimum(self.contact.x1 + y, self.contact.x2))
 
-        return HalfPotential(resolved_panels((from_left,), self._ends, AT_EDGE)[0])
+        return HalfPotential(resolved_panels(from_left, self._ends, AT_EDGE)[0])
 
     @cached_property
     def moment(self) -> float:  # type: ignore[override]

@@ -22,7 +22,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from sie.friction.coupled.traction import Panels, resolved_panels
+from sie.friction.coupled.half_potential import Panels
+from sie.friction.coupled.traction import resolved_panels
 from sie.friction.slip_zones import Drive, SlipZones
 from sie.numerics import chebyshev
 from sie.numerics.halving import integral
@@ -138,7 +139,7 @@ class Receded(MarchedStep):
             steep: Array = side * (change - (self.tau - self.before.tau))
             return steep
 
-        panels = resolved_panels((steepness,), (*inner, length), 0.0, OF_SLIP)[0]
+        panels = resolved_panels(steepness, (*inner, length), 0.0, OF_SLIP)[0]
         sums = chebyshev.antiderivative(panels.series).T
         whole = 0.5 * (panels.hi - panels.lo) * chebyshev.evaluate(sums, np.ones(len(panels.lo)))
         return side, end, panels, np.cumsum(whole) - whole
