@@ -18,7 +18,7 @@ def number(where: str, value: Any) -> float:
     if isinstance(value, bool) or not isinstance(value, (int, float)):
         raise ValueError(
             f"{where} = {shown(value)} is not a number: "
-            "write a plain number, without quotes or units"
+            'write a plain number without quotes, or a length, load or stress like "20 um"'
         )
     try:
         return float(value)
