@@ -19,7 +19,7 @@ from sie.numerics import chebyshev
 
 from .chord import Points
 from .density import PatchPressure
-from .newton import Linear, conditions, moves
+from .newton import Linear, conditions
 from .operator import Found, Operator
 from .panels import LONG, PatchPanels
 from .result import LEAST, PatchCertificate
@@ -89,7 +89,7 @@ def _notes(condition: float) -> tuple[str, ...]:
 
 def conditioning(state: State, linear: Linear, given: Given) -> float:
     """|d ln r / d ln P| of the patch for which it is largest."""
-    move = moves(state, linear, given.load).reshape(-1, 2)
+    move = linear.growth(state, given.load).reshape(-1, 2)
     change = np.abs(move).max(axis=1) / state.patches.r
     return float(np.nan_to_num(change, nan=np.inf).max(initial=0.0))
 
@@ -101,17 +101,18 @@ def _rounding(o: Operator, linear: Linear, given: Given, peak: float) -> float:
 
     An edge that moves is a point charge, which the conditions of the patches and of the load miss.
     """
-    P, N = o.patches, o.patches.number
+    P = o.patches
     charge = 0.25 * linear.intensity * np.spacing(np.abs(P.edges))
-    missed = np.sqrt(((linear.matrix[:, : 2 * N] * charge) ** 2).sum(axis=1))
-    beside = o.others(np.arange(N), Points(P.c[:, None], np.zeros((N, 1))))[:, 0]
+    force = charge * P.chord.apart(np.repeat(P.r, 2))
+    closing, _ = P.chord.poles(P.chord.difference(P.c[:, None] - P.edges))
+    closed = np.linalg.norm(closing * force, axis=1)
+    moment = float(np.linalg.norm(force * P.edges)) * (given.moment is not None)
     hull = 0.5 * float(P.b[-1] - P.a[0])
     terms = np.abs(o.pieces.series[o.panels.piece]).sum(axis=1)
     return max(
-        float((missed[:N] * beside).max()) / (np.pi * peak),
-        float(missed[2 * N - 1]) / given.load,
-        # the last row is the moment only where that is given
-        float(missed[2 * N]) / (given.load * hull),
+        float((closed * o.S[:, 1]).max()) / (np.pi * peak),
+        float(np.linalg.norm(force)) / given.load,
+        moment / (given.load * hull),
         float(np.spacing(terms.max(initial=0.0))) / (2.0 * peak),
     )
 

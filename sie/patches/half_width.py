@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from sie.errors import ContactError, LoadError
 from sie.numerics.interval import EPS
 
-from .newton import conditions, moves
+from .newton import conditions
 from .of_scene import Problem, changed
 from .operator import Found
 
@@ -173,7 +173,7 @@ class Search:
             return Width(load, 0.5 * self.problem.chord.period, 0.0, None)
         state = found.state
         given = self.problem.given._replace(load=load)
-        moved = moves(state, conditions(state, found.operator.pieces, given)[1], load)
+        moved = conditions(state, found.operator.pieces, given)[1].growth(state, load)
         P, last = state.patches, len(moved) - 1
         whole = float(P.b[-1] - P.a[0])
         if P.chord.periodic:

@@ -3,14 +3,9 @@
     C_j = ∫ H cos(π(t - c_j)/λ) dν_j = 0          K_i = ∫_{gap i} g' dx = 0
     P = G ∫ H d(t, c_j) dν_j                      M = G ∫ H t d(t, c_j) dν_j
 
-When an edge e of patch k moves by δ, F changes by (G/2π) D_k(e) T_k(z)/d(z, e) δ: a point charge at
-e. With y = D_k(e) δ/2
-
-    ∂C_j = ρ_j(e) cos(π(e - c_j)/λ)               ∂K_i = -(1/π) ρ_i(e) ∫_{gap i} T_i/d(x, e) dx
-    ∂P = G d(e, c_k)                              ∂M = G d(e, c_k) e
-
-with ρ_j(e) = d(e, c_k)/d(e, c_j). At a sharp edge, the end of the indenter, the unknown is the
-charge itself.
+An edge that moves is a point charge there. The conditions are linear in such charges, and
+`edge_charges` solves them. At a sharp edge, the end of the indenter, the unknown is the charge
+itself.
 """
 
 from __future__ import annotations
@@ -24,7 +19,7 @@ from numpy.typing import NDArray
 from sie.numerics.interval import EPS
 
 from .bounds import CLOSED
-from .gap_rows import across_gaps
+from .edge_charges import EdgeCharges
 from .measure import edge_ratio
 from .operator import Operator, at_edges, gap_values
 from .panels import Patches
@@ -54,73 +49,73 @@ INSISTS = 12  # steps in a row that a damped edge asks for more: an event
 
 
 class Linear(NamedTuple):
-    """The conditions at a state: what is missed, the Jacobian, and D at the edges."""
+    """The conditions at a state: what is missed, the charges that change them, D at the edges."""
 
     missed: Array
-    matrix: Array
+    charges: EdgeCharges
     intensity: Array
 
-    @property
-    def solution(self) -> Array:
-        """Charges at the edges, and the change of the tilt, that meet the conditions."""
-        size = np.abs(self.matrix).max(axis=1)
-        return np.asarray(np.linalg.solve(self.matrix / size[:, None], -self.missed / size))
+    def moves(self, state: State, y: Array) -> Array:
+        """The moves of the edges (2N,) by charges; those of sharp ones are 0."""
+        with np.errstate(divide="ignore", invalid="ignore"):
+            moved = 2.0 * y[: len(state.sharp)] / np.where(state.sharp, 1.0, self.intensity)
+        return np.where(state.sharp, 0.0, moved)
+
+    def growth(self, state: State, load: float) -> Array:
+        """The derivatives of the edges (2N,) by ln P."""
+        return self.moves(state, self.charges.of(loaded(state, load))[:, 0])
+
+
+def loaded(state: State, load: float) -> Array:
+    """The change of the conditions by a load, (2N + 1, 1)."""
+    changes = np.zeros((2 * state.patches.number + 1, 1))
+    changes[-2] = load
+    return changes
+
+
+def edge_charges(o: Operator, moment: bool) -> EdgeCharges:
+    """The charges at the edges of an operator; `moment`: whether that is given, not the tilt."""
+    about = float((o.b * o.panels.points.x).sum()) if moment else None
+    _, plain = o.closures
+    return EdgeCharges(o.patches, o.gaps, o.gap_roots[0], o.S, plain, float(o.b.sum()), about)
 
 
 def conditions(state: State, pieces: Pieces, given: Given) -> tuple[Operator, Linear]:
     P = state.patches
     o = Operator(P, pieces, np.where(state.sharp, state.charge, 0.0))
-    N, chord, e = P.number, P.chord, P.edges
-    k = np.repeat(np.arange(N), 2)
-    tilt = state.tilt + o.H0
-    missed, matrix = np.zeros(2 * N + 1), np.zeros((2 * N + 1, 2 * N + 1))
-    C, plain = o.closures()
-    missed[:N], matrix[:N, 2 * N] = C + tilt * plain, plain
-    ratio = edge_ratio(P, np.arange(N))
-    matrix[:N, : 2 * N] = ratio * chord.cosine(e - P.c[:, None])
-    K, across = closures(o, ratio)
-    missed[N : 2 * N - 1], matrix[N : 2 * N - 1, : 2 * N] = K, across
-    arm = chord.apart(e - P.c[k])
-    x = o.panels.points.x
-    missed[2 * N - 1] = (o.b * (o.H + tilt)).sum() - given.load
-    matrix[2 * N - 1] = np.append(arm, o.b.sum())
+    N, tilt, x = P.number, state.tilt + o.H0, o.panels.points.x
+    C, plain = o.closures
+    missed = np.zeros(2 * N + 1)
+    missed[:N] = C + tilt * plain
+    missed[N:-2] = closed(o)
+    force = o.b * (o.H + tilt)
+    missed[-2] = force.sum() - given.load
     if given.moment is not None:
-        missed[2 * N] = (o.b * (o.H + tilt) * x).sum() - given.moment
-        matrix[2 * N] = np.append(arm * e, (o.b * x).sum())
-    else:
-        matrix[2 * N, 2 * N] = 1.0
-    charged = matrix[:, : 2 * N] @ o.Y
-    charged[N : 2 * N - 1] = 0.0  # D contains them
-    charged[2 * N] *= given.moment is not None
+        missed[-1] = (force * x).sum() - given.moment
+    sharp = np.flatnonzero(o.Y)
+    if sharp.size:  # D contains what they change in the gaps
+        e, k, Y = P.edges[sharp], sharp // 2, o.Y[sharp]
+        ratio = edge_ratio(P, np.arange(N))[:, sharp]
+        missed[:N] += (ratio * P.chord.cosine(e - P.c[:, None])) @ Y
+        force = P.chord.apart(e - P.c[k]) * Y
+        missed[-2] += force.sum()
+        missed[-1] += (force @ e) * (given.moment is not None)
     intensity = np.where(state.sharp, 0.0, at_edges(o))
-    return o, Linear(missed + charged, matrix, intensity)
+    return o, Linear(missed, edge_charges(o, given.moment is not None), intensity)
 
 
-def closures(o: Operator, ratio: Array) -> tuple[Array, Array]:
-    """K_i of the N - 1 inner gaps, and their derivatives (N - 1, 2N)."""
+def closed(o: Operator) -> Array:
+    """K_i of the N - 1 inner gaps."""
     P, pieces, k = o.patches, o.pieces, o.gaps
     N = P.number
     if N == 1:
-        return np.zeros(0), np.zeros((0, 2))
+        return np.zeros(0)
     reference, T, D = gap_values(o)
     base = pieces.value(pieces.locate(P.b[:-1], "left"), P.b[:-1], 0.0)
     excess = (reference - base[k.gap, None] - T * D / np.pi) * k.dx
     width = np.bincount(k.gap, k.dx.sum(axis=1), N - 1)
     integral = np.bincount(k.gap, excess.sum(axis=1), N - 1)
-    K = (pieces.rises(P.b[:-1], P.a[1:], walls=True) - base * width) - integral
-    return K, -across_gaps(P, k, T * k.dx) * ratio[: N - 1] / np.pi
-
-
-def moves(state: State, linear: Linear, load: float) -> Array:
-    """The derivatives of the edges (2N,) by ln P; those of sharp ones are 0."""
-    size = np.abs(linear.matrix).max(axis=1)
-    n = 2 * state.patches.number
-    right = np.zeros(n + 1)
-    right[n - 1] = load
-    y = np.linalg.solve(linear.matrix / size[:, None], right / size)[:n]
-    with np.errstate(divide="ignore", invalid="ignore"):
-        moved = 2.0 * y / np.where(state.sharp, 1.0, linear.intensity)
-    return np.where(state.sharp, 0.0, moved)
+    return (pieces.rises(P.b[:-1], P.a[1:], walls=True) - base * width) - integral
 
 
 class Damping(NamedTuple):
@@ -194,12 +189,14 @@ def solve(
         if len(sizes) == most:
             break
         _, linear = conditions(state, pieces, given)
-        y = linear.solution
+        y, by_load = linear.charges.of(
+            np.column_stack((-linear.missed, loaded(state, given.load)))
+        ).T
         asked = wished(state, linear, y, damping.turns)
         # D depends on the charges: they first
         unknown = state.sharp.any() and not state.charge.any()
         damping = damping.limited(state, 0.0 * asked if unknown else asked, pieces.concave)
-        size = relative_size(state, y, _told(state, asked, moves(state, linear, given.load)))
+        size = relative_size(state, y, _told(state, asked, linear.moves(state, by_load)))
         limits = pieces.solid_around(state.patches.c), given.moment is not None
         state, clipped = moved(state, damping.moved, y, limits)
         sizes.append(np.inf if clipped else size)
@@ -313,20 +310,6 @@ def _event(state: State, asked: Array, insists: Array, pieces: Pieces) -> Event 
     if vanished.size:
         return Event("vanish", int(vanished[0]), tuple(vanished.tolist()))
     return None
-
-
-def punch(o: Operator) -> Array:
-    """The charges at all edges of a flat punch on the patches, under a unit load."""
-    P, N = o.patches, o.patches.number
-    k = np.repeat(np.arange(N), 2)
-    ratio = edge_ratio(P, np.arange(N))
-    matrix = np.zeros((2 * N, 2 * N))
-    matrix[:N] = ratio * P.chord.cosine(P.edges - P.c[:, None])
-    matrix[N : 2 * N - 1] = closures(o, ratio)[1]
-    matrix[2 * N - 1] = P.chord.apart(P.edges - P.c[k])
-    size = np.abs(matrix).max(axis=1)
-    right = np.append(np.zeros(2 * N - 1), 1.0 / size[-1])
-    return np.asarray(np.linalg.solve(matrix / size[:, None], right))
 
 
 def held_open(patches: Patches, pieces: Pieces) -> set[int]:
