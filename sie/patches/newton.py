@@ -45,6 +45,7 @@ NARROW = 1e-5  # half-widths: steps are told from this width of a gap on
 TURNS, CLEARLY = 3, 0.03
 GROWTH = 3.0  # of moves after one that went too far: slower after every such one, so that it ends
 TOGETHER = 4  # steps in a row: both edges of a patch or of a gap ask for more
+CLEAR = 10.0  # times what is allowed: such a step counts twice
 INSISTS = 12  # steps in a row that a damped edge asks for more: an event
 
 
@@ -147,7 +148,8 @@ class Damping(NamedTuple):
         growth = 1.0 + GROWTH / (1.0 + turns**2)
         trust = np.where(back, 0.5 * last, np.maximum(growth * last, self.trust))
         allowed = np.minimum(most, trust)
-        insists = np.where((np.abs(asked) > most) & ~back, self.insists + 1, 0)
+        more = np.abs(asked) / most
+        insists = np.where((more > 1.0) & ~back, self.insists + 1 + (more > CLEAR), 0)
         return Damping(trust, np.clip(asked, -allowed, allowed), insists, turns)
 
     def carried(self, before: State, after: State) -> tuple[Damping, State]:
