@@ -20,9 +20,8 @@ from sie.numerics import chebyshev
 from sie.progress_bar import reported, step_done
 
 from .chord import Points
+from .conditions import Linear, conditions
 from .density import PatchPressure
-from .measure import edge_ratio
-from .newton import Linear, conditions, moves
 from .operator import Found, Operator
 from .panels import LONG, PatchPanels
 from .result import CLOSE, LEAST, PatchCertificate
@@ -95,7 +94,7 @@ def conditioning(found: Found, given: Given) -> float:
     state = found.state
     asked = given if given.half_width is None else given._replace(load=np.nan)
     linear = conditions(state, found.operator.pieces, asked)[1]
-    change = np.abs(moves(state, linear, asked.size)) / state.patches.narrower
+    change = np.abs(linear.growth(state, asked.size)) / state.patches.narrower
     return float(np.nan_to_num(change, nan=np.inf).max(initial=0.0))
 
 
@@ -106,20 +105,18 @@ def _rounding(o: Operator, linear: Linear, given: Given, peak: float) -> float:
 
     An edge that moves is a point charge, which the conditions of the patches and of the load miss.
     """
-    P, N = o.patches, o.patches.number
+    P = o.patches
     charge = 0.25 * linear.intensity * np.spacing(np.abs(P.edges))
-    missed = np.sqrt(((linear.matrix[:, : 2 * N] * charge) ** 2).sum(axis=1))
-    # also where the condition of a patch gave way to that of a gap
-    columns = edge_ratio(P, np.arange(N)) * P.chord.cosine(P.edges - P.c[:, None])
-    missed[:N] = np.sqrt(((columns * charge) ** 2).sum(axis=1))
-    beside = o.others(np.arange(N), Points(P.c[:, None], np.zeros((N, 1))))[:, 0]
+    force = charge * P.chord.apart(np.repeat(P.r, 2))
+    pole, _ = P.chord.poles(P.chord.difference(P.c[:, None] - P.edges))
+    missed = np.linalg.norm(pole * force, axis=1)
+    moment = float(np.linalg.norm(force * P.edges)) * (given.moment is not None)
     hull = 0.5 * float(P.b[-1] - P.a[0])
     terms = np.abs(o.pieces.series[o.panels.piece]).sum(axis=1)
     return max(
-        float((missed[:N] * beside).max()) / (np.pi * peak),
-        float(missed[2 * N - 1]) / given.load,
-        # the last row is the moment only where that is given
-        float(missed[2 * N]) / (given.load * hull),
+        float((missed * o.S[:, 1]).max()) / (np.pi * peak),
+        float(np.linalg.norm(force)) / given.load,
+        moment / (given.load * hull),
         float(np.spacing(terms.max(initial=0.0))) / (2.0 * peak),
     )
 

@@ -1,107 +1,67 @@
-"""What a point charge at any edge opens across any gap: the rows of the Jacobian that are dense.
+"""The integrals over all gaps of poles at the centres of all patches: dense rows.
 
-    A_ie = Σ_{x in gap i} w(x)/d(x, e)
+    A_ik = Σ_{x in gap i} w(x) κ(x - c_k),    B_ik = Σ_{x in gap i} w(x)/d(x, c_k)²
 
-Gaps and edges are gathered in clusters. Clusters that are far from each other act through charges
-on the Chebyshev points of both (`tree`), so that a pair of them takes so many kernels and not those
-of all its nodes.
+κ is 1/x, or the sum of that over all periods. Neighbours are gathered in clusters. Gaps act on
+clusters of centres that are far from theirs through charges on Chebyshev points (`tree`), so that a
+pair of clusters takes so many kernels and not those of all nodes.
 """
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 import numpy as np
 from numpy.typing import NDArray
 
-from .chord import Points
 from .panels import GapPanels, Patches
 from .sums import add, parts
 from .tree import CHARGES, FAR, POINTS, gathered
 
 Array = NDArray[np.float64]
-Index = NDArray[np.int64]
 
 TOGETHER = 16  # patches of a cluster, and the gaps behind them
 
 
-class Clusters(NamedTuple):
-    """Intervals (K,) by middles and half-lengths."""
-
-    middle: Array
-    half: Array
-
-    @classmethod
-    def between(cls, lo: Array, hi: Array) -> Clusters:
-        return cls(0.5 * (lo + hi), 0.5 * (hi - lo))
-
-    def points(self, k: Index) -> Points:
-        return Points(self.middle[k, None], self.half[k, None] * POINTS)
-
-    def within(self, k: Index, x: Points) -> Array:
-        """Places (m, n) as parts of the half-lengths of their clusters (m,)."""
-        step = (x.anchor - self.middle[k, None]) + x.offset
-        return np.asarray(step / self.half[k, None])
-
-
 def across_gaps(P: Patches, k: GapPanels, weight: Array) -> Array:
-    """A (N - 1, 2N) for weights on the nodes of the gaps; (N, 2N) of a period that is closing."""
-    N = P.number
-    number, end = N - 1 + P.closing, np.append(P.a[1:], P.a[0] + P.chord.period)
-    first, last = np.arange(0, N, TOGETHER), np.minimum(np.arange(0, N, TOGETHER) + TOGETHER, N) - 1
-    edges = Clusters.between(P.a[first], P.b[last])
-    behind = first < number
-    gaps = Clusters.between(P.b[first[behind]], end[np.minimum(last, number - 1)[behind]])
-    e = np.append(P.edges, np.repeat(P.edges[-1:], 2 * (-N % TOGETHER))).reshape(len(first), -1)
-    # by cluster, gap in it, cluster, edge in it
-    out = np.zeros((len(gaps.middle), TOGETHER, *e.shape))
-    far = _far(P, gaps, edges)
-    _add_near(out, (P, k, weight), e, far)
+    """A and B, (2, N - 1, N), for weights on the nodes of the gaps."""
+    N, chord = P.number, P.chord
+    c = np.append(P.c, np.repeat(P.c[-1:], -N % TOGETHER)).reshape(-1, TOGETHER)
+    lo, hi = (
+        P.b[:-1:TOGETHER],
+        P.a[np.minimum(np.arange(TOGETHER, N + TOGETHER - 1, TOGETHER), N - 1)],
+    )
+    middle, half = 0.5 * (lo + hi), 0.5 * (hi - lo)
+    away = chord.distance(middle[:, None], c[:, 0], c[:, -1])
+    far = (away >= FAR * half[:, None]) & (N > 4 * TOGETHER)
+    out = np.zeros((2, len(middle) * TOGETHER, *c.shape))
+    _add_near(out, (P, k, weight), c, far)
     I, J = np.nonzero(far)
     if I.size:
-        sources, places = _spread(k, gaps, weight, out.shape[:2]), _weights(edges, e)
-        for some in parts(len(I), CHARGES * max(CHARGES, e.shape[1])):
+        cluster = k.gap // TOGETHER
+        u = ((k.points.anchor - middle[cluster, None]) + k.points.offset) / half[cluster, None]
+        of_gaps = np.zeros((out.shape[1], CHARGES))
+        add(of_gaps, k.gap, gathered(u, weight[None])[0])
+        charges = of_gaps.reshape(len(middle), TOGETHER, CHARGES)
+        by_cluster = out.reshape(2, *charges.shape[:2], *c.shape)
+        points = half[:, None] * POINTS
+        for some in parts(len(I), CHARGES * TOGETHER):
             i, j = I[some], J[some]
-            kernel = 1.0 / P.chord.beyond(gaps.points(i), edges.points(j))
-            out[i, :, j, :] = sources[i] @ kernel.transpose(0, 2, 1) @ places[j]
-    return out.reshape(out.shape[0] * TOGETHER, -1)[:number, : 2 * N]
-
-
-def _far(P: Patches, gaps: Clusters, edges: Clusters) -> NDArray[np.bool_]:
-    """Whether clusters of gaps (K,) and of edges (L,) are far from each other, (K, L)."""
-    if P.number <= 4 * TOGETHER:
-        return np.zeros((len(gaps.middle), len(edges.middle)), dtype=bool)
-    apart = np.abs(P.chord.difference(gaps.middle[:, None] - edges.middle))
-    one, other = gaps.half[:, None], edges.half
-    return np.asarray(apart >= FAR * np.maximum(one, other) + np.minimum(one, other))
-
-
-def _spread(k: GapPanels, gaps: Clusters, weight: Array, shape: tuple[int, int]) -> Array:
-    """The charges of each gap on the points of its cluster, (K, TOGETHER, CHARGES)."""
-    u = gaps.within(k.gap // TOGETHER, k.points)
-    out = np.zeros((shape[0] * shape[1], CHARGES))
-    add(out, k.gap, gathered(u, weight[None])[0])
-    return out.reshape(*shape, CHARGES)
-
-
-def _weights(edges: Clusters, e: Array) -> Array:
-    """What interpolates from the points of each cluster to its edges, (L, CHARGES, edges)."""
-    u = edges.within(np.arange(len(e)), Points(e, np.zeros_like(e)))
-    unit = gathered(u.reshape(-1, 1), np.ones((1, e.size, 1)))[0]
-    return unit.reshape(*e.shape, CHARGES).transpose(0, 2, 1)
+            step = chord.difference(middle[i, None, None] - c[j][:, None, :], points[i][:, :, None])
+            for sums, kernel in zip(by_cluster, chord.poles(step), strict=True):
+                sums[i, :, j, :] = charges[i] @ kernel
+    return out.reshape(2, out.shape[1], -1)[:, : N - 1, :N]
 
 
 def _add_near(
-    out: Array, nodes: tuple[Patches, GapPanels, Array], e: Array, far: NDArray[np.bool_]
+    out: Array, nodes: tuple[Patches, GapPanels, Array], c: Array, far: NDArray[np.bool_]
 ) -> None:
-    """The sums over the nodes of gaps as they are, at the clusters of edges that are not far."""
+    """The sums over the nodes of gaps as they are, at the clusters of centres that are not far."""
     P, k, weight = nodes
     cluster, panel = np.nonzero(~far[k.gap // TOGETHER].T)
-    rows = out.reshape(-1, e.shape[1])
-    for some in parts(len(panel), k.dx.shape[1] * e.shape[1]):
+    for some in parts(len(panel), k.dx.shape[1] * TOGETHER):
         p, j = panel[some], cluster[some]
-        step = P.chord.apart(
-            k.points.anchor[p, :, None] - e[j][:, :, None], k.points.offset[p, None, :]
+        step = P.chord.difference(
+            k.points.anchor[p, :, None] - c[j][:, :, None], k.points.offset[p, None, :]
         )
-        sums = np.reciprocal(step, out=step) @ weight[p, :, None]
-        add(rows, k.gap[p] * len(e) + j, sums[..., 0])
+        for sums, kernel in zip(out, P.chord.poles(step), strict=True):
+            value = (kernel @ weight[p, :, None])[..., 0]
+            add(sums.reshape(-1, TOGETHER), k.gap[p] * len(c) + j, value)

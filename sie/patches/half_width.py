@@ -20,7 +20,7 @@ from sie.errors import ContactError, LoadError
 from sie.numerics.interval import EPS
 from sie.progress_bar import reported, step_done
 
-from .newton import conditions, moves
+from .conditions import conditions
 from .of_scene import Problem, changed
 from .operator import Found
 from .panels import Patches
@@ -210,7 +210,7 @@ class Search:
             return Width(load, 0.5 * self.problem.chord.period, 0.0, None)
         state = found.state
         given = self.problem.given._replace(load=load)
-        moved = moves(state, conditions(state, found.operator.pieces, given)[1], load)
+        moved = conditions(state, found.operator.pieces, given)[1].growth(state, load)
         P, last = state.patches, len(moved) - 1
         whole = float(P.b[-1] - P.a[0])
         if P.chord.periodic:

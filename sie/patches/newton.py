@@ -1,16 +1,6 @@
-"""Newton's method for the edges of N patches, with a Jacobian in closed form.
+"""Newton's method for the edges of N patches, with a Jacobian in closed form (`conditions`).
 
-    C_j = ∫ H cos(π(t - c_j)/λ) dν_j = 0          K_i = ∫_{gap i} g' dx = 0
-    P = G ∫ H d(t, c_j) dν_j                      M = G ∫ H t d(t, c_j) dν_j
-
-When an edge e of patch k moves by δ, F changes by (G/2π) D_k(e) T_k(z)/d(z, e) δ: a point charge at
-e. With y = D_k(e) δ/2
-
-    ∂C_j = ρ_j(e) cos(π(e - c_j)/λ)               ∂K_i = -(1/π) ρ_i(e) ∫_{gap i} T_i/d(x, e) dx
-    ∂P = G d(e, c_k)                              ∂M = G d(e, c_k) e
-
-with ρ_j(e) = d(e, c_k)/d(e, c_j). At a sharp edge, the end of the indenter, the unknown is the
-charge itself.
+At a sharp edge, the end of the indenter, the unknown is the charge of the edge itself.
 """
 
 from __future__ import annotations
@@ -25,9 +15,7 @@ from sie.numerics.interval import EPS
 from sie.progress_bar import step_done
 
 from .bounds import CLOSED
-from .gap_rows import across_gaps
-from .measure import edge_ratio
-from .operator import Operator, at_edges, gap_values
+from .conditions import Linear, conditions, loaded
 from .panels import Patches
 from .pieces import Pieces
 from .repairs import after
@@ -51,129 +39,8 @@ NARROW = 1e-5  # half-widths: steps are told from this width of a gap on
 TURNS, CLEARLY = 3, 0.03
 GROWTH = 3.0  # of moves after one that went too far: slower after every such one, so that it ends
 TOGETHER = 4  # steps in a row: both edges of a patch or of a gap ask for more
+CLEAR = 10.0  # times what is allowed: such a step outwards counts twice
 INSISTS = 12  # steps in a row that a damped edge asks for more: an event
-
-
-class Linear(NamedTuple):
-    """The conditions at a state: what is missed, the Jacobian, and D at the edges."""
-
-    missed: Array
-    matrix: Array
-    intensity: Array
-
-    @property
-    def solution(self) -> Array:
-        """Charges at the edges, and the change of the tilt, that meet the conditions."""
-        size = np.abs(self.matrix).max(axis=1)
-        return np.asarray(np.linalg.solve(self.matrix / size[:, None], -self.missed / size))
-
-
-def conditions(state: State, pieces: Pieces, given: Given) -> tuple[Operator, Linear]:
-    """The conditions of the patches, then of the gaps between, of the load and of the moment.
-
-    Where a period is closing that of the widest patch gives way to the condition of the last gap:
-    ∫ g' dx over a period is a sum of all C_j, and rounding in them moves the middle of a gap s by
-    1/s² times as much as rounding in its own condition.
-    """
-    P = state.patches
-    o = Operator(P, pieces, np.where(state.sharp, state.charge, 0.0))
-    N, chord, e = P.number, P.chord, P.edges
-    tilt = state.tilt + o.H0
-    missed, matrix = np.zeros(2 * N + 1), np.zeros((2 * N + 1, 2 * N + 1))
-    C, plain = o.closures()
-    missed[:N], matrix[:N, 2 * N] = C + tilt * plain, plain
-    ratio = edge_ratio(P, np.arange(N))
-    matrix[:N, : 2 * N] = ratio * chord.cosine(e - P.c[:, None])
-    K, across = closures(o, ratio)
-    rows = np.append(np.arange(N, 2 * N - 1), np.argmax(P.r))[: len(K)]
-    missed[rows], matrix[rows, : 2 * N] = K, across
-    matrix[rows, 2 * N] = 0.0
-    missed[2 * N - 1 :], matrix[2 * N - 1 :] = _balance(o, tilt, given)
-    charged = matrix[:, : 2 * N] @ o.Y
-    charged[rows] = 0.0  # D contains them
-    charged[2 * N] *= given.moment is not None
-    intensity = np.where(state.sharp, 0.0, at_edges(o))
-    linear = Linear(missed + charged, matrix, intensity)
-    return o, _of_width(state, linear, given.half_width) if given.by_width else linear
-
-
-def _balance(o: Operator, tilt: float, given: Given) -> tuple[Array, Array]:
-    """The conditions of the load, and of the moment where that is given."""
-    P, x = o.patches, o.panels.points.x
-    arm = P.chord.apart(P.edges - np.repeat(P.c, 2))
-    missed = np.array([(o.b * (o.H + tilt)).sum() - given.load, 0.0])
-    rows = np.stack((np.append(arm, o.b.sum()), np.append(0.0 * arm, 1.0)))
-    if given.moment is not None:
-        missed[1] = (o.b * (o.H + tilt) * x).sum() - given.moment
-        rows[1] = np.append(arm * P.edges, (o.b * x).sum())
-    return missed, rows
-
-
-def outermost(patches: Patches) -> tuple[int, int]:
-    """The edges on both sides of all patches; per period, of its widest gap."""
-    last = int(np.argmax(patches.gaps)) if patches.chord.periodic else patches.number - 1
-    return 2 * last + 1, (2 * last + 2) % (2 * patches.number)
-
-
-def _of_width(state: State, linear: Linear, r: float | None) -> Linear:
-    """The conditions with half of the distance of the outermost edges in place of the load."""
-    P, D = state.patches, linear.intensity
-    assert r is not None
-    last, first = outermost(P)
-    missed, matrix = linear.missed.copy(), linear.matrix.copy()
-    n = 2 * P.number - 1
-    if P.chord.periodic:
-        missed[n] = (P.chord.period - 2.0 * r) - float(P.gaps[last // 2])
-    else:
-        missed[n] = float(P.edges[last] - P.edges[first]) - 2.0 * r
-    matrix[n] = 0.0
-    for edge, sign in ((last, 2.0), (first, -2.0)):
-        if not state.sharp[edge]:
-            matrix[n, edge] = sign / (D[edge] if D[edge] > 0.0 else np.abs(D).mean())
-    return Linear(missed, matrix, D)
-
-
-def closures(o: Operator, ratio: Array) -> tuple[Array, Array]:
-    """K_i of the N - 1 inner gaps, and their derivatives (N - 1, 2N).
-
-    Those of the last gap are added where a period is closing.
-    """
-    P, pieces, k = o.patches, o.pieces, o.gaps
-    n = P.number - 1 + P.closing
-    if not n:
-        return np.zeros(0), np.zeros((0, 2))
-    reference, T, D = gap_values(o)
-    b, a = P.b[:n], np.append(P.a[1:], P.a[0] + P.chord.period)[:n]
-    own, next_ = pieces.locate(b, "left"), pieces.locate(a)
-    base = pieces.value(own, b, 0.0)
-    # on one piece from either edge to the middle the reference is H itself, but for a break between
-    simple = (next_ - own <= 1) & (np.bincount(k.gap, ~k.follows, n) == 0.0)
-    broken = simple & (next_ > own)
-    reference = np.where(simple[k.gap, None], 0.0, reference - base[k.gap, None])
-    excess = (reference - T * D / np.pi) * k.dx
-    width = np.bincount(k.gap, k.dx.sum(axis=1), n)
-    integral = np.bincount(k.gap, excess.sum(axis=1), n)
-    risen = np.where(simple, 0.0, pieces.rises(b, a, walls=True) - base * width)
-    break_, middle = (pieces.ends[next_[broken]], 0.0), (b[broken], 0.5 * (a - b)[broken])
-    risen[broken] = pieces.rise(next_[broken], break_, middle)
-    risen[broken] -= pieces.rise(own[broken], break_, middle)
-    across: Array = -across_gaps(P, k, T * k.dx) * ratio[:n] / np.pi
-    return np.asarray(risen - integral), across
-
-
-def moves(state: State, linear: Linear, load: float) -> Array:
-    """The derivatives of the edges (2N,) by ln P; those of sharp ones are 0.
-
-    Where a half-width is given they are by the logarithm of that, in place of a load.
-    """
-    size = np.abs(linear.matrix).max(axis=1)
-    n = 2 * state.patches.number
-    right = np.zeros(n + 1)
-    right[n - 1] = load
-    y = np.linalg.solve(linear.matrix / size[:, None], right / size)[:n]
-    with np.errstate(divide="ignore", invalid="ignore"):
-        moved = 2.0 * y / np.where(state.sharp, 1.0, linear.intensity)
-    return np.where(state.sharp, 0.0, moved)
 
 
 class Damping(NamedTuple):
@@ -205,7 +72,9 @@ class Damping(NamedTuple):
         growth = 1.0 + GROWTH / (1.0 + turns**2)
         trust = np.where(back, 0.5 * last, np.maximum(growth * last, self.trust))
         allowed = np.minimum(most, trust)
-        insists = np.where((np.abs(asked) > most) & ~back, self.insists + 1, 0)
+        more = np.abs(asked) / most
+        counted = 1 + ((more > CLEAR) & (asked * outward > 0.0))
+        insists = np.where((more > 1.0) & ~back, self.insists + counted, 0)
         return Damping(trust, np.clip(asked, -allowed, allowed), insists, turns)
 
     def carried(self, before: State, after: State) -> tuple[Damping, State]:
@@ -248,12 +117,12 @@ def solve(
             break
         step_done()
         _, linear = conditions(state, pieces, given)
-        y = linear.solution
+        y, by_load = linear.charged(np.column_stack((-linear.missed, loaded(state, given.size)))).T
         asked = wished(state, linear, y, damping.turns)
         # D depends on the charges: they first
         unknown = state.sharp.any() and not state.charge.any()
         damping = damping.limited(state, 0.0 * asked if unknown else asked, pieces.concave)
-        size = relative_size(state, y, _told(state, asked, moves(state, linear, given.size)))
+        size = relative_size(state, y, _told(state, asked, linear.moves(state, by_load)))
         limits = pieces.solid_around(state.patches.c), given.moment is not None
         state, clipped = moved(state, damping.moved, y, limits)
         sizes.append(np.inf if clipped else size)
@@ -373,20 +242,6 @@ def _event(state: State, asked: Array, insists: Array, pieces: Pieces) -> Event 
     if vanished.size:
         return Event("vanish", int(vanished[0]), tuple(vanished.tolist()))
     return None
-
-
-def punch(o: Operator) -> Array:
-    """The charges at all edges of a flat punch on the patches, under a unit load."""
-    P, N = o.patches, o.patches.number
-    k = np.repeat(np.arange(N), 2)
-    ratio = edge_ratio(P, np.arange(N))
-    matrix = np.zeros((2 * N, 2 * N))
-    matrix[:N] = ratio * P.chord.cosine(P.edges - P.c[:, None])
-    matrix[N : 2 * N - 1] = closures(o, ratio)[1]
-    matrix[2 * N - 1] = P.chord.apart(P.edges - P.c[k])
-    size = np.abs(matrix).max(axis=1)
-    right = np.append(np.zeros(2 * N - 1), 1.0 / size[-1])
-    return np.asarray(np.linalg.solve(matrix / size[:, None], right))
 
 
 def held_open(patches: Patches, pieces: Pieces) -> set[int]:

@@ -20,8 +20,8 @@ from numpy.typing import NDArray
 
 from sie.profiles.base import Profile
 
+from .conditions import conditions, loaded
 from .density import PatchPressure
-from .newton import conditions
 from .of_scene import Problem
 from .operator import Found, Operator
 from .profile_pieces import of_profile
@@ -98,12 +98,10 @@ def _changed(several: Answer, error: Profile, places: Array, moment: bool) -> tu
     _, linear = conditions(still, pieces, none)
     _, whole = conditions(state, several.found.operator.pieces, none)
     moved = np.where(sharp, 0.0, 2.0 / np.where(sharp, 1.0, whole.intensity))
-    n = len(moved)
+    y, by_load = linear.charged(np.column_stack((-linear.missed, loaded(state, 1.0)))).T
     if several.problem.given.half_width is not None:  # the load changes in its place
-        linear.missed[n - 1], linear.matrix[n - 1] = 0.0, 0.0
-        linear.matrix[n - 1, [0, n - 1]] = -moved[0], moved[-1]
-    size = np.abs(linear.matrix).max(axis=1)
-    y = np.linalg.solve(linear.matrix / size[:, None], -linear.missed / size)
+        wider, by_load_wider = (moved[-1] * v[-2] - moved[0] * v[0] for v in (y, by_load))
+        y = y - by_load * (wider / by_load_wider)
     charged = Operator(P, pieces, y[:-1])
     G, tilt = several.pressure.half_modulus, float(y[-1])
     p = PatchPressure(charged, G, tilt, 0.0)(places)

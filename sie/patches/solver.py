@@ -22,6 +22,7 @@ from sie.errors import ContactError, LoadError
 from sie.progress_bar import reported
 
 from . import newton
+from .conditions import closed
 from .gap import gap, overlaps
 from .newton import FINAL, MOST_STEPS
 from .of_scene import Problem, changed
@@ -39,8 +40,9 @@ Array = NDArray[np.float64]
 
 SAME = 1e-9  # half-widths: by which starts differ that do not lead to the same
 ROUNDS, STALLS = 30, 1  # the most rounds, and those that end without edges or an event
-SEVERAL = 12  # patches: of more than these, cuts are sought ...
-EARLY, EARLY_STEPS, ROUGHLY = 4, 5, 0.1  # ... in so many rounds of so many steps, or of such a size
+SEVERAL = 12  # patches: of more than these, cuts and births are sought ...
+EARLY, EARLY_STEPS, ROUGHLY = 4, 3, 0.1  # ... in so many rounds of so many steps, or of such a size
+DEEP = 2.0  # times what a gap misses to close: such an overlap is not of the edges' errors
 # of the largest D: tension that is accepted beside a merger, where no arithmetic tells more
 NEARLY = 1e-7
 LIGHTEST = 10  # quarters of the load, one of another, of which one has to lead somewhere
@@ -242,7 +244,7 @@ def refuse_unknown_ends(state: State, problem: Problem) -> None:
 def settled(state: State, pieces: Pieces, problem: Problem) -> Found:
     """The certified answer near a start."""
     steps, stalls, nearly = 0, 0, None
-    # before the edges of many patches are exact, most patches that have to be cut show it
+    # before the edges of many patches are exact, most that have to be cut or added show it
     early = EARLY if state.patches.number > SEVERAL else 0
     seen: set[tuple[object, ...]] = set()
     for round_ in range(ROUNDS):
@@ -263,9 +265,9 @@ def settled(state: State, pieces: Pieces, problem: Problem) -> Found:
                 continue
         o = Operator(state.patches, pieces, np.where(state.sharp, state.charge, 0.0))
         if round_ < early:
-            pulled, lowest = tensions(o)
-            early = early if pulled or event is not None else 0
-            state = mended(state, Findings(pulled, (), lowest), pieces) if pulled else state
+            rough = roughly(o, gaps=round_ > 0)
+            early = early if event is not None or not rough.ok else 0
+            state = state if rough.ok else mended(state, rough, pieces)
             continue
         found = Found(state, o, findings(o), steps)
         if found.findings.ok:
@@ -307,6 +309,19 @@ def findings(o: Operator) -> Findings:
     """What the bounds of pressure and gap find."""
     tension, lowest = tensions(o)
     return Findings(tension, overlaps(o), lowest)
+
+
+def roughly(o: Operator, gaps: bool) -> Findings:
+    """What has to be mended before the edges are exact; `gaps`: in the gaps as well.
+
+    Only overlaps count that are deeper than what the gap misses to close.
+    """
+    tension, lowest = tensions(o)
+    if not gaps:
+        return Findings(tension, (), lowest)
+    missed = np.abs(closed(o))
+    inner = (v for v in overlaps(o) if 0 <= v.gap < len(missed))
+    return Findings(tension, tuple(v for v in inner if v.depth > DEEP * missed[v.gap]), lowest)
 
 
 def _rounded(state: State) -> tuple[object, ...]:

@@ -1,0 +1,190 @@
+"""The conditions of N patches, and the charges at their edges that change them by given amounts.
+
+    C_j = ∫ H cos(π(t - c_j)/λ) dν_j = 0          K_i = ∫_{gap i} g' dx = 0
+    P = G ∫ H d(t, c_j) dν_j                      M = G ∫ H t d(t, c_j) dν_j
+
+An edge that moves is a point charge there. The conditions are linear in such charges, and
+`edge_charges` solves them for C_1..N, K_1..N-1, P and M. Two of these may give way to others:
+
+    C_m to K_N where a period is closing, m its widest patch: ∫ g' dx over a period is a sum of all
+    C_j, and rounding in them moves the middle of a gap s by 1/s² times as much as rounding in its
+    own condition;
+    P to half of the distance of the outermost edges, where that is given.
+
+The answer is then that to the other conditions, and so much of the answers to a unit change of C_m
+and of P alone as the conditions in their places ask for.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .edge_charges import EdgeCharges
+from .measure import edge_ratio
+from .operator import Operator, at_edges, gap_values
+from .panels import Patches
+from .pieces import Pieces
+from .state import Given, State
+
+Array = NDArray[np.float64]
+
+
+class Linear(NamedTuple):
+    """The conditions at a state.
+
+    missed      what the conditions miss, (2N + 1,)
+    charges     the charges at the edges that change C, K, P and M
+    intensity   D at the edges, (2N,); 0 at sharp ones
+    replaced    the numbers of those that gave way to others, (R,)
+    rows        the derivatives of the others by the charges, (R, 2N)
+    """
+
+    missed: Array
+    charges: EdgeCharges
+    intensity: Array
+    replaced: list[int]
+    rows: Array
+
+    def charged(self, changes: Array) -> Array:
+        """Charges and the change of the tilt, (2N + 1, m), by changes of the conditions."""
+        R = len(self.replaced)
+        if not R:
+            return self.charges.of(changes)
+        kept, alone = changes.copy(), np.zeros((len(changes), R))
+        kept[self.replaced], alone[self.replaced, np.arange(R)] = 0.0, 1.0
+        y = self.charges.of(np.column_stack((kept, alone)))
+        y, alone = y[:, :-R], y[:, -R:]
+        matrix, right = self.rows @ alone[:-1], changes[self.replaced] - self.rows @ y[:-1]
+        size = np.abs(matrix).max(axis=1, keepdims=True)
+        return np.asarray(y + alone @ np.linalg.solve(matrix / size, right / size))
+
+    def moves(self, state: State, y: Array) -> Array:
+        """The moves of the edges (2N,) by charges; those of sharp ones are 0."""
+        with np.errstate(divide="ignore", invalid="ignore"):
+            moved = 2.0 * y[: len(state.sharp)] / np.where(state.sharp, 1.0, self.intensity)
+        return np.where(state.sharp, 0.0, moved)
+
+    def growth(self, state: State, size: float) -> Array:
+        """The derivatives of the edges (2N,) by ln P, or by that of the half-width in its place."""
+        return self.moves(state, self.charged(loaded(state, size))[:, 0])
+
+
+def loaded(state: State, size: float) -> Array:
+    """The change of the conditions by a load, or by a width in its place, (2N + 1, 1)."""
+    changes = np.zeros((2 * state.patches.number + 1, 1))
+    changes[-2] = size
+    return changes
+
+
+def edge_charges(o: Operator, moment: bool) -> EdgeCharges:
+    """The charges at the edges of an operator; `moment`: whether that is given, not the tilt."""
+    about = float((o.b * o.panels.points.x).sum()) if moment else None
+    _, plain = o.closures
+    inner = slice(_last_panels(o).start)
+    gaps, roots = o.gaps[inner], o.gap_roots[0][inner]
+    return EdgeCharges(o.patches, gaps, roots, o.S, plain, float(o.b.sum()), about)
+
+
+def conditions(state: State, pieces: Pieces, given: Given) -> tuple[Operator, Linear]:
+    """The conditions of the patches, then of the gaps between, of the load and of the moment."""
+    P = state.patches
+    o = Operator(P, pieces, np.where(state.sharp, state.charge, 0.0))
+    N, K = P.number, closed(o)
+    missed = _unclosed(o, state.tilt + o.H0, given)
+    missed[N:-2] = K[: N - 1]  # D contains what charges change in the gaps
+    intensity = np.where(state.sharp, 0.0, at_edges(o))
+    replaced, rows = [], []
+    if P.closing:
+        replaced, rows = [int(np.argmax(P.r))], [_last_gap(o)]
+        missed[replaced] = K[-1]
+    if given.half_width is not None and given.by_width:
+        missed[-2] = _width(P) - 2.0 * given.half_width
+        replaced, rows = [*replaced, 2 * N - 1], [*rows, _of_width(state, intensity)]
+    charges = edge_charges(o, given.moment is not None)
+    return o, Linear(missed, charges, intensity, replaced, np.array(rows))
+
+
+def _unclosed(o: Operator, tilt: float, given: Given) -> Array:
+    """What the conditions of the patches, of the load and of the moment miss, (2N + 1,)."""
+    P, N, x = o.patches, o.patches.number, o.panels.points.x
+    C, plain = o.closures
+    missed = np.zeros(2 * N + 1)
+    missed[:N] = C + tilt * plain
+    force = o.b * (o.H + tilt)
+    missed[-2] = force.sum() - given.load
+    if given.moment is not None:
+        missed[-1] = (force * x).sum() - given.moment
+    sharp = np.flatnonzero(o.Y)
+    if sharp.size:
+        e, k, Y = P.edges[sharp], sharp // 2, o.Y[sharp]
+        ratio = edge_ratio(P, np.arange(N))[:, sharp]
+        missed[:N] += (ratio * P.chord.cosine(e - P.c[:, None])) @ Y
+        force = P.chord.apart(e - P.c[k]) * Y
+        missed[-2] += force.sum()
+        missed[-1] += (force @ e) * (given.moment is not None)
+    return missed
+
+
+def outermost(patches: Patches) -> tuple[int, int]:
+    """The edges on both sides of all patches; per period, of its widest gap."""
+    last = int(np.argmax(patches.gaps)) if patches.chord.periodic else patches.number - 1
+    return 2 * last + 1, (2 * last + 2) % (2 * patches.number)
+
+
+def _width(P: Patches) -> float:
+    """The distance of the outermost edges; per period that beside its widest gap."""
+    last, first = outermost(P)
+    if P.chord.periodic:
+        return P.chord.period - float(P.gaps[last // 2])
+    return float(P.edges[last] - P.edges[first])
+
+
+def _of_width(state: State, intensity: Array) -> Array:
+    """The derivatives of that distance by the charges, (2N,)."""
+    row = np.zeros(len(intensity))
+    for edge, sign in zip(outermost(state.patches), (2.0, -2.0), strict=True):
+        if not state.sharp[edge]:
+            D = intensity[edge]
+            row[edge] = sign / (D if D > 0.0 else np.abs(intensity).mean())
+    return row
+
+
+def _last_panels(o: Operator) -> slice:
+    """The panels of the last gap of a period that is closing, which follow all others."""
+    return slice(int(np.searchsorted(o.gaps.gap, o.patches.number - 1)), None)
+
+
+def _last_gap(o: Operator) -> Array:
+    """The derivatives of K_N by the charges, (2N,): -(1/π) ρ_N(e) ∫ T_N/d(x, e) dx."""
+    P, last = o.patches, _last_panels(o)
+    x, T = o.gaps.points[last], o.gap_roots[0][last] * o.gaps.dx[last]
+    apart = P.chord.apart(x.anchor[..., None] - P.edges, x.offset[..., None])
+    ratio = edge_ratio(P, np.array([P.number - 1]))[0]
+    return np.asarray(-ratio / np.pi * (T[..., None] / apart).sum(axis=(0, 1)))
+
+
+def closed(o: Operator) -> Array:
+    """K_i of the N - 1 inner gaps; that of the last gap is added where a period is closing."""
+    P, pieces, k = o.patches, o.pieces, o.gaps
+    n = P.number - 1 + P.closing
+    if not n:
+        return np.zeros(0)
+    reference, T, D = gap_values(o)
+    b, a = P.b[:n], np.append(P.a[1:], P.a[0] + P.chord.period)[:n]
+    own, next_ = pieces.locate(b, "left"), pieces.locate(a)
+    base = pieces.value(own, b, 0.0)
+    # on one piece from either edge to the middle the reference is H itself, but for a break between
+    simple = (next_ - own <= 1) & (np.bincount(k.gap, ~k.follows, n) == 0.0)
+    broken = simple & (next_ > own)
+    reference = np.where(simple[k.gap, None], 0.0, reference - base[k.gap, None])
+    excess = (reference - T * D / np.pi) * k.dx
+    width = np.bincount(k.gap, k.dx.sum(axis=1), n)
+    integral = np.bincount(k.gap, excess.sum(axis=1), n)
+    risen = np.where(simple, 0.0, pieces.rises(b, a, walls=True) - base * width)
+    break_, middle = (pieces.ends[next_[broken]], 0.0), (b[broken], 0.5 * (a - b)[broken])
+    risen[broken] = pieces.rise(next_[broken], break_, middle)
+    risen[broken] -= pieces.rise(own[broken], break_, middle)
+    return np.asarray(risen - integral)
