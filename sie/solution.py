@@ -45,7 +45,7 @@ from .friction.partial_slip import slip
 from .friction.slip_state import Slip, Step
 from .kept_stages import changed_scene, kept_stages
 from .numerics.interval import Interval
-from .patches.answer import SeveralPatches, asks_for_patches, several_patches
+from .patches.answer import SeveralPatches, asks_for_patches, light_patches, several_patches
 from .patches.friction import PatchesUnder, PatchSlip
 from .patches.full import FullContact
 from .patches.result import PatchCertificate, worst_of
@@ -116,6 +116,12 @@ class Solution:
             return Normal(self.coupled[0], not self.scene.tangential_load)
         if asks_for_patches(self.scene.profile):
             return self._in_patches()
+        try:
+            several = light_patches(self.scene) if self._may_be_in_patches else None
+        except ContactError as error:
+            raise explained(error, self.scene.profile) from None
+        if several is not None:
+            return several
         try:
             return self.one_patch()
         except (InequalityError, LoadError, ResolutionError) as error:

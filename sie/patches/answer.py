@@ -24,7 +24,7 @@ from .half_width import Ways, contact_of_half_width
 from .of_scene import Problem, problem_of
 from .operator import Found, Operator
 from .result import PatchCertificate
-from .solver import contact, contact_near
+from .solver import contact, contact_near, light_contact, refuse_unknown_depths
 
 Array = NDArray[np.float64]
 
@@ -111,6 +111,22 @@ def several_patches(scene: Scene) -> SeveralPatches | FullContact:
         if not found.problem.given.load < MOST_STEEP * narrowest * narrowest:
             raise LoadError(OUT_OF_RANGE)
     return found
+
+
+def light_patches(scene: Scene) -> SeveralPatches | None:
+    """The contact of a scene in several patches, if its load presses several valleys lightly.
+
+    Raises LoadError where the rounding of h hides which of them touch.
+    """
+    if scene.normal_load is None or scene.moment is not None:
+        return None
+    with np.errstate(all="ignore"):
+        problem = problem_of(scene)
+        found = light_contact(problem, several=True)
+        if found is None:
+            return None
+        refuse_unknown_depths(found, problem.given)
+        return answered(problem, found, scene) if found.state.patches.number > 1 else None
 
 
 def _found(problem: Problem, scene: Scene) -> tuple[Problem, Found]:

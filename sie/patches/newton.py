@@ -45,6 +45,7 @@ SETTLED = 1e-11  # half-widths of its patch: steps below, that stop shrinking, a
 FINAL = 4e-15
 QUADRATIC = 1e-3  # half-widths: the steps decrease quadratically from here on
 ULPS = 8.0  # of an edge and of the load: no step tells less
+BLURRED = 1e-7  # of the load over E*/2: approaches are equal to the rounding of h if that is more
 NARROW = 1e-5  # half-widths: steps are told from this width of a gap on
 # times that an edge is asked back, and the part of the mean: only clear tension counts from then on
 TURNS, CLEARLY = 3, 0.03
@@ -54,11 +55,16 @@ INSISTS = 12  # steps in a row that a damped edge asks for more: an event
 
 
 class Linear(NamedTuple):
-    """The conditions at a state: what is missed, the Jacobian, and D at the edges."""
+    """The conditions at a state: what is missed, the Jacobian, and D at the edges.
+
+    `rounding` (N - 1,) bounds that of the approaches, by h from patch to patch and by the places of
+    the edges.
+    """
 
     missed: Array
     matrix: Array
     intensity: Array
+    rounding: Array
 
     @property
     def solution(self) -> Array:
@@ -93,7 +99,14 @@ def conditions(state: State, pieces: Pieces, given: Given) -> tuple[Operator, Li
     charged[N : 2 * N - 1] = 0.0  # D contains them
     charged[2 * N] *= given.moment is not None
     intensity = np.where(state.sharp, 0.0, at_edges(o))
-    return o, Linear(missed + charged, matrix, intensity)
+    missed += charged
+    rounding = pieces.rounding(P.b[:-1], P.a[1:]) + EPS * abs(state.tilt) * P.gaps[: N - 1]
+    slack = np.abs(matrix[: 2 * N - 1, : 2 * N]) @ (0.5 * np.abs(intensity) * np.spacing(np.abs(e)))
+    slack[N:] += rounding
+    if (slack[N:] > BLURRED * given.load).any():
+        # else rounding moves the edges to and fro, and with them the load
+        missed[: 2 * N - 1][np.abs(missed[: 2 * N - 1]) <= slack] = 0.0
+    return o, Linear(missed, matrix, intensity, slack[N:])
 
 
 def closures(o: Operator, ratio: Array) -> tuple[Array, Array]:
@@ -113,11 +126,26 @@ def closures(o: Operator, ratio: Array) -> tuple[Array, Array]:
 
 def moves(state: State, linear: Linear, load: float) -> Array:
     """The derivatives of the edges (2N,) by ln P; those of sharp ones are 0."""
+    right = np.zeros(len(linear.missed))
+    right[2 * state.patches.number - 1] = load
+    return _moves(state, linear, right)
+
+
+def rounded_moves(state: State, linear: Linear) -> Array:
+    """How far the rounding of h from patch to patch moves the edges (2N,).
+
+    That of the valleys lifts every other one, which is the worst for neighbours.
+    """
+    N = state.patches.number
+    right = np.zeros(len(linear.missed))
+    right[N : 2 * N - 1] = linear.rounding * (-1.0) ** np.arange(N - 1)
+    return _moves(state, linear, right) if N > 1 else np.zeros(2)
+
+
+def _moves(state: State, linear: Linear, right: Array) -> Array:
+    """The moves of the edges under a change of the conditions."""
     size = np.abs(linear.matrix).max(axis=1)
-    n = 2 * state.patches.number
-    right = np.zeros(n + 1)
-    right[n - 1] = load
-    y = np.linalg.solve(linear.matrix / size[:, None], right / size)[:n]
+    y = np.linalg.solve(linear.matrix / size[:, None], right / size)[: len(state.sharp)]
     with np.errstate(divide="ignore", invalid="ignore"):
         moved = 2.0 * y / np.where(state.sharp, 1.0, linear.intensity)
     return np.where(state.sharp, 0.0, moved)
@@ -199,7 +227,7 @@ def solve(
         # D depends on the charges: they first
         unknown = state.sharp.any() and not state.charge.any()
         damping = damping.limited(state, 0.0 * asked if unknown else asked, pieces.concave)
-        size = relative_size(state, y, _told(state, asked, moves(state, linear, given.load)))
+        size = relative_size(state, y, _told(state, asked, linear, given.load))
         limits = pieces.solid_around(state.patches.c), given.moment is not None
         state, clipped = moved(state, damping.moved, y, limits)
         sizes.append(np.inf if clipped else size)
@@ -235,10 +263,13 @@ def wished(state: State, linear: Linear, y: Array, turns: Array) -> Array:
     return np.where(pulls, inward, np.where(smooth, 2.0 * y[: 2 * N] / D, 0.0))
 
 
-def _told(state: State, asked: Array, moves: Array) -> Array:
-    """The moves of edges, less what doubles of the edges and of the load do not resolve."""
-    least = np.spacing(np.abs(state.patches.edges)) + EPS * np.nan_to_num(np.abs(moves))
-    return np.maximum(np.abs(asked) - ULPS * least, 0.0)
+def _told(state: State, asked: Array, linear: Linear, load: float) -> Array:
+    """The moves of edges, less what doubles of the edges, of the load and of h do not resolve."""
+    least = np.spacing(np.abs(state.patches.edges))
+    least += EPS * np.nan_to_num(np.abs(moves(state, linear, load)))
+    seen = linear._replace(rounding=np.where(linear.rounding > BLURRED * load, 0.0, linear.rounding))
+    blurred = np.nan_to_num(np.abs(rounded_moves(state, seen)))
+    return np.maximum(np.abs(asked) - np.maximum(ULPS * least, blurred), 0.0)
 
 
 def relative_size(state: State, y: Array, told: Array) -> float:

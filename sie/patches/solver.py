@@ -32,10 +32,13 @@ from .start import cells_of, grid_pressure
 from .start_state import start_of
 from .state import Effort, Event, Findings, Given, State, balances
 from .tension import tensions
-from .window import COARSE, WIDENED, fitted_window, levels
+from .valleys import graded_about, is_light, pressed, valleys, within_reach
+from .window import COARSE, WIDENED, falls, fitted_window, levels, whole_window
 
 Array = NDArray[np.float64]
 
+# part by which the rounding of h may change the load of a patch
+UNKNOWN = 0.01
 SAME = 1e-9  # half-widths: by which starts differ that do not lead to the same
 ROUNDS, STALLS = 30, 1  # the most rounds, and those that end without edges or an event
 SEVERAL = 12  # patches: of more than these, cuts are sought ...
@@ -72,6 +75,7 @@ def contact_near(problem: Problem, near: Found) -> Found | None:
     try:
         found = settled(near.state, near.operator.pieces, problem)
         refuse_unknown_ends(found.state, problem)
+        refuse_unknown_depths(found, problem.given)
         if _overlap_beyond(found, problem, window) == window:
             return _in_one_period(found, problem)
     except (*ASTRAY, Exhausted):
@@ -83,7 +87,9 @@ def contact(problem: Problem) -> Found:
     """The patches of a problem. Raises ContactError where none are certified."""
     problem = replace(problem, effort=Effort())
     try:
-        return _in_windows(problem)
+        found = _in_windows(problem)
+        refuse_unknown_depths(found, problem.given)
+        return found
     except Exhausted:
         moment = problem.given.moment is not None
         raise LoadError(
@@ -94,6 +100,9 @@ def contact(problem: Problem) -> Found:
 
 
 def _in_windows(problem: Problem) -> Found:
+    light = light_contact(problem)
+    if light is not None:
+        return _in_one_period(light, problem)
     window = fitted_window(problem)
     for _ in range(WIDENED):
         found = _within(problem, window)
@@ -105,6 +114,33 @@ def _in_windows(problem: Problem) -> Found:
         f"contact goes on beyond [{window[0]:.6g}, {window[1]:.6g}]: the slope rises too little; "
         "give a domain"
     )
+
+
+def light_contact(problem: Problem, several: bool = False) -> Found | None:
+    """The patches of a load that presses each valley like a parabola; None if it does not.
+
+    `several`: they are sought only where more than one valley may touch.
+    """
+    if problem.given.moment is not None:
+        return None
+    window, chord, tilt = whole_window(problem), problem.chord, problem.given.tilt
+    if several and not falls(problem, window):
+        return None
+    try:
+        pieces = problem.pieces(window)
+        every = within_reach(valleys(pieces, window, tilt), problem.given.load, pieces, chord)
+        if len(every.x) < 1 + several:
+            return None
+        found = pressed(every, problem.given.load, chord)
+        if found is None or not is_light(*found, pieces, tilt, chord):
+            return None
+        (x, *_), r = found
+        pieces = problem.pieces(window, graded_about(x, r, window))
+        light = settled(bounded(x - r, x + r, pieces, chord, tilt), pieces, problem)
+    except (*ASTRAY, Exhausted):
+        return None
+    refuse_unknown_ends(light.state, problem)
+    return light
 
 
 def _in_one_period(found: Found, problem: Problem) -> Found:
@@ -227,6 +263,37 @@ def refuse_unknown_ends(state: State, problem: Problem) -> None:
             )
 
 
+def refuse_unknown_depths(found: Found, given: Given) -> None:
+    """Raises LoadError where the rounding of h decides which valleys touch, or how they share."""
+    P, findings = found.state.patches, found.findings
+    if findings.doubt:
+        k = int(np.argmin(np.abs(P.c - findings.place)))
+        away = abs(findings.place - P.c[k])
+        decides = given.load / np.pi * (np.log(max(2.0 * away / P.r[k], 1.0)) + 0.5)
+        if findings.doubt > UNKNOWN * decides:
+            raise _unknown_depth(given, (P.c[k], findings.place), findings.doubt, decides)
+    if P.number == 1:
+        return
+    linear = newton.conditions(found.state, found.operator.pieces, given)[1]
+    moved = newton.rounded_moves(found.state, linear)
+    if 2.0 * float(np.abs(moved / np.repeat(P.r, 2)).max()) > UNKNOWN:
+        k = int(np.argmax(linear.rounding))
+        decides = given.load / np.pi * (np.log(2.0 * (P.c[k + 1] - P.c[k]) / P.r[k]) + 0.5)
+        raise _unknown_depth(given, (P.c[k], P.c[k + 1]), linear.rounding[k], decides)
+
+
+def _unknown_depth(
+    given: Given, places: tuple[float, float], known: float, decides: float
+) -> LoadError:
+    x1, x2 = sorted(places)
+    return LoadError(
+        f"which of the valleys at x = {x1:.6g} and {x2:.6g} touch, and how they share the load, is "
+        f"decided by a difference of their depths of {decides:.2g} at normal_load over E*/2 = "
+        f"{given.load:.6g}, and doubles of h tell {known:.2g}: raise the load, or give a profile "
+        "of which only one valley is as deep"
+    )
+
+
 # -- Newton's method and repairs -------------------------------------------------------------------
 
 
@@ -257,7 +324,7 @@ def settled(state: State, pieces: Pieces, problem: Problem) -> Found:
             early = early if pulled or event is not None else 0
             state = mended(state, Findings(pulled, (), lowest), pieces) if pulled else state
             continue
-        found = Found(state, o, findings(o), steps)
+        found = Found(state, o, findings(o, state.tilt, problem.given.load), steps)
         if found.findings.ok:
             return found
         if not found.findings.overlap and found.findings.lowest > -NEARLY:
@@ -293,10 +360,11 @@ def _unsettled(problem: Problem, patches: int, reached: float = 0.0) -> LoadErro
     )
 
 
-def findings(o: Operator) -> Findings:
+def findings(o: Operator, tilt: float, load: float) -> Findings:
     """What the bounds of pressure and gap find."""
     tension, lowest = tensions(o)
-    return Findings(tension, overlaps(o), lowest)
+    looked = overlaps(o, tilt, load)
+    return Findings(tension, looked.overlap, lowest, looked.doubt, looked.place)
 
 
 def _rounded(state: State) -> tuple[object, ...]:
@@ -308,7 +376,8 @@ def _rounded(state: State) -> tuple[object, ...]:
 
 def _after(event: Event, state: State, pieces: Pieces, given: Given) -> State:
     if event.kind == "smooth":  # a cut may leave the end without pull
-        found = findings(Operator(state.patches, pieces, np.where(state.sharp, state.charge, 0.0)))
+        charged = np.where(state.sharp, state.charge, 0.0)
+        found = findings(Operator(state.patches, pieces, charged), state.tilt, given.load)
         if found.tension:
             return mended(state, found, pieces)
     left = after(event, state, pieces)

@@ -14,6 +14,10 @@ NARROWEST = 0.02  # of the window: what contact takes at least of a window that 
 FITTED = 0.18
 COARSE = 512  # cells of the grid on which the window is sought
 WINDOWS = 200
+# lengths, and places on each side, at which a function without ends is looked at; beyond the last
+# of them at which it falls valleys are looked for so many times as far
+SCALES, PLACES, BEYOND = (1e-6, 1e9), 900, 4.0
+EVEN = 2000  # places of a window, between which a slope that only rises is not looked at
 WIDENED = 12  # times a window is widened, before the slope is said to rise too little
 
 
@@ -75,6 +79,47 @@ def _first_window(problem: Problem) -> tuple[float, float]:
         enough = [np.flatnonzero(force >= problem.given.load) for force in (right, left)]
     size = max((float(sizes[k[0]]) for k in enough if k.size), default=1.0)
     return max(lo, first - 4.0 * size), min(hi, last + 4.0 * size)
+
+
+def whole_window(problem: Problem) -> tuple[float, float]:
+    """An interval that holds all valleys of the profile: its domain, or of a function a part.
+
+    A function without ends is looked at from place to place, at least as far as its breaks and as
+    the load needs, and four times as far as it falls outwards.
+    """
+    lo, hi = problem.domain
+    if problem.chord.periodic:
+        return lo, lo + problem.chord.period
+    if not problem.by_slope or (np.isfinite(lo) and np.isfinite(hi)):
+        return lo, hi
+    first, last = _first_window(problem)
+    middle = 0.5 * (first + last)
+    distance = np.geomspace(SCALES[0], SCALES[1], PLACES)
+    ends = []
+    for side, end, limit in ((-1.0, first, lo), (1.0, last, hi)):
+        x = middle + side * distance
+        x = x[(x >= lo) & (x <= hi)]
+        with np.errstate(all="ignore"):
+            H = side * (problem.slope(x) + problem.given.tilt)
+        away = np.abs(x - middle)
+        falls = away[:-1][(H[:-1] <= 0.0) | (H[1:] < H[:-1])]
+        reach = max(abs(end - middle), BEYOND * float(falls.max(initial=0.0)))
+        ends.append(min(max(middle + side * reach, lo), hi) if np.isinf(limit) else limit)
+    return ends[0], ends[1]
+
+
+def falls(problem: Problem, window: tuple[float, float]) -> bool:
+    """Whether the slope falls anywhere: otherwise the profile has one valley.
+
+    A function is looked at from place to place, so that it need not be resolved for that.
+    """
+    if not problem.by_slope:
+        return True
+    x = np.union1d(np.linspace(*window, EVEN), problem.breaks)
+    x = x[(x >= window[0]) & (x <= window[1])]
+    with np.errstate(all="ignore"):
+        H = problem.slope(x)
+    return bool((H[1:] < H[:-1]).any())
 
 
 def levels(problem: Problem, window: tuple[float, float]) -> tuple[float, float]:
