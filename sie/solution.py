@@ -117,13 +117,15 @@ class Solution:
         if asks_for_patches(self.scene.profile):
             return self._in_patches()
         try:
-            several = light_patches(self.scene) if self._may_be_in_patches else None
+            light = light_patches(self.scene) if self._may_be_in_patches else None
         except ContactError as error:
             raise explained(error, self.scene.profile) from None
-        if several is not None:
-            return several
+        if light is not None and len(light.patches) > 1:
+            return light
         try:
-            return self.one_patch()
+            one = self.one_patch()
+            elsewhere = light is not None and not light.meets(one.edges.contact[:2])
+            return light if light is not None and elsewhere else one
         except (InequalityError, LoadError, ResolutionError) as error:
             if self._may_be_in_patches:
                 return self._in_patches(error)

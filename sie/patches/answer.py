@@ -52,6 +52,10 @@ class SeveralPatches:
     def patches(self) -> tuple[tuple[float, float], ...]:
         return self.pressure.patches
 
+    def meets(self, interval: tuple[float, float]) -> bool:
+        """Whether a patch has a place in common with an interval."""
+        return any(a <= interval[1] and b >= interval[0] for a, b in self.patches)
+
     def gap(self, x: Array) -> Array:
         """The gap at x (1-d), also beyond the window in which contact was sought."""
         o, (lo, hi), domain = self.found.operator, self.window, self.problem.domain
@@ -114,7 +118,7 @@ def several_patches(scene: Scene) -> SeveralPatches | FullContact:
 
 
 def light_patches(scene: Scene) -> SeveralPatches | None:
-    """The contact of a scene in several patches, if its load presses several valleys lightly.
+    """The contact of a scene whose profile has several valleys, if its load presses them lightly.
 
     Raises LoadError where the rounding of h hides which of them touch.
     """
@@ -126,7 +130,7 @@ def light_patches(scene: Scene) -> SeveralPatches | None:
         if found is None:
             return None
         refuse_unknown_depths(found, problem.given)
-        return answered(problem, found, scene) if found.state.patches.number > 1 else None
+        return answered(problem, found, scene)
 
 
 def _found(problem: Problem, scene: Scene) -> tuple[Problem, Found]:

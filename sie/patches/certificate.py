@@ -106,13 +106,17 @@ def _rounding(o: Operator, linear: Linear, given: Given, peak: float) -> float:
     missed = np.sqrt(((linear.matrix[:, : 2 * N] * charge) ** 2).sum(axis=1))
     beside = o.others(np.arange(N), Points(P.c[:, None], np.zeros((N, 1))))[:, 0]
     hull = 0.5 * float(P.b[-1] - P.a[0])
-    terms = np.abs(o.pieces.series[o.panels.piece]).sum(axis=1)
+    terms = o.pieces.terms(o.panels.piece, o.panels.points.x[:, 0])
+    # the rounding of a function is that of its values from patch to patch
+    between = slice(int(o.pieces.locate(P.a[0])), int(o.pieces.locate(P.b[-1])) + 1)
+    series = np.abs(o.pieces.series[between]).sum(axis=1)
+    largest = max(float(terms.max(initial=0.0)), float(series.max(initial=0.0)))
     return max(
         float((missed[:N] * beside).max()) / (np.pi * peak),
         float(missed[2 * N - 1]) / given.load,
         # the last row is the moment only where that is given
         float(missed[2 * N]) / (given.load * hull),
-        float(np.spacing(terms.max(initial=0.0))) / (2.0 * peak),
+        float(np.spacing(largest)) / (2.0 * peak),
     )
 
 

@@ -267,7 +267,9 @@ def _told(state: State, asked: Array, linear: Linear, load: float) -> Array:
     """The moves of edges, less what doubles of the edges, of the load and of h do not resolve."""
     least = np.spacing(np.abs(state.patches.edges))
     least += EPS * np.nan_to_num(np.abs(moves(state, linear, load)))
-    seen = linear._replace(rounding=np.where(linear.rounding > BLURRED * load, 0.0, linear.rounding))
+    seen = linear._replace(
+        rounding=np.where(linear.rounding > BLURRED * load, 0.0, linear.rounding)
+    )
     blurred = np.nan_to_num(np.abs(rounded_moves(state, seen)))
     return np.maximum(np.abs(asked) - np.maximum(ULPS * least, blurred), 0.0)
 

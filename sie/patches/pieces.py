@@ -165,10 +165,10 @@ class Pieces:
         with np.errstate(invalid="ignore"):
             step = self.value(k + 1, x, 0.0) - self.value(k, x, 0.0)
             # H itself may be next to nothing there
-            size = np.maximum(self._terms(k, x), self._terms(k + 1, x))
+            size = np.maximum(self.terms(k, x), self.terms(k + 1, x))
             return np.asarray(np.where(np.abs(step) > CORNER * size, step, 0.0))
 
-    def _terms(self, k: Index, x: Array) -> Array:
+    def terms(self, k: Index, x: Array) -> Array:
         """The sum of the magnitudes of what H of the pieces k at x is the sum of."""
         degree = np.arange(self.power.shape[1])
         power = np.abs(self.power[k]) * np.abs(x - self.origin[k])[:, None] ** degree
@@ -270,7 +270,7 @@ class Pieces:
     def _rounding(self, k: Index, x: Array, y: Array) -> Array:
         """The terms of h(y) - h(x) on pieces k, and what the places of a series come to."""
         length = y - x
-        terms = np.maximum(self._terms(k, x), self._terms(k, y)) * length
+        terms = np.maximum(self.terms(k, x), self.terms(k, y)) * length
         if self.series.shape[1] > 1:
             bent = np.abs(self.series[k, 1:]).sum(axis=1)
             terms = terms + np.where(length > 0.0, bent * np.maximum(np.abs(x), np.abs(y)), 0.0)

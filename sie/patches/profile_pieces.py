@@ -52,9 +52,7 @@ def _joined(parts: list[Pieces]) -> Pieces:
     return Pieces(ends, origin, power, np.concatenate(series), *others)
 
 
-def _resolved(
-    slope: Slope, window: tuple[float, float], tol: float, cuts: Array | None
-) -> Pieces:
+def _resolved(slope: Slope, window: tuple[float, float], tol: float, cuts: Array | None) -> Pieces:
     if cuts is None or not slope.functions:
         return from_slope(slope, window, tol)
     ends = [window[0], *cuts[(cuts > window[0]) & (cuts < window[1])].tolist(), window[1]]

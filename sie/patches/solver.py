@@ -18,7 +18,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from sie.errors import ContactError, LoadError
+from sie.errors import ContactError, LoadError, ResolutionError
 
 from . import newton
 from .gap import gap, overlaps
@@ -33,7 +33,7 @@ from .start_state import start_of
 from .state import Effort, Event, Findings, Given, State, balances
 from .tension import tensions
 from .valleys import graded_about, is_light, pressed, valleys, within_reach
-from .window import COARSE, WIDENED, falls, fitted_window, levels, whole_window
+from .window import COARSE, WIDENED, falling, fitted_window, levels, whole_window
 
 Array = NDArray[np.float64]
 
@@ -77,7 +77,7 @@ def contact_near(problem: Problem, near: Found) -> Found | None:
         refuse_unknown_ends(found.state, problem)
         refuse_unknown_depths(found, problem.given)
         if _overlap_beyond(found, problem, window) == window:
-            return _in_one_period(found, problem)
+            return _in_one_period(_with_far_valleys(found, problem), problem)
     except (*ASTRAY, Exhausted):
         pass
     return None
@@ -108,7 +108,7 @@ def _in_windows(problem: Problem) -> Found:
         found = _within(problem, window)
         beyond = _overlap_beyond(found, problem, window)
         if beyond == window:
-            return _in_one_period(found, problem)
+            return _in_one_period(_with_far_valleys(found, problem), problem)
         window = beyond
     raise LoadError(
         f"contact goes on beyond [{window[0]:.6g}, {window[1]:.6g}]: the slope rises too little; "
@@ -119,23 +119,25 @@ def _in_windows(problem: Problem) -> Found:
 def light_contact(problem: Problem, several: bool = False) -> Found | None:
     """The patches of a load that presses each valley like a parabola; None if it does not.
 
-    `several`: they are sought only where more than one valley may touch.
+    `several`: they are sought only if the profile has more than one valley.
     """
     if problem.given.moment is not None:
         return None
     window, chord, tilt = whole_window(problem), problem.chord, problem.given.tilt
-    if several and not falls(problem, window):
+    hints = falling(problem, window)
+    if several and not hints.size:
         return None
     try:
-        pieces = problem.pieces(window)
-        every = within_reach(valleys(pieces, window, tilt), problem.given.load, pieces, chord)
-        if len(every.x) < 1 + several:
+        pieces = problem.pieces(window, hints)
+        every = valleys(pieces, window, tilt)
+        if several and len(every.x) < 2:
             return None
-        found = pressed(every, problem.given.load, chord)
+        near = within_reach(every, problem.given.load, pieces, chord)
+        found = pressed(near, problem.given.load, chord)
         if found is None or not is_light(*found, pieces, tilt, chord):
             return None
         (x, *_), r = found
-        pieces = problem.pieces(window, graded_about(x, r, window))
+        pieces = problem.pieces(window, np.union1d(graded_about(x, r, window, chord), hints))
         light = settled(bounded(x - r, x + r, pieces, chord, tilt), pieces, problem)
     except (*ASTRAY, Exhausted):
         return None
@@ -240,6 +242,28 @@ def _overlap_beyond(
         if below.size:
             wider[k] = float(x[1:][below[0]]) + side * 2.0 * (hi - lo)
     return max(wider[0], problem.domain[0]), min(wider[1], problem.domain[1])
+
+
+def _with_far_valleys(found: Found, problem: Problem) -> Found:
+    """The same contact, or that in which valleys beyond its window touch as well.
+
+    They are all looked at, unless the function has more features than can be resolved.
+    """
+    window, whole = found.operator.pieces.domain, whole_window(problem)
+    if problem.chord.periodic or (window[0] <= whole[0] and window[1] >= whole[1]):
+        return found
+    try:
+        wide = min(window[0], whole[0]), max(window[1], whole[1])
+        pieces = problem.pieces(wide, np.union1d(window, falling(problem, wide)))
+    except ResolutionError:
+        return found
+    state = found.state
+    seen = findings(
+        Operator(state.patches, pieces, found.operator.Y), state.tilt, problem.given.load
+    )
+    if seen.overlap:
+        return settled(mended(state, replace(seen, tension=()), pieces), pieces, problem)
+    return replace(found, findings=replace(found.findings, doubt=seen.doubt, place=seen.place))
 
 
 def refuse_unknown_ends(state: State, problem: Problem) -> None:

@@ -89,12 +89,18 @@ def within_reach(found: Valleys, load: float, pieces: Pieces, chord: Chord) -> V
     return found.chosen(z - z.min() <= REACH * load * (1.0 - np.log(size)) + unknown)
 
 
-def graded_about(x: Array, r: Array, window: tuple[float, float]) -> Array:
+def graded_about(x: Array, r: Array, window: tuple[float, float], chord: Chord) -> Array:
     """Places about patches x of half-widths r, which cut a window into parts that shrink to them.
 
     A function that is resolved on each of them keeps its digits in the patches.
     """
     ends = np.concatenate((window[:1], x, window[1:]))
+    if chord.periodic:  # a patch may be at the cut of the period
+        x, r = (
+            np.concatenate([v + k * p for k in (-1.0, 0.0, 1.0)])
+            for v, p in ((x, chord.period), (r, 0.0))
+        )
+        ends = np.concatenate((x[:1] - chord.period, x, x[-1:] + chord.period))
     room = np.minimum(x - ends[:-2], ends[2:] - x)
     cuts = []
     for place, first, most in zip(x.tolist(), r.tolist(), room.tolist(), strict=True):
@@ -109,7 +115,9 @@ def _rising(pieces: Pieces, bounds: tuple[float, float], tilt: float) -> Runs:
 
     Parts are halved until bounds show that H has one sign there, or that it rises or falls.
     """
-    cuts = np.concatenate((bounds, pieces.cuts[(pieces.cuts > bounds[0]) & (pieces.cuts < bounds[1])]))
+    cuts = np.concatenate(
+        (bounds, pieces.cuts[(pieces.cuts > bounds[0]) & (pieces.cuts < bounds[1])])
+    )
     cuts = np.unique(cuts)
     lo, hi = cuts[:-1], cuts[1:]
     piece = pieces.locate(0.5 * (lo + hi))

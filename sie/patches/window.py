@@ -16,8 +16,9 @@ COARSE = 512  # cells of the grid on which the window is sought
 WINDOWS = 200
 # lengths, and places on each side, at which a function without ends is looked at; beyond the last
 # of them at which it falls valleys are looked for so many times as far
-SCALES, PLACES, BEYOND = (1e-6, 1e9), 900, 4.0
-EVEN = 2000  # places of a window, between which a slope that only rises is not looked at
+SCALES, PLACES, BEYOND = (1e-6, 1e9), 6000, 4.0
+EVEN = 10_000  # places of a window, between which a function is not looked at
+MOST_NARROW = 128  # ends of parts on which it falls: waves in greater number show by themselves
 WIDENED = 12  # times a window is widened, before the slope is said to rise too little
 
 
@@ -108,18 +109,27 @@ def whole_window(problem: Problem) -> tuple[float, float]:
     return ends[0], ends[1]
 
 
-def falls(problem: Problem, window: tuple[float, float]) -> bool:
-    """Whether the slope falls anywhere: otherwise the profile has one valley.
+def falling(problem: Problem, window: tuple[float, float]) -> Array:
+    """Places about the parts where the slope falls; none if the profile has one valley only.
 
-    A function is looked at from place to place, so that it need not be resolved for that.
+    A function is looked at from place to place. Pieces that end at these places show what is as
+    narrow as they are apart.
     """
     if not problem.by_slope:
-        return True
-    x = np.union1d(np.linspace(*window, EVEN), problem.breaks)
+        return np.zeros(1)
+    even = np.linspace(*window, EVEN)
+    middle, far = 0.5 * (window[0] + window[1]), 0.5 * (window[1] - window[0])
+    near = far * np.geomspace(SCALES[0], 1.0, PLACES)
+    x = np.unique(np.concatenate((even, middle - near, middle + near, problem.breaks)))
     x = x[(x >= window[0]) & (x <= window[1])]
     with np.errstate(all="ignore"):
         H = problem.slope(x)
-    return bool((H[1:] < H[:-1]).any())
+    falls = H[1:] < H[:-1]
+    ends = np.flatnonzero(np.diff(np.concatenate(([False], falls, [False]))))
+    step = len(x) // 8  # of parts that long the resolution needs no hint
+    narrow = np.repeat(ends[1::2] - ends[::2] < step, 2)
+    kept = ends[narrow] if np.count_nonzero(narrow) <= MOST_NARROW else ends[:1]
+    return x[np.minimum(kept if kept.size else ends, len(x) - 1)]
 
 
 def levels(problem: Problem, window: tuple[float, float]) -> tuple[float, float]:
