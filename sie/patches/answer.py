@@ -24,7 +24,7 @@ from .half_width import Ways, contact_of_half_width
 from .of_scene import Problem, problem_of
 from .operator import Found, Operator
 from .result import PatchCertificate
-from .solver import contact, contact_near, light_contact, refuse_unknown_depths
+from .solver import contact, contact_near, light_contact
 
 Array = NDArray[np.float64]
 
@@ -129,7 +129,6 @@ def light_patches(scene: Scene) -> SeveralPatches | None:
         found = light_contact(problem, several=True)
         if found is None:
             return None
-        refuse_unknown_depths(found, problem.given)
         return answered(problem, found, scene)
 
 

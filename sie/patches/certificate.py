@@ -19,7 +19,7 @@ from sie.numerics import chebyshev
 
 from .chord import Points
 from .density import PatchPressure
-from .newton import Linear, conditions, moves
+from .newton import Linear, conditions, moves, rounded_moves
 from .operator import Found, Operator
 from .panels import LONG, PatchPanels
 from .result import LEAST, PatchCertificate
@@ -41,6 +41,7 @@ PLACES = 120  # at which it is, about
 TOGETHER = 32  # of them at once
 EXPLAINED = 16.0  # times what half an ulp of the edges changes
 MOST = 1e-3  # of the peak: where that is more nothing is certified
+SHARED = 1e-9  # of the load of a patch: what the rounding of h may change without a note
 CLOSE = 1e4  # condition from which a patch is about to appear, or two to merge
 
 
@@ -73,7 +74,7 @@ def certificate(
         tol=tol,
         tension=tuple((t.lo, t.hi) for t in found.findings.tension),
         overlap=tuple((v.lo, v.hi) for v in found.findings.overlap),
-        notes=_notes(condition),
+        notes=_notes(condition) + _notes_on_heights(found, linear),
     )
 
 
@@ -85,6 +86,25 @@ def _notes(condition: float) -> tuple[str, ...]:
         f"1e-9 changes the narrowest patch by {1e-9 * condition:.0e} of its width"
     )
     return (sentence,)
+
+
+def _notes_on_heights(found: Found, linear: Linear) -> tuple[str, ...]:
+    """What the rounding of h leaves open: the loads of patches, and whether there is another."""
+    P, doubt = found.state.patches, found.findings.doubt
+    moved = rounded_moves(found.state, linear) / np.repeat(P.r, 2)
+    share = 2.0 * float(np.nan_to_num(np.abs(moved)).max())
+    notes = []
+    if share > SHARED:
+        notes.append(
+            "note: the depths of the valleys are known to the rounding of h, and the loads of the "
+            f"patches to {share:.0e} of them"
+        )
+    if doubt:
+        notes.append(
+            f"note: doubles of h tell {doubt:.0e} of a depth, and do not tell whether the bodies "
+            f"touch at x = {found.findings.place:.6g}"
+        )
+    return tuple(notes)
 
 
 def conditioning(state: State, linear: Linear, given: Given) -> float:

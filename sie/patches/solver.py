@@ -32,13 +32,20 @@ from .start import cells_of, grid_pressure
 from .start_state import start_of
 from .state import Effort, Event, Findings, Given, State, balances
 from .tension import tensions
+from .unknown import refuse_unknown_depths, refuse_unknown_ends
 from .valleys import graded_about, is_light, pressed, valleys, within_reach
-from .window import COARSE, WIDENED, falling, fitted_window, levels, whole_window
+from .window import (
+    COARSE,
+    WIDENED,
+    falling,
+    fitted_window,
+    levels,
+    overlap_beyond,
+    whole_window,
+)
 
 Array = NDArray[np.float64]
 
-# part by which the rounding of h may change the load of a patch
-UNKNOWN = 0.01
 SAME = 1e-9  # half-widths: by which starts differ that do not lead to the same
 ROUNDS, STALLS = 30, 1  # the most rounds, and those that end without edges or an event
 SEVERAL = 12  # patches: of more than these, cuts are sought ...
@@ -60,8 +67,6 @@ Start = Callable[[Problem], State]
 FEWEST_CELLS, MOST_CELLS = 2048, 1 << 18
 FINER = 8  # a second grid, if the first as a start leads nowhere
 CELLS = 1.5  # for each break in the window
-# Windows beyond a window, and places there, at which the bodies must not overlap
-FAR, LOOKED_AT = 1e3, 4000
 
 
 class Exhausted(Exception):
@@ -75,8 +80,8 @@ def contact_near(problem: Problem, near: Found) -> Found | None:
     try:
         found = settled(near.state, near.operator.pieces, problem)
         refuse_unknown_ends(found.state, problem)
-        refuse_unknown_depths(found, problem.given)
-        if _overlap_beyond(found, problem, window) == window:
+        _refuse_unknown(found, problem.given)
+        if overlap_beyond(found, problem, window, gap) == window:
             return _in_one_period(_with_far_valleys(found, problem), problem)
     except (*ASTRAY, Exhausted):
         pass
@@ -88,7 +93,7 @@ def contact(problem: Problem) -> Found:
     problem = replace(problem, effort=Effort())
     try:
         found = _in_windows(problem)
-        refuse_unknown_depths(found, problem.given)
+        _refuse_unknown(found, problem.given)
         return found
     except Exhausted:
         moment = problem.given.moment is not None
@@ -106,7 +111,7 @@ def _in_windows(problem: Problem) -> Found:
     window = fitted_window(problem)
     for _ in range(WIDENED):
         found = _within(problem, window)
-        beyond = _overlap_beyond(found, problem, window)
+        beyond = overlap_beyond(found, problem, window, gap)
         if beyond == window:
             return _in_one_period(_with_far_valleys(found, problem), problem)
         window = beyond
@@ -142,7 +147,14 @@ def light_contact(problem: Problem, several: bool = False) -> Found | None:
     except (*ASTRAY, Exhausted):
         return None
     refuse_unknown_ends(light.state, problem)
+    _refuse_unknown(light, problem.given)
     return light
+
+
+def _refuse_unknown(found: Found, given: Given) -> None:
+    linear = newton.conditions(found.state, found.operator.pieces, given)[1]
+    moved = newton.rounded_moves(found.state, linear)
+    refuse_unknown_depths(found, given, linear.rounding, moved)
 
 
 def _in_one_period(found: Found, problem: Problem) -> Found:
@@ -205,45 +217,6 @@ def _within(problem: Problem, window: tuple[float, float]) -> Found:
     return found
 
 
-def _overlap_beyond(
-    found: Found, problem: Problem, window: tuple[float, float]
-) -> tuple[float, float]:
-    """A wider window where this one is too narrow for a load that is a force.
-
-    It is so where contact reaches its end, or the bodies overlap beyond it.
-    """
-    lo, hi = found.operator.pieces.domain
-    if problem.chord.periodic or (lo, hi) == problem.domain:
-        return window
-    P = found.state.patches
-    a, b = float(P.a[0]), float(P.b[-1])
-    wider = [lo, hi]
-    for k, (end, limit, side) in enumerate(
-        ((lo, problem.domain[0], -1.0), (hi, problem.domain[1], 1.0))
-    ):
-        if end == limit:
-            continue
-        if end == (a, b)[k]:
-            wider[k] = end + side * 4.0 * (hi - lo)
-            continue
-        distance = (hi - lo) * np.geomspace(1e-3, FAR, LOOKED_AT)
-        x = np.clip(end + side * distance, min(end, limit), max(end, limit))
-        with np.errstate(all="ignore"):
-            H = problem.slope(x) + found.state.tilt
-            rise = np.cumsum(side * 0.5 * (H[1:] + H[:-1]) * np.abs(np.diff(x)))
-            middle = 0.5 * (a + b)
-            opened = float(gap(found.operator, np.array([end]))[0])
-            g = (
-                opened
-                + rise
-                - problem.given.load / np.pi * np.log(np.abs((x[1:] - middle) / (x[0] - middle)))
-            )
-            below = np.flatnonzero(g < -1e-3 * max(opened, 0.0))
-        if below.size:
-            wider[k] = float(x[1:][below[0]]) + side * 2.0 * (hi - lo)
-    return max(wider[0], problem.domain[0]), min(wider[1], problem.domain[1])
-
-
 def _with_far_valleys(found: Found, problem: Problem) -> Found:
     """The same contact, or that in which valleys beyond its window touch as well.
 
@@ -264,58 +237,6 @@ def _with_far_valleys(found: Found, problem: Problem) -> Found:
     if seen.overlap:
         return settled(mended(state, replace(seen, tension=()), pieces), pieces, problem)
     return replace(found, findings=replace(found.findings, doubt=seen.doubt, place=seen.place))
-
-
-def refuse_unknown_ends(state: State, problem: Problem) -> None:
-    """Raises LoadError where contact reaches an end beyond which the indenter is not known."""
-    edges = zip(state.patches.edges[[0, -1]].tolist(), problem.domain, problem.corners, strict=True)
-    for edge, end, corner in edges:
-        if edge != end or problem.chord.periodic:
-            continue
-        if not np.isfinite(float(problem.slope(np.array([end]))[0])):
-            raise LoadError(
-                f"the slope is infinite at the end x = {end:.6g} of its domain, which the "
-                "contact comes near: "
-                "narrow the domain"
-            )
-        if not corner:
-            raise LoadError(
-                f"the contact reaches the end of the trace at x = {end:.6g}, and what the indenter "
-                "is like beyond is not known: lower the load or the tilt, repeat the trace by "
-                "sie.Periodic(trace, period), or measure further out",
-                end=end,
-            )
-
-
-def refuse_unknown_depths(found: Found, given: Given) -> None:
-    """Raises LoadError where the rounding of h decides which valleys touch, or how they share."""
-    P, findings = found.state.patches, found.findings
-    if findings.doubt:
-        k = int(np.argmin(np.abs(P.c - findings.place)))
-        away = abs(findings.place - P.c[k])
-        decides = given.load / np.pi * (np.log(max(2.0 * away / P.r[k], 1.0)) + 0.5)
-        if findings.doubt > UNKNOWN * decides:
-            raise _unknown_depth(given, (P.c[k], findings.place), findings.doubt, decides)
-    if P.number == 1:
-        return
-    linear = newton.conditions(found.state, found.operator.pieces, given)[1]
-    moved = newton.rounded_moves(found.state, linear)
-    if 2.0 * float(np.abs(moved / np.repeat(P.r, 2)).max()) > UNKNOWN:
-        k = int(np.argmax(linear.rounding))
-        decides = given.load / np.pi * (np.log(2.0 * (P.c[k + 1] - P.c[k]) / P.r[k]) + 0.5)
-        raise _unknown_depth(given, (P.c[k], P.c[k + 1]), linear.rounding[k], decides)
-
-
-def _unknown_depth(
-    given: Given, places: tuple[float, float], known: float, decides: float
-) -> LoadError:
-    x1, x2 = sorted(places)
-    return LoadError(
-        f"which of the valleys at x = {x1:.6g} and {x2:.6g} touch, and how they share the load, is "
-        f"decided by a difference of their depths of {decides:.2g} at normal_load over E*/2 = "
-        f"{given.load:.6g}, and doubles of h tell {known:.2g}: raise the load, or give a profile "
-        "of which only one valley is as deep"
-    )
 
 
 # -- Newton's method and repairs -------------------------------------------------------------------
