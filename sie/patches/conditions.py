@@ -22,14 +22,20 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from sie.numerics.interval import EPS
+
 from .edge_charges import EdgeCharges
 from .measure import edge_ratio
 from .operator import Operator, at_edges, gap_values
 from .panels import Patches
 from .pieces import Pieces
 from .state import Given, State
+from .sums import parts
 
 Array = NDArray[np.float64]
+
+# of the load over E*/2: K are 0 to the rounding of h if that is more
+BLURRED = 1e-7
 
 
 class Linear(NamedTuple):
@@ -40,6 +46,7 @@ class Linear(NamedTuple):
     intensity   D at the edges, (2N,); 0 at sharp ones
     replaced    the numbers of those that gave way to others, (R,)
     rows        the derivatives of the others by the charges, (R, 2N)
+    rounding    a bound of that of the K, by h from patch to patch and by the places of the edges
     """
 
     missed: Array
@@ -47,6 +54,7 @@ class Linear(NamedTuple):
     intensity: Array
     replaced: list[int]
     rows: Array
+    rounding: Array
 
     def charged(self, changes: Array) -> Array:
         """Charges and the change of the tilt, (2N + 1, m), by changes of the conditions."""
@@ -70,6 +78,19 @@ class Linear(NamedTuple):
     def growth(self, state: State, size: float) -> Array:
         """The derivatives of the edges (2N,) by ln P, or by that of the half-width in its place."""
         return self.moves(state, self.charged(loaded(state, size))[:, 0])
+
+    def roundings(self, most: float = np.inf) -> Array:
+        """The change of the conditions by the rounding of h where that is at most so much.
+
+        That of the valleys lifts every other one, which is the worst for neighbours: (2N + 1, 1).
+        """
+        changes, K = np.zeros((len(self.missed), 1)), self.rounding
+        changes[len(K) + 1 : -2, 0] = np.where(most < K, 0.0, K) * (-1.0) ** np.arange(len(K))
+        return changes
+
+    def rounded_moves(self, state: State) -> Array:
+        """How far the rounding of h from patch to patch moves the edges (2N,)."""
+        return self.moves(state, self.charged(self.roundings())[:, 0])
 
 
 def loaded(state: State, size: float) -> Array:
@@ -96,15 +117,20 @@ def conditions(state: State, pieces: Pieces, given: Given) -> tuple[Operator, Li
     missed = _unclosed(o, state.tilt + o.H0, given)
     missed[N:-2] = K[: N - 1]  # D contains what charges change in the gaps
     intensity = np.where(state.sharp, 0.0, at_edges(o))
+    slack = _slack(o, state.tilt, intensity)
     replaced, rows = [], []
     if P.closing:
         replaced, rows = [int(np.argmax(P.r))], [_last_gap(o)]
-        missed[replaced] = K[-1]
+        missed[replaced], slack[replaced] = K[-1], slack[-2]
+    slack[-2:] = 0.0
+    if (slack[N:] > BLURRED * given.load).any():
+        # else rounding moves the edges to and fro, and with them the load
+        missed[np.abs(missed) <= slack] = 0.0
     if given.half_width is not None and given.by_width:
         missed[-2] = _width(P) - 2.0 * given.half_width
         replaced, rows = [*replaced, 2 * N - 1], [*rows, _of_width(state, intensity)]
     charges = edge_charges(o, given.moment is not None)
-    return o, Linear(missed, charges, intensity, replaced, np.array(rows))
+    return o, Linear(missed, charges, intensity, replaced, np.array(rows), slack[N:-2])
 
 
 def _unclosed(o: Operator, tilt: float, given: Given) -> Array:
@@ -126,6 +152,28 @@ def _unclosed(o: Operator, tilt: float, given: Given) -> Array:
         missed[-2] += force.sum()
         missed[-1] += (force @ e) * (given.moment is not None)
     return missed
+
+
+def _slack(o: Operator, tilt: float, intensity: Array) -> Array:
+    """What rounding changes in C_1..N and in the K of all gaps, and a 0, (2N + 1,).
+
+    All edges move by an ulp the same way, and h is rounded from patch to patch. In K_i the kernel
+    1/d(x, e) is that of the middle of the gap: for any edge e it is right to a factor of 2.
+    """
+    P, k, N = o.patches, o.gaps, o.patches.number
+    charge = 0.5 * np.abs(intensity) * np.spacing(np.abs(P.edges))
+    force = charge * P.chord.apart(np.repeat(P.r, 2))
+    root = np.bincount(k.gap, np.abs(o.gap_roots[0] * k.dx).sum(axis=1), N) / np.pi
+    middle, slack = P.b + 0.5 * P.gaps, np.zeros(2 * N + 1)
+    for some in parts(N, 2 * N):
+        pole = force / np.abs(P.chord.apart(P.edges - P.c[some, None]))
+        slack[:N][some] = pole.sum(axis=1)
+        pole /= np.abs(P.chord.apart(P.edges - middle[some, None]))
+        slack[N:-1][some] = root[some] * pole.sum(axis=1)
+    n = N - 1 + P.closing
+    slack[N : N + n] += o.pieces.rounding(P.b[:n], P.b[:n] + P.gaps[:n])
+    slack[N : N + n] += EPS * abs(tilt) * P.gaps[:n]
+    return slack
 
 
 def outermost(patches: Patches) -> tuple[int, int]:

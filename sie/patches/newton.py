@@ -15,7 +15,7 @@ from sie.numerics.interval import EPS
 from sie.progress_bar import step_done
 
 from .bounds import CLOSED
-from .conditions import Linear, conditions, loaded
+from .conditions import BLURRED, Linear, conditions, loaded
 from .panels import Patches
 from .pieces import Pieces
 from .repairs import after
@@ -117,12 +117,13 @@ def solve(
             break
         step_done()
         _, linear = conditions(state, pieces, given)
-        y, by_load = linear.charged(np.column_stack((-linear.missed, loaded(state, given.size)))).T
+        changes = -linear.missed, loaded(state, given.size), linear.roundings(BLURRED * given.load)
+        y, by_load, by_rounding = linear.charged(np.column_stack(changes)).T
         asked = wished(state, linear, y, damping.turns)
         # D depends on the charges: they first
         unknown = state.sharp.any() and not state.charge.any()
         damping = damping.limited(state, 0.0 * asked if unknown else asked, pieces.concave)
-        size = relative_size(state, y, _told(state, asked, linear.moves(state, by_load)))
+        size = relative_size(state, y, _told(state, asked, linear, (by_load, by_rounding)))
         limits = pieces.solid_around(state.patches.c), given.moment is not None
         state, clipped = moved(state, damping.moved, y, limits)
         sizes.append(np.inf if clipped else size)
@@ -157,11 +158,16 @@ def wished(state: State, linear: Linear, y: Array, turns: Array) -> Array:
     return np.where(pulls, inward, np.where(smooth, 2.0 * y[: 2 * N] / D, 0.0))
 
 
-def _told(state: State, asked: Array, moves: Array) -> Array:
-    """The moves of edges, less what doubles of the edges and of the load do not resolve."""
-    resolved = EPS * np.where(np.isfinite(moves), np.abs(moves), 0.0)
+def _told(state: State, asked: Array, linear: Linear, charges: tuple[Array, Array]) -> Array:
+    """The moves of edges, less what doubles of the edges, of the load and of h do not resolve.
+
+    `charges`: those of the load, and of the rounding of h.
+    """
+    by_load, by_rounding = (np.abs(linear.moves(state, y)) for y in charges)
+    resolved = EPS * np.where(np.isfinite(by_load), by_load, 0.0)
     least = np.spacing(np.abs(state.patches.edges)) + resolved
-    return np.maximum(np.abs(asked) - ULPS * least, 0.0)
+    blurred = np.nan_to_num(by_rounding)
+    return np.maximum(np.abs(asked) - np.maximum(ULPS * least, blurred), 0.0)
 
 
 def relative_size(state: State, y: Array, told: Array) -> float:

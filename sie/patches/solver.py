@@ -18,11 +18,11 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from sie.errors import ContactError, LoadError
+from sie.errors import ContactError, LoadError, ResolutionError
 from sie.progress_bar import reported
 
 from . import newton
-from .conditions import closed
+from .conditions import closed, conditions
 from .gap import gap, overlaps
 from .newton import FINAL, MOST_STEPS
 from .of_scene import Problem, changed
@@ -34,7 +34,17 @@ from .start import cells_of, grid_pressure
 from .start_state import start_of
 from .state import Effort, Event, Findings, Given, State, balances
 from .tension import tensions
-from .window import COARSE, WIDENED, fitted_window, levels
+from .unknown import refuse_unknown_depths, refuse_unknown_ends
+from .valleys import graded_about, is_light, pressed, valleys, within_reach
+from .window import (
+    COARSE,
+    WIDENED,
+    falling,
+    fitted_window,
+    levels,
+    overlap_beyond,
+    whole_window,
+)
 
 Array = NDArray[np.float64]
 
@@ -60,8 +70,6 @@ Start = Callable[[Problem], State]
 FEWEST_CELLS, MOST_CELLS = 2048, 1 << 18
 FINER = 8  # a second grid, if the first as a start leads nowhere
 CELLS = 1.5  # for each break in the window
-# Windows beyond a window, and places there, at which the bodies must not overlap
-FAR, LOOKED_AT = 1e3, 4000
 
 
 class Exhausted(Exception):
@@ -76,8 +84,9 @@ def contact_near(problem: Problem, near: Found) -> Found | None:
     try:
         found = settled(near.state, near.operator.pieces, problem)
         refuse_unknown_ends(found.state, problem)
-        if _overlap_beyond(found, problem, window) == window:
-            return _in_one_period(found, problem)
+        _refuse_unknown(found, problem.given)
+        if overlap_beyond(found, problem, window, gap) == window:
+            return _in_one_period(_with_far_valleys(found, problem), problem)
     except (*ASTRAY, Exhausted):
         pass
     return None
@@ -88,7 +97,9 @@ def contact(problem: Problem) -> Found:
     """The patches of a problem. Raises ContactError where none are certified."""
     problem = replace(problem, effort=Effort())
     try:
-        return _in_windows(problem)
+        found = _in_windows(problem)
+        _refuse_unknown(found, problem.given)
+        return found
     except Exhausted:
         moment = problem.given.moment is not None
         raise LoadError(
@@ -99,17 +110,56 @@ def contact(problem: Problem) -> Found:
 
 
 def _in_windows(problem: Problem) -> Found:
+    light = light_contact(problem)
+    if light is not None:
+        return _in_one_period(light, problem)
     window = fitted_window(problem)
     for _ in range(WIDENED):
         found = _within(problem, window)
-        beyond = _overlap_beyond(found, problem, window)
+        beyond = overlap_beyond(found, problem, window, gap)
         if beyond == window:
-            return _in_one_period(found, problem)
+            return _in_one_period(_with_far_valleys(found, problem), problem)
         window = beyond
     raise LoadError(
         f"contact goes on beyond [{window[0]:.6g}, {window[1]:.6g}]: the slope rises too little; "
         "give a domain"
     )
+
+
+def light_contact(problem: Problem, several: bool = False) -> Found | None:
+    """The patches of a load that presses each valley like a parabola; None if it does not.
+
+    `several`: they are sought only if the profile has more than one valley.
+    """
+    if problem.given.moment is not None:
+        return None
+    window, chord, tilt = whole_window(problem), problem.chord, problem.given.tilt
+    hints = falling(problem, window)
+    if several and not hints.size:
+        return None
+    try:
+        pieces = problem.pieces(window, hints)
+        every = valleys(pieces, window, tilt)
+        if several and len(every.x) < 2:
+            return None
+        near = within_reach(every, problem.given.load, pieces, chord)
+        found = pressed(near, problem.given.load, chord)
+        if found is None or not is_light(*found, pieces, tilt, chord):
+            return None
+        (x, *_), r = found
+        pieces = problem.pieces(window, np.union1d(graded_about(x, r, window, chord), hints))
+        light = settled(bounded(x - r, x + r, pieces, chord, tilt), pieces, problem)
+    except (*ASTRAY, Exhausted):
+        return None
+    refuse_unknown_ends(light.state, problem)
+    _refuse_unknown(light, problem.given)
+    return light
+
+
+def _refuse_unknown(found: Found, given: Given) -> None:
+    linear = conditions(found.state, found.operator.pieces, given)[1]
+    moved = linear.rounded_moves(found.state)
+    refuse_unknown_depths(found, given, linear.rounding, moved)
 
 
 def _in_one_period(found: Found, problem: Problem) -> Found:
@@ -178,64 +228,26 @@ def _within(problem: Problem, window: tuple[float, float]) -> Found:
     return found
 
 
-def _overlap_beyond(
-    found: Found, problem: Problem, window: tuple[float, float]
-) -> tuple[float, float]:
-    """A wider window where this one is too narrow for a load that is a force.
+def _with_far_valleys(found: Found, problem: Problem) -> Found:
+    """The same contact, or that in which valleys beyond its window touch as well.
 
-    It is so where contact reaches its end, or the bodies overlap beyond it.
+    They are all looked at, unless the function has more features than can be resolved.
     """
-    lo, hi = found.operator.pieces.domain
-    if problem.chord.periodic or (lo, hi) == problem.domain:
-        return window
-    P = found.state.patches
-    a, b = float(P.a[0]), float(P.b[-1])
-    wider = [lo, hi]
-    for k, (end, limit, side) in enumerate(
-        ((lo, problem.domain[0], -1.0), (hi, problem.domain[1], 1.0))
-    ):
-        if end == limit:
-            continue
-        if end == (a, b)[k]:
-            wider[k] = end + side * 4.0 * (hi - lo)
-            continue
-        distance = (hi - lo) * np.geomspace(1e-3, FAR, LOOKED_AT)
-        x = np.clip(end + side * distance, min(end, limit), max(end, limit))
-        with np.errstate(all="ignore"):
-            H = problem.slope(x) + found.state.tilt
-            rise = np.cumsum(side * 0.5 * (H[1:] + H[:-1]) * np.abs(np.diff(x)))
-            middle = 0.5 * (a + b)
-            opened = float(gap(found.operator, np.array([end]))[0])
-            g = (
-                opened
-                + rise
-                - problem.given.load / np.pi * np.log(np.abs((x[1:] - middle) / (x[0] - middle)))
-            )
-            below = np.flatnonzero(g < -1e-3 * max(opened, 0.0))
-        if below.size:
-            wider[k] = float(x[1:][below[0]]) + side * 2.0 * (hi - lo)
-    return max(wider[0], problem.domain[0]), min(wider[1], problem.domain[1])
-
-
-def refuse_unknown_ends(state: State, problem: Problem) -> None:
-    """Raises LoadError where contact reaches an end beyond which the indenter is not known."""
-    edges = zip(state.patches.edges[[0, -1]].tolist(), problem.domain, problem.corners, strict=True)
-    for edge, end, corner in edges:
-        if edge != end or problem.chord.periodic:
-            continue
-        if not np.isfinite(float(problem.slope(np.array([end]))[0])):
-            raise LoadError(
-                f"the slope is infinite at the end x = {end:.6g} of its domain, which the "
-                "contact comes near: "
-                "narrow the domain"
-            )
-        if not corner:
-            raise LoadError(
-                f"the contact reaches the end of the trace at x = {end:.6g}, and what the indenter "
-                "is like beyond is not known: lower the load or the tilt, repeat the trace by "
-                "sie.Periodic(trace, period), or measure further out",
-                end=end,
-            )
+    window, whole = found.operator.pieces.domain, whole_window(problem)
+    if problem.chord.periodic or (window[0] <= whole[0] and window[1] >= whole[1]):
+        return found
+    try:
+        wide = min(window[0], whole[0]), max(window[1], whole[1])
+        pieces = problem.pieces(wide, np.union1d(window, falling(problem, wide)))
+    except ResolutionError:
+        return found
+    state = found.state
+    seen = findings(
+        Operator(state.patches, pieces, found.operator.Y), state.tilt, problem.given.load
+    )
+    if seen.overlap:
+        return settled(mended(state, replace(seen, tension=()), pieces), pieces, problem)
+    return replace(found, findings=replace(found.findings, doubt=seen.doubt, place=seen.place))
 
 
 # -- Newton's method and repairs -------------------------------------------------------------------
@@ -265,11 +277,11 @@ def settled(state: State, pieces: Pieces, problem: Problem) -> Found:
                 continue
         o = Operator(state.patches, pieces, np.where(state.sharp, state.charge, 0.0))
         if round_ < early:
-            rough = roughly(o, gaps=round_ > 0)
+            rough = roughly(o, state.tilt, problem.given.load, gaps=round_ > 0)
             early = early if event is not None or not rough.ok else 0
             state = state if rough.ok else mended(state, rough, pieces)
             continue
-        found = Found(state, o, findings(o), steps)
+        found = Found(state, o, findings(o, state.tilt, problem.given.load), steps)
         if found.findings.ok:
             return found
         if not found.findings.overlap and found.findings.lowest > -NEARLY:
@@ -305,13 +317,14 @@ def _unsettled(problem: Problem, patches: int, reached: float = 0.0) -> LoadErro
     )
 
 
-def findings(o: Operator) -> Findings:
+def findings(o: Operator, tilt: float, load: float) -> Findings:
     """What the bounds of pressure and gap find."""
     tension, lowest = tensions(o)
-    return Findings(tension, overlaps(o), lowest)
+    looked = overlaps(o, tilt, load)
+    return Findings(tension, looked.overlap, lowest, looked.doubt, looked.place)
 
 
-def roughly(o: Operator, gaps: bool) -> Findings:
+def roughly(o: Operator, tilt: float, load: float, gaps: bool) -> Findings:
     """What has to be mended before the edges are exact; `gaps`: in the gaps as well.
 
     Only overlaps count that are deeper than what the gap misses to close.
@@ -320,7 +333,7 @@ def roughly(o: Operator, gaps: bool) -> Findings:
     if not gaps:
         return Findings(tension, (), lowest)
     missed = np.abs(closed(o))
-    inner = (v for v in overlaps(o) if 0 <= v.gap < len(missed))
+    inner = (v for v in overlaps(o, tilt, load).overlap if 0 <= v.gap < len(missed))
     return Findings(tension, tuple(v for v in inner if v.depth > DEEP * missed[v.gap]), lowest)
 
 
@@ -335,7 +348,8 @@ def _after(event: Event, state: State, pieces: Pieces, given: Given) -> State:
     # a cut may leave the end without pull; an edge that stalls at a concave corner asks for contact
     # beyond it
     if event.kind in ("smooth", "stall"):
-        found = findings(Operator(state.patches, pieces, np.where(state.sharp, state.charge, 0.0)))
+        charged = np.where(state.sharp, state.charge, 0.0)
+        found = findings(Operator(state.patches, pieces, charged), state.tilt, given.load)
         if found.tension or (event.kind == "stall" and found.overlap):
             return mended(state, found, pieces)
     left = after(event, state, pieces)

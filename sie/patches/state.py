@@ -119,11 +119,15 @@ class Findings:
     """The violations of the inequalities; none if the patches are the answer.
 
     lowest      the lowest bound of D over the largest D
+    doubt       the largest rounding of h, a length, at a place where it hides whether the bodies
+                overlap; place: where that is
     """
 
     tension: tuple[Tension, ...]
     overlap: tuple[Overlap, ...]
     lowest: float
+    doubt: float = 0.0
+    place: float = 0.0
 
     @property
     def ok(self) -> bool:
