@@ -20,8 +20,8 @@ from sie.numerics import chebyshev
 from sie.progress_bar import reported, step_done
 
 from .chord import Points
-from .conditions import Linear, conditions
 from .density import PatchPressure
+from .newton import Linear, conditions
 from .operator import Found, Operator
 from .panels import LONG, PatchPanels
 from .result import CLOSE, LEAST, PatchCertificate
@@ -63,7 +63,7 @@ def certificate(
     if given.moment is not None:
         found_moment = float(rule.weight @ (p * (rule.points.x - middle))) + load * middle
         moment = abs(found_moment - G * given.moment) / (asked * hull)
-    linear = conditions(found.state, o.pieces, given)[1]
+    linear = conditions(found.state, o, given)
     condition = conditioning(found, given, linear)
     return PatchCertificate(
         residual=_residual(pressure, (rule, p), (places, at)) / peak,
@@ -117,7 +117,7 @@ def conditioning(found: Found, given: Given, linear: Linear) -> float:
     state = found.state
     if given.half_width is not None:
         given = given._replace(load=np.nan)
-        linear = conditions(state, found.operator.pieces, given)[1]
+        linear = conditions(state, found.operator, given)
     change = np.abs(linear.growth(state, given.size)) / state.patches.narrower
     return float(np.nan_to_num(change, nan=np.inf).max(initial=0.0))
 

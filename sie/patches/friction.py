@@ -33,10 +33,10 @@ from sie.traction.base import Density
 from sie.traction.combination import superposed
 
 from .answer import SeveralPatches
-from .conditions import edge_charges, loaded
 from .dissipation import Untouched, slip_rule, work
 from .full import FullContact
 from .measure import edge_ratio
+from .newton import edge_charges, loaded
 
 Array = NDArray[np.float64]
 

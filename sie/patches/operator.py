@@ -25,6 +25,7 @@ from numpy.typing import NDArray
 from .chord import Points
 from .measure import Measure, Targets, close, edge_ratio, integrals
 from .panels import GapPanels, gap_panels
+from .pieces import Pieces
 from .state import Findings, State
 from .sums import Groups, add, far_sums, parts, ranges, steps
 from .tree import Level, Separation
@@ -221,6 +222,11 @@ def gap_values(o: Operator, panels: GapPanels | None = None) -> tuple[Array, Arr
         S,
     )
     return reference, T, np.asarray(o.D(targets))
+
+
+def operator_of(state: State, pieces: Pieces) -> Operator:
+    """The operator of a state, with the charges of its sharp edges."""
+    return Operator(state.patches, pieces, np.where(state.sharp, state.charge, 0.0))
 
 
 @dataclass(frozen=True, eq=False)

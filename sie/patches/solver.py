@@ -22,19 +22,18 @@ from sie.errors import ContactError, LoadError, ResolutionError
 from sie.progress_bar import reported
 
 from . import newton
-from .conditions import closed, conditions
 from .gap import gap, overlaps
 from .newton import FINAL, MOST_STEPS
 from .of_scene import Problem, changed
-from .operator import Found, Operator
+from .operator import Found, Operator, operator_of
 from .panels import Patches
 from .pieces import Pieces
 from .repairs import after, apart, bounded, mended
 from .start import cells_of, grid_pressure
 from .start_state import start_of
-from .state import Effort, Event, Findings, Given, State, balances
+from .state import SAME, Effort, Event, Findings, Given, State, balances
 from .tension import tensions
-from .unknown import refuse_unknown_depths, refuse_unknown_ends
+from .unknown import refuse_unknown_depths, refuse_unknown_ends, unsettled
 from .valleys import graded_about, is_light, pressed, valleys, within_reach
 from .window import (
     COARSE,
@@ -48,7 +47,6 @@ from .window import (
 
 Array = NDArray[np.float64]
 
-SAME = 1e-9  # half-widths: by which starts differ that do not lead to the same
 ROUNDS, STALLS = 30, 1  # the most rounds, and those that end without edges or an event
 SEVERAL = 12  # patches: of more than these, cuts and births are sought ...
 EARLY, EARLY_STEPS, ROUGHLY = 4, 3, 0.1  # ... in so many rounds of so many steps, or of such a size
@@ -157,7 +155,7 @@ def light_contact(problem: Problem, several: bool = False) -> Found | None:
 
 
 def _refuse_unknown(found: Found, given: Given) -> None:
-    linear = conditions(found.state, found.operator.pieces, given)[1]
+    linear = newton.conditions(found.state, found.operator, given)
     moved = linear.rounded_moves(found.state)
     refuse_unknown_depths(found, given, linear.rounding, moved)
 
@@ -260,7 +258,7 @@ def settled(state: State, pieces: Pieces, problem: Problem) -> Found:
     early = EARLY if state.patches.number > SEVERAL else 0
     seen: set[tuple[object, ...]] = set()
     for round_ in range(ROUNDS):
-        start = _rounded(state)
+        start = state.rounded
         # the same start ends the same again
         if not state.patches.number or not (state.patches.gaps > 0.0).all() or start in seen:
             break
@@ -275,7 +273,7 @@ def settled(state: State, pieces: Pieces, problem: Problem) -> Found:
             state = _after(event, state, pieces, problem.given)
             if round_ >= early:
                 continue
-        o = Operator(state.patches, pieces, np.where(state.sharp, state.charge, 0.0))
+        o = operator_of(state, pieces)
         if round_ < early:
             rough = roughly(o, state.tilt, problem.given.load, gaps=round_ > 0)
             early = early if event is not None or not rough.ok else 0
@@ -289,7 +287,7 @@ def settled(state: State, pieces: Pieces, problem: Problem) -> Found:
         state = mended(state, found.findings, pieces)
     if nearly is not None:
         return nearly
-    raise _unsettled(problem, state.patches.number)
+    raise unsettled(problem, state.patches.number)
 
 
 def _stepped(
@@ -303,18 +301,6 @@ def _stepped(
     found = newton.solve(state, pieces, problem.given, accuracy, longest)
     problem.effort.spend(found[2], number)
     return found
-
-
-def _unsettled(problem: Problem, patches: int, reached: float = 0.0) -> LoadError:
-    """The refusal of a load; `reached` is the largest under which patches were found on the way."""
-    load, other = problem.given.load, problem.given.moment is not None
-    so_far = f" (they do at {reached:.6g})" if 0.0 < reached < load else ""
-    return LoadError(
-        f"the patches of contact do not settle at normal_load over E*/2 = {load:.6g}{so_far}: two "
-        "of them are about to merge, or one to appear; change the load"
-        f"{' or the moment' * other} a little",
-        patches=patches,
-    )
 
 
 def findings(o: Operator, tilt: float, load: float) -> Findings:
@@ -332,24 +318,16 @@ def roughly(o: Operator, tilt: float, load: float, gaps: bool) -> Findings:
     tension, lowest = tensions(o)
     if not gaps:
         return Findings(tension, (), lowest)
-    missed = np.abs(closed(o))
+    missed = np.abs(newton.closed(o))
     inner = (v for v in overlaps(o, tilt, load).overlap if 0 <= v.gap < len(missed))
     return Findings(tension, tuple(v for v in inner if v.depth > DEEP * missed[v.gap]), lowest)
-
-
-def _rounded(state: State) -> tuple[object, ...]:
-    """What tells a start of Newton's method from another: edges, and which are sharp."""
-    P = state.patches
-    digits = SAME * np.repeat(P.r, 2)
-    return state.tilt, state.sharp.tobytes(), np.rint(P.edges / digits).tobytes()
 
 
 def _after(event: Event, state: State, pieces: Pieces, given: Given) -> State:
     # a cut may leave the end without pull; an edge that stalls at a concave corner asks for contact
     # beyond it
     if event.kind in ("smooth", "stall"):
-        charged = np.where(state.sharp, state.charge, 0.0)
-        found = findings(Operator(state.patches, pieces, charged), state.tilt, given.load)
+        found = findings(operator_of(state, pieces), state.tilt, given.load)
         if found.tension or (event.kind == "stall" and found.overlap):
             return mended(state, found, pieces)
     left = after(event, state, pieces)
@@ -377,7 +355,7 @@ def continued(problem: Problem, pieces: Pieces, start: Start, tilt: float) -> Fo
             load, factor = wanted, min(factor**2, FIRST)
             if load == target:
                 return _turned(problem, pieces, found)
-    raise _unsettled(problem, found.state.patches.number, load)
+    raise unsettled(problem, found.state.patches.number, load)
 
 
 def _light(problem: Problem, level: Problem, pieces: Pieces, start: Start) -> tuple[Found, float]:
@@ -390,7 +368,7 @@ def _light(problem: Problem, level: Problem, pieces: Pieces, start: Start) -> tu
             return settled(start(lighter), pieces, lighter), load
         except ASTRAY:
             continue
-    raise _unsettled(problem, 0)
+    raise unsettled(problem, 0)
 
 
 def _turned(problem: Problem, pieces: Pieces, found: Found) -> Found:
@@ -413,4 +391,4 @@ def _turned(problem: Problem, pieces: Pieces, found: Found) -> Found:
             if wanted == asked:
                 return found
             now, step = wanted, 2.0 * step
-    raise _unsettled(problem, found.state.patches.number, problem.given.load)
+    raise unsettled(problem, found.state.patches.number, problem.given.load)

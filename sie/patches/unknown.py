@@ -2,7 +2,8 @@
 
 Beyond the end of a trace nothing is known. And doubles of h tell no difference of two depths below
 their rounding: where a load is so light that such a difference decides which valleys touch, or how
-they share it, there is no answer.
+they share it, there is no answer. Nor is there one where two patches are about to merge, and the
+search for them does not come to rest.
 """
 
 from __future__ import annotations
@@ -71,4 +72,16 @@ def _unknown_depth(
         f"decided by a difference of their depths of {decides:.2g} at normal_load over E*/2 = "
         f"{given.load:.6g}, and doubles of h tell {known:.2g}: raise the load, or give a profile "
         "of which only one valley is as deep"
+    )
+
+
+def unsettled(problem: Problem, patches: int, reached: float = 0.0) -> LoadError:
+    """The refusal of a load; `reached` is the largest under which patches were found on the way."""
+    load, other = problem.given.load, problem.given.moment is not None
+    so_far = f" (they do at {reached:.6g})" if 0.0 < reached < load else ""
+    return LoadError(
+        f"the patches of contact do not settle at normal_load over E*/2 = {load:.6g}{so_far}: two "
+        "of them are about to merge, or one to appear; change the load"
+        f"{' or the moment' * other} a little",
+        patches=patches,
     )

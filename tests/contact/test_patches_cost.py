@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 import sie
-from sie.patches import conditions, full, gap_rows, newton, start, state
+from sie.patches import edge_charges, full, newton, start, state
 from sie.patches.chord import Chord, Points
-from sie.patches.newton import Damping
+from sie.patches.edge_moves import Damping
 from sie.patches.operator import Operator
 from sie.patches.panels import Patches
 from sie.patches.profile_pieces import of_profile
@@ -43,7 +43,7 @@ def test_poles_at_centres_act_on_far_gaps_as_their_plain_sum_says(period):
     poles = P.chord.poles(
         P.chord.difference(k.points.anchor[..., None] - P.c, k.points.offset[..., None])
     )
-    for kernel, across in zip(poles, gap_rows.across_gaps(P, k, k.dx), strict=True):
+    for kernel, across in zip(poles, edge_charges.across_gaps(P, k, k.dx), strict=True):
         plain = np.zeros((P.number - 1, P.number))
         np.add.at(plain, k.gap, (k.dx[..., None] * kernel).sum(axis=1))
         scale = np.abs(plain).max(axis=1, keepdims=True)
@@ -82,7 +82,7 @@ def test_charges_at_the_edges_change_the_conditions_as_asked(period, moment, gap
     a[5] = P.b[4] + gap * P.r[4]
     o = Operator(Patches(a, P.b, P.chord), before.pieces, np.zeros(2 * count))
     asked = np.random.default_rng(1).normal(size=2 * count + 1)
-    charges = conditions.edge_charges(o, moment).of(asked[:, None])[:, 0]
+    charges = newton.edge_charges(o, moment).of(asked[:, None])[:, 0]
     reached = changed_by(o, charges[:-1], charges[-1])
     if not moment:
         reached[-1] = charges[-1]
