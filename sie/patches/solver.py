@@ -258,11 +258,14 @@ def settled(state: State, pieces: Pieces, problem: Problem) -> Found:
     early = EARLY if state.patches.number > SEVERAL else 0
     seen: set[tuple[object, ...]] = set()
     for round_ in range(ROUNDS):
-        start = state.rounded
-        # the same start ends the same again
-        if not state.patches.number or not (state.patches.gaps > 0.0).all() or start in seen:
+        if not state.patches.number or not (state.patches.gaps > 0.0).all():
             break
-        seen.add(start)
+        if round_ >= early:
+            start = state.rounded
+            # the same start ends the same again
+            if start in seen:
+                break
+            seen.add(start)
         accuracy = (ROUGHLY, EARLY_STEPS) if round_ < early else (FINAL, MOST_STEPS)
         state, event, count = _stepped(state, pieces, problem, accuracy)
         steps += count
