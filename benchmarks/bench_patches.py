@@ -89,17 +89,18 @@ def test_the_elastic_limit_of_two_patches(benchmark):
 
 
 def growth(sizes):
-    """Prints points, patches, processor time, and the exponent from the first size on."""
+    """Prints points, patches, processor time, and exponents from the first and the last size on."""
+    solved(self_similar(300), 0.01)  # imports count for no size
     for make in (self_similar, repeated):
         print(make.__name__)
-        first = None
+        seen = []
         for points in sizes:
             trace, start = make(points), process_time()
             patches = len(solved(trace, 0.01))
-            seconds = process_time() - start
-            first = first or (points, seconds)
-            exponent = np.log(seconds / first[1]) / np.log(max(points / first[0], 1.0 + 1e-9))
-            print(f"{points:8d} points {patches:6d} patches {seconds:8.2f} s   n^{exponent:.2f}")
+            seen.append((points, process_time() - start))
+            (n, t), ends = seen[-1], (seen[0], seen[-2]) if len(seen) > 1 else ()
+            exponents = "   ".join(f"n^{np.log(t / t0) / np.log(n / n0):.2f}" for n0, t0 in ends)
+            print(f"{points:8d} points {patches:6d} patches {t:8.2f} s   {exponents}", flush=True)
 
 
 if __name__ == "__main__":

@@ -45,7 +45,7 @@ from .friction.partial_slip import slip
 from .friction.slip_state import Slip, Step
 from .kept_stages import changed_scene, kept_stages
 from .numerics.interval import Interval
-from .patches.answer import SeveralPatches, asks_for_patches, several_patches
+from .patches.answer import SeveralPatches, asks_for_patches, light_patches, several_patches
 from .patches.friction import PatchesUnder, PatchSlip
 from .patches.full import FullContact
 from .patches.result import PatchCertificate, worst_of
@@ -117,7 +117,15 @@ class Solution:
         if asks_for_patches(self.scene.profile):
             return self._in_patches()
         try:
-            return self.one_patch()
+            light = light_patches(self.scene) if self._may_be_in_patches else None
+        except ContactError as error:
+            raise explained(error, self.scene.profile) from None
+        if light is not None and len(light.patches) > 1:
+            return light
+        try:
+            one = self.one_patch()
+            elsewhere = light is not None and not light.meets(one.edges.contact[:2])
+            return light if light is not None and elsewhere else one
         except (InequalityError, LoadError, ResolutionError) as error:
             if self._may_be_in_patches:
                 return self._in_patches(error)

@@ -28,7 +28,7 @@ TOLERATED = 1e-11
 FAR = 1e3  # half-widths, how far out the gap is tested at least
 FARTHEST = 1e140  # half-widths, how far out the slope of an indenter without ends is
 DENSE = 20  # places for each factor 10 of the distance from an edge, at which the slope is
-EVEN = 1000  # places on an indenter between its ends
+EVEN, FINELY = 1000, 10_000  # places on an indenter between its ends; on one that is a function
 HALVINGS = 60  # of the interval in which the gap is least
 STEEP = 1e6  # times the slopes in the contact
 SCAN = 40
@@ -72,7 +72,8 @@ def _far(contact: Interval, slope: Slope) -> tuple[Array, Array]:
     breaks = slope.breaks[np.isfinite(slope.breaks)]
     decades = np.log10(FARTHEST) + 6.0
     distance = contact.r * np.geomspace(1e-6, FARTHEST, int(DENSE * decades))
-    even = np.linspace(lo, hi, EVEN) if np.isfinite(lo) and np.isfinite(hi) else breaks
+    number = FINELY if slope.functions else EVEN
+    even = np.linspace(lo, hi, number) if np.isfinite(lo) and np.isfinite(hi) else breaks
     sides = (
         (contact.x1 - distance[::-1], (lo, contact.x1)),
         (contact.x2 + distance, (contact.x2, hi)),
@@ -220,9 +221,21 @@ def relative_gaps(density: SlopeDensity, slope: Slope) -> tuple[Array, Array]:
         ),
         density.resultant / density.half_modulus * 1e-3,
     )
-    # a difference of heights is no more exact than they are
-    rounding = ROUNDING * float(values[np.isfinite(values)].max(initial=0.0))
+    rounding = _rounding(x, values, contact.m)
     return x, np.where(np.abs(values) > rounding, values, np.maximum(values, 0.0)) / scale
+
+
+def _rounding(x: Array, gaps: Array, m: float) -> Array:
+    """The rounding of the gap at x: a difference of heights is no more exact than they are.
+
+    Those on the way from the contact count, and none beyond x.
+    """
+    found = np.zeros(len(x))
+    for side in (x < m, x >= m):
+        outwards = np.flatnonzero(side)[np.argsort(np.abs(x[side] - m), kind="stable")]
+        heights = np.where(np.isfinite(gaps[outwards]), np.abs(gaps[outwards]), 0.0)
+        found[outwards] = ROUNDING * np.maximum.accumulate(heights)
+    return found
 
 
 def intervals_below(x: Array, values: Array) -> Intervals:

@@ -21,8 +21,7 @@ from sie.progress_bar import reported, step_done
 
 from .chord import Points
 from .density import PatchPressure
-from .measure import edge_ratio
-from .newton import Linear, conditions, moves
+from .newton import Linear, conditions
 from .operator import Found, Operator
 from .panels import LONG, PatchPanels
 from .result import CLOSE, LEAST, PatchCertificate
@@ -44,6 +43,7 @@ PLACES = 120  # at which it is, about
 TOGETHER = 32  # of them at once
 EXPLAINED = 16.0  # times what half an ulp of the edges changes
 MOST = 1e-3  # of the peak: where that is more nothing is certified
+SHARED = 1e-9  # of the load of a patch: what the rounding of h may change without a note
 
 
 @reported("certificate")
@@ -63,8 +63,8 @@ def certificate(
     if given.moment is not None:
         found_moment = float(rule.weight @ (p * (rule.points.x - middle))) + load * middle
         moment = abs(found_moment - G * given.moment) / (asked * hull)
-    linear = conditions(found.state, o.pieces, given)[1]
-    condition = conditioning(found, given)
+    linear = conditions(found.state, o, given)
+    condition = conditioning(found, given, linear)
     return PatchCertificate(
         residual=_residual(pressure, (rule, p), (places, at)) / peak,
         force=abs(load - asked) / asked,
@@ -76,7 +76,10 @@ def certificate(
         tol=tol,
         tension=tuple((t.lo, t.hi) for t in found.findings.tension),
         overlap=tuple((v.lo, v.hi) for v in found.findings.overlap),
-        notes=_notes(condition, "load" if given.half_width is None else "half-width"),
+        notes=(
+            *_notes(condition, "load" if given.half_width is None else "half-width"),
+            *_notes_on_heights(found, linear),
+        ),
     )
 
 
@@ -90,12 +93,32 @@ def _notes(condition: float, asked: str) -> tuple[str, ...]:
     return (sentence,)
 
 
-def conditioning(found: Found, given: Given) -> float:
+def _notes_on_heights(found: Found, linear: Linear) -> tuple[str, ...]:
+    """What the rounding of h leaves open: the loads of patches, and whether there is another."""
+    P, doubt = found.state.patches, found.findings.doubt
+    moved = linear.rounded_moves(found.state) / np.repeat(P.r, 2)
+    share = 2.0 * float(np.nan_to_num(np.abs(moved)).max())
+    notes = []
+    if share > SHARED:
+        notes.append(
+            "note: the depths of the valleys are known to the rounding of h, and the loads of the "
+            f"patches to {share:.0e} of them"
+        )
+    if doubt:
+        notes.append(
+            f"note: doubles of h tell {doubt:.0e} of a depth, and do not tell whether the bodies "
+            f"touch at x = {found.findings.place:.6g}"
+        )
+    return tuple(notes)
+
+
+def conditioning(found: Found, given: Given, linear: Linear) -> float:
     """The largest |d e / d ln P| of an edge e over its patch or gap; of r, where that is given."""
     state = found.state
-    asked = given if given.half_width is None else given._replace(load=np.nan)
-    linear = conditions(state, found.operator.pieces, asked)[1]
-    change = np.abs(moves(state, linear, asked.size)) / state.patches.narrower
+    if given.half_width is not None:
+        given = given._replace(load=np.nan)
+        linear = conditions(state, found.operator, given)
+    change = np.abs(linear.growth(state, given.size)) / state.patches.narrower
     return float(np.nan_to_num(change, nan=np.inf).max(initial=0.0))
 
 
@@ -106,21 +129,23 @@ def _rounding(o: Operator, linear: Linear, given: Given, peak: float) -> float:
 
     An edge that moves is a point charge, which the conditions of the patches and of the load miss.
     """
-    P, N = o.patches, o.patches.number
+    P = o.patches
     charge = 0.25 * linear.intensity * np.spacing(np.abs(P.edges))
-    missed = np.sqrt(((linear.matrix[:, : 2 * N] * charge) ** 2).sum(axis=1))
-    # also where the condition of a patch gave way to that of a gap
-    columns = edge_ratio(P, np.arange(N)) * P.chord.cosine(P.edges - P.c[:, None])
-    missed[:N] = np.sqrt(((columns * charge) ** 2).sum(axis=1))
-    beside = o.others(np.arange(N), Points(P.c[:, None], np.zeros((N, 1))))[:, 0]
+    force = charge * P.chord.apart(np.repeat(P.r, 2))
+    pole, _ = P.chord.poles(P.chord.difference(P.c[:, None] - P.edges))
+    missed = np.linalg.norm(pole * force, axis=1)
+    moment = float(np.linalg.norm(force * P.edges)) * (given.moment is not None)
     hull = 0.5 * float(P.b[-1] - P.a[0])
-    terms = np.abs(o.pieces.series[o.panels.piece]).sum(axis=1)
+    terms = o.pieces.terms(o.panels.piece, o.panels.points.x[:, 0])
+    # the rounding of a function is that of its values from patch to patch
+    between = slice(int(o.pieces.locate(P.a[0])), int(o.pieces.locate(P.b[-1])) + 1)
+    series = np.abs(o.pieces.series[between]).sum(axis=1)
+    largest = max(float(terms.max(initial=0.0)), float(series.max(initial=0.0)))
     return max(
-        float((missed[:N] * beside).max()) / (np.pi * peak),
-        float(missed[2 * N - 1]) / given.load,
-        # the last row is the moment only where that is given
-        float(missed[2 * N]) / (given.load * hull),
-        float(np.spacing(terms.max(initial=0.0))) / (2.0 * peak),
+        float((missed * o.S[:, 1]).max()) / (np.pi * peak),
+        float(np.linalg.norm(force)) / given.load,
+        moment / (given.load * hull),
+        float(np.spacing(largest)) / (2.0 * peak),
     )
 
 

@@ -32,7 +32,25 @@ class Points:
 
 def _parity(turns: Any) -> Any:
     """-1 of odd numbers, 1 of even ones."""
-    return 1.0 - 2.0 * np.abs(np.remainder(turns, 2.0))
+    return 1.0 - 2.0 * np.abs(turns - 2.0 * np.rint(0.5 * turns))
+
+
+SHORT = 0.1  # angles up to which five terms of the sine are exact to rounding
+MANY = 1024  # angles: fewer take no time
+
+
+def _sine(angle: Any) -> Any:
+    """The sine; of many short angles by its series, several times as fast."""
+    if np.size(angle) < MANY or np.iscomplexobj(angle) or np.abs(angle).max() > SHORT:
+        return np.sin(angle)
+    square = angle * angle
+    series = square * (1.0 / 362880.0)
+    for term in (-1.0 / 5040.0, 1.0 / 120.0, -1.0 / 6.0):
+        series += term
+        series *= square
+    series += 1.0
+    series *= angle
+    return series
 
 
 @dataclass(frozen=True)
@@ -51,7 +69,7 @@ class Chord:
             return step + offset
         turns = np.rint(step / self.period)
         angle = (np.pi / self.period) * ((step - turns * self.period) + offset)
-        return ((self.period / np.pi) * _parity(turns)) * np.sin(angle)
+        return ((self.period / np.pi) * _parity(turns)) * _sine(angle)
 
     def sign(self, step: Any) -> Any:
         """-1 where `difference` takes an odd number of periods out of a step; 1 elsewhere."""
@@ -94,6 +112,15 @@ class Chord:
             return 1.0 / np.where(zero, np.inf, step)
         angle = (np.pi / self.period) * np.where(zero, 0.5 * self.period, step)
         return np.where(zero, 0.0, (np.pi / self.period) / np.tan(angle))
+
+    def poles(self, step: Any) -> tuple[Any, Any]:
+        """1/(x - t) and 1/(x - t)² of steps x - t that are not 0; per period the sums over all."""
+        if not self.periodic:
+            simple = 1.0 / step
+            return simple, simple * simple
+        wave = np.pi / self.period
+        simple = wave / np.tan(wave * step)
+        return simple, simple * simple + wave * wave
 
     def distance(self, x: Any, lo: Any, hi: Any) -> Any:
         """The distance of x from [lo, hi], or from its nearest repetition."""

@@ -36,7 +36,7 @@ from .answer import SeveralPatches
 from .dissipation import Untouched, slip_rule, work
 from .full import FullContact
 from .measure import edge_ratio
-from .newton import conditions, punch
+from .newton import edge_charges, loaded
 
 Array = NDArray[np.float64]
 
@@ -112,16 +112,11 @@ class PatchSlip(Slip):
     def advancing(self) -> bool:  # type: ignore[override]
         if self.tau == 0.0 or not isinstance(self.full, SeveralPatches):
             return True
-        found, given = self.full.found, self.full.problem.given
-        _, linear = conditions(found.state, found.operator.pieces, given._replace(moment=0.0))
-        edges = 2 * found.state.patches.number
-        sides = np.where(np.arange(edges) % 2 == 0, -1.0, 1.0)
-        tilt = self.sign * self.tau
-        load = np.append(np.zeros(edges - 1), abs(self.Q))
-        rows = linear.matrix[:edges] / np.abs(linear.matrix[:edges]).max(axis=1)[:, None]
-        scale = np.abs(linear.matrix[:edges]).max(axis=1)
-        charges = np.linalg.solve(rows[:, :edges], load / scale - rows[:, edges] * tilt)
-        return bool((sides * charges >= -WITHIN * np.abs(charges).max()).all())
+        found = self.full.found
+        changes = loaded(found.state, abs(self.Q))
+        changes[-1] = self.sign * self.tau
+        charges = edge_charges(found.operator, moment=False).of(changes)[:-1, 0]
+        return bool((found.state.outward * charges >= -WITHIN * np.abs(charges).max()).all())
 
     @property
     def stick(self) -> tuple[tuple[float, float], ...]:  # type: ignore[override]
@@ -182,7 +177,8 @@ class PatchSlip(Slip):
         T, _ = o.root(k, points)
         rho = edge_ratio(P, np.arange(P.number))[k]
         apart = P.chord.apart(points.anchor[:, None] - P.edges, points.offset[:, None])
-        D = -(punch(o) * rho / apart).sum(axis=1)
+        punch = edge_charges(o, moment=False).of(loaded(self.full.found.state, 1.0))[:-1, 0]
+        D = -(punch * rho / apart).sum(axis=1)
         return float((weight * np.abs(T) * D / np.pi) @ slip)
 
 

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie.numerics import chebyshev
+from sie.numerics.interval import EPS
 
 from .bounds import DEEPEST, NODES, halves, legendre, lower_bound
 from .operator import Operator, gap_values
@@ -21,18 +22,36 @@ from .state import Overlap
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
 
-OVERLAP, ROUNDING = 1e-11, 7e-14  # of the gap's largest g; of max|H| times its width
+ROUNDING = 7e-14  # of max|H| on the patches times the distance from an edge
+# of the load over E*/2: where h is rounded to less, a place that its rounding leaves open carries
+# too little to look for it
+NEGLIGIBLE = 1e-9
 
 
-def overlaps(o: Operator) -> tuple[Overlap, ...]:
-    panels = gap_panels(o.patches, o.pieces, outside=True)
+class Looked(NamedTuple):
+    """The overlaps of the bodies, and the places where the rounding of h does not tell.
+
+    doubt      the largest bound of that rounding at such a place, a length
+    place      where that is
+    """
+
+    overlap: tuple[Overlap, ...]
+    doubt: float
+    place: float
+
+
+def overlaps(o: Operator, tilt: float, load: float) -> Looked:
+    """Where the gap is negative by more than the rounding of h, at a tilt and a load over E*/2."""
+    hull = float(o.patches.b[-1] - o.patches.a[0])
+    farthest = max(FARTHEST, 1.1 * o.pieces.horizon(tilt, o.patches.c) / hull)
+    panels = gap_panels(o.patches, o.pieces, outside=True, farthest=farthest)
     if not len(panels.gap):
-        return ()
+        return Looked((), 0.0, 0.0)
     side = sides(o, panels)
+    doubt, place = 0.0, 0.0
     panel, lo, hi, edge = _parts(o, panels)
     largest = np.zeros(o.patches.number + 1)
     bad: list[tuple[int, float, float, float]] = []
-    hull = float(o.patches.b[-1] - o.patches.a[0])
     H = float(np.abs(o.H).max())
     g, _ = chebyshev.gauss_legendre(NODES)
     for depth in range(DEEPEST):
@@ -43,23 +62,37 @@ def overlaps(o: Operator) -> tuple[Overlap, ...]:
         if depth == 0:
             beside = np.where(np.isfinite(value) & (away <= hull), value, 0.0)
             np.maximum.at(largest, gap, beside.max(axis=1))
-        tolerance = np.maximum(OVERLAP * largest[gap], ROUNDING * H * away.max(axis=1))
-        enough = lower_bound(value) >= -tolerance
-        enough |= edge & (lower_bound(phi) >= 0.0)
-        negative = (value < -tolerance[:, None]) & ~enough[:, None]
+        rounding = _rounding(o, tilt, panels.points.anchor[panel, 0], x)
+        tolerance = rounding + ROUNDING * H * away.max(axis=1)
+        bound = lower_bound(value)
+        opens = edge & (lower_bound(phi) >= 0.0)
+        matters = (rounding > NEGLIGIBLE * load) & ~opens & (bound < tolerance)
+        enough = (bound >= -tolerance) & ~(matters & (depth < DEEPEST - 1)) | opens
+        negative = (value < -tolerance[:, None]) & ~opens[:, None] & (bound < -tolerance)[:, None]
         wide = x.max(axis=1) - x.min(axis=1)
         for j in np.flatnonzero(negative.any(axis=1)):
             bad += [
                 (int(gap[j]) - 1, float(x[j, m]), float(value[j, m]), float(wide[j]))
                 for m in np.flatnonzero(negative[j])
             ]
-        open_ = ~enough & ~negative.any(axis=1)
+        unsure = matters & ~negative.any(axis=1) & (value < tolerance[:, None]).any(axis=1)
+        if unsure.any():
+            worst = int(np.argmax(np.where(unsure, rounding, 0.0)))
+            if rounding[worst] > doubt:
+                doubt, place = float(rounding[worst]), float(x[worst, np.argmin(value[worst])])
+        open_ = ~enough & ~negative.any(axis=1) & ~unsure
         if not open_.any() or depth == DEEPEST - 1:
             break
         panel = np.tile(panel[open_], 2)
         edge = np.concatenate((edge[open_], np.zeros(np.count_nonzero(open_), dtype=bool)))
         lo, hi = halves(lo[open_], hi[open_])
-    return _gathered(bad, largest)
+    return Looked(_gathered(bad, largest), doubt, place)
+
+
+def _rounding(o: Operator, tilt: float, edge: Array, x: Array) -> Array:
+    """A bound of the rounding of the gap on parts, from the edges (m,) that they count from."""
+    lo, hi = np.minimum(edge, x.min(axis=1)), np.maximum(edge, x.max(axis=1))
+    return np.asarray(o.pieces.rounding(lo, hi) + EPS * abs(tilt) * (hi - lo))
 
 
 def _gathered(bad: list[tuple[int, float, float, float]], largest: Array) -> tuple[Overlap, ...]:

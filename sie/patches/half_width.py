@@ -20,7 +20,7 @@ from sie.errors import ContactError, LoadError
 from sie.numerics.interval import EPS
 from sie.progress_bar import reported, step_done
 
-from .newton import conditions, moves
+from .newton import conditions, missed
 from .of_scene import Problem, changed
 from .operator import Found
 from .panels import Patches
@@ -166,18 +166,18 @@ class Search:
 
     def direct(self, now: Width) -> tuple[Problem, Found] | None:
         """The patches of the half-width itself, from those of another; None if that fails."""
-        missed, narrowest = abs(float(np.log(self.r / now.r))), 4.0 * EPS * self.widest
+        off, narrowest = abs(float(np.log(self.r / now.r))), 4.0 * EPS * self.widest
         if now.found is None or now.constant or self.widest - self.r <= narrowest:
             return None
-        if missed > CLOSER * self.tried:  # it would fail as it did before
+        if off > CLOSER * self.tried:  # it would fail as it did before
             return None
-        self.tried = missed
+        self.tried = off
         found = self.ways.near(changed(self.problem, load=np.nan), now.found)
         if found is None:
             return None
         given = self.problem.given._replace(load=0.0)
-        linear = conditions(found.state, found.operator.pieces, given)[1]
-        load = float(linear.missed[2 * found.state.patches.number - 1])
+        linear = conditions(found.state, found.operator, given)
+        load = float(missed(found.state, found.operator, given, linear)[-2])
         return changed(self.problem, load=load), found
 
     def at(self, loads: Iterable[float], error: ContactError | None) -> Width:
@@ -210,7 +210,7 @@ class Search:
             return Width(load, 0.5 * self.problem.chord.period, 0.0, None)
         state = found.state
         given = self.problem.given._replace(load=load)
-        moved = moves(state, conditions(state, found.operator.pieces, given)[1], load)
+        moved = conditions(state, found.operator, given).growth(state, load)
         P, last = state.patches, len(moved) - 1
         whole = float(P.b[-1] - P.a[0])
         if P.chord.periodic:

@@ -84,6 +84,13 @@ class Measure:
             multiply(out, block[some], self._factor(near.row[pair[some]], i, x, block[some]))
         return out
 
+    @cached_property
+    def S(self) -> Array:
+        """S_i at a, c and b of each patch i, (N, 3)."""
+        P, every = self.patches, np.arange(self.patches.number)
+        x = Points(np.stack((P.a, P.c, P.b), axis=1), np.zeros((P.number, 3)))
+        return np.asarray(self.others(every, x, every))
+
     def _logarithms(self, level: Level, node: Index, i: Index, x: Points) -> Any:
         """ln S of far nodes at places, (m, n, 1)."""
         q = level.points(node)

@@ -1,22 +1,25 @@
-"""Newton's method for the edges of N patches, with a Jacobian in closed form.
+"""Newton's method for the edges of N patches, with the derivatives in closed form.
 
     C_j = ∫ H cos(π(t - c_j)/λ) dν_j = 0          K_i = ∫_{gap i} g' dx = 0
     P = G ∫ H d(t, c_j) dν_j                      M = G ∫ H t d(t, c_j) dν_j
 
-When an edge e of patch k moves by δ, F changes by (G/2π) D_k(e) T_k(z)/d(z, e) δ: a point charge at
-e. With y = D_k(e) δ/2
+An edge that moves is a point charge there. The conditions are linear in such charges, and
+`edge_charges` solves them for C_1..N, K_1..N-1, P and M. Two of these may give way to others:
 
-    ∂C_j = ρ_j(e) cos(π(e - c_j)/λ)               ∂K_i = -(1/π) ρ_i(e) ∫_{gap i} T_i/d(x, e) dx
-    ∂P = G d(e, c_k)                              ∂M = G d(e, c_k) e
+    C_m to K_N where a period is closing, m its widest patch: ∫ g' dx over a period is a sum of all
+    C_j, and rounding in them moves the middle of a gap s by 1/s² times as much as rounding in its
+    own condition;
+    P to half of the distance of the outermost edges, where that is given.
 
-with ρ_j(e) = d(e, c_k)/d(e, c_j). At a sharp edge, the end of the indenter, the unknown is the
-charge itself.
+The answer is then that to the other conditions, and so much of the answers to a unit change of C_m
+and of P alone as the conditions in their places ask for.
+
+At a sharp edge, the end of the indenter, the unknown is the charge itself.
 """
 
 from __future__ import annotations
 
-from dataclasses import replace
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,21 +27,18 @@ from numpy.typing import NDArray
 from sie.numerics.interval import EPS
 from sie.progress_bar import step_done
 
-from .bounds import CLOSED
-from .gap_rows import across_gaps
+from .edge_charges import EdgeCharges
+from .edge_moves import INSISTS, INWARD, Damping, event_of, moved, turning_smooth
 from .measure import edge_ratio
-from .operator import Operator, at_edges, gap_values
+from .operator import Operator, at_edges, gap_values, operator_of
 from .panels import Patches
 from .pieces import Pieces
 from .repairs import after
 from .state import Event, Given, State, balances
+from .sums import parts
 
 Array = NDArray[np.float64]
 
-# The most that an edge moves out: half-widths of its patch, widths of its gap
-OUTWARD, INTO_GAP = 2.0, 0.4
-TO_CORNER = 0.9  # of the way to a concave corner
-INWARD, WIDTHS = 0.4, 4.0  # most that it moves in: half-widths, widths of its gap
 SMALL = 1e-3  # of the mean: no intensity counts for less
 TINY = 1e-200
 MOST_STEPS = 60
@@ -49,187 +49,8 @@ ULPS = 8.0  # of an edge and of the load: no step tells less
 NARROW = 1e-5  # half-widths: steps are told from this width of a gap on
 # times that an edge is asked back, and the part of the mean: only clear tension counts from then on
 TURNS, CLEARLY = 3, 0.03
-GROWTH = 3.0  # of moves after one that went too far: slower after every such one, so that it ends
-TOGETHER = 4  # steps in a row: both edges of a patch or of a gap ask for more
-INSISTS = 12  # steps in a row that a damped edge asks for more: an event
-
-
-class Linear(NamedTuple):
-    """The conditions at a state: what is missed, the Jacobian, and D at the edges."""
-
-    missed: Array
-    matrix: Array
-    intensity: Array
-
-    @property
-    def solution(self) -> Array:
-        """Charges at the edges, and the change of the tilt, that meet the conditions."""
-        size = np.abs(self.matrix).max(axis=1)
-        return np.asarray(np.linalg.solve(self.matrix / size[:, None], -self.missed / size))
-
-
-def conditions(state: State, pieces: Pieces, given: Given) -> tuple[Operator, Linear]:
-    """The conditions of the patches, then of the gaps between, of the load and of the moment.
-
-    Where a period is closing that of the widest patch gives way to the condition of the last gap:
-    ∫ g' dx over a period is a sum of all C_j, and rounding in them moves the middle of a gap s by
-    1/s² times as much as rounding in its own condition.
-    """
-    P = state.patches
-    o = Operator(P, pieces, np.where(state.sharp, state.charge, 0.0))
-    N, chord, e = P.number, P.chord, P.edges
-    tilt = state.tilt + o.H0
-    missed, matrix = np.zeros(2 * N + 1), np.zeros((2 * N + 1, 2 * N + 1))
-    C, plain = o.closures()
-    missed[:N], matrix[:N, 2 * N] = C + tilt * plain, plain
-    ratio = edge_ratio(P, np.arange(N))
-    matrix[:N, : 2 * N] = ratio * chord.cosine(e - P.c[:, None])
-    K, across = closures(o, ratio)
-    rows = np.append(np.arange(N, 2 * N - 1), np.argmax(P.r))[: len(K)]
-    missed[rows], matrix[rows, : 2 * N] = K, across
-    matrix[rows, 2 * N] = 0.0
-    missed[2 * N - 1 :], matrix[2 * N - 1 :] = _balance(o, tilt, given)
-    charged = matrix[:, : 2 * N] @ o.Y
-    charged[rows] = 0.0  # D contains them
-    charged[2 * N] *= given.moment is not None
-    intensity = np.where(state.sharp, 0.0, at_edges(o))
-    linear = Linear(missed + charged, matrix, intensity)
-    return o, _of_width(state, linear, given.half_width) if given.by_width else linear
-
-
-def _balance(o: Operator, tilt: float, given: Given) -> tuple[Array, Array]:
-    """The conditions of the load, and of the moment where that is given."""
-    P, x = o.patches, o.panels.points.x
-    arm = P.chord.apart(P.edges - np.repeat(P.c, 2))
-    missed = np.array([(o.b * (o.H + tilt)).sum() - given.load, 0.0])
-    rows = np.stack((np.append(arm, o.b.sum()), np.append(0.0 * arm, 1.0)))
-    if given.moment is not None:
-        missed[1] = (o.b * (o.H + tilt) * x).sum() - given.moment
-        rows[1] = np.append(arm * P.edges, (o.b * x).sum())
-    return missed, rows
-
-
-def outermost(patches: Patches) -> tuple[int, int]:
-    """The edges on both sides of all patches; per period, of its widest gap."""
-    last = int(np.argmax(patches.gaps)) if patches.chord.periodic else patches.number - 1
-    return 2 * last + 1, (2 * last + 2) % (2 * patches.number)
-
-
-def _of_width(state: State, linear: Linear, r: float | None) -> Linear:
-    """The conditions with half of the distance of the outermost edges in place of the load."""
-    P, D = state.patches, linear.intensity
-    assert r is not None
-    last, first = outermost(P)
-    missed, matrix = linear.missed.copy(), linear.matrix.copy()
-    n = 2 * P.number - 1
-    if P.chord.periodic:
-        missed[n] = (P.chord.period - 2.0 * r) - float(P.gaps[last // 2])
-    else:
-        missed[n] = float(P.edges[last] - P.edges[first]) - 2.0 * r
-    matrix[n] = 0.0
-    for edge, sign in ((last, 2.0), (first, -2.0)):
-        if not state.sharp[edge]:
-            matrix[n, edge] = sign / (D[edge] if D[edge] > 0.0 else np.abs(D).mean())
-    return Linear(missed, matrix, D)
-
-
-def closures(o: Operator, ratio: Array) -> tuple[Array, Array]:
-    """K_i of the N - 1 inner gaps, and their derivatives (N - 1, 2N).
-
-    Those of the last gap are added where a period is closing.
-    """
-    P, pieces, k = o.patches, o.pieces, o.gaps
-    n = P.number - 1 + P.closing
-    if not n:
-        return np.zeros(0), np.zeros((0, 2))
-    reference, T, D = gap_values(o)
-    b, a = P.b[:n], np.append(P.a[1:], P.a[0] + P.chord.period)[:n]
-    own, next_ = pieces.locate(b, "left"), pieces.locate(a)
-    base = pieces.value(own, b, 0.0)
-    # on one piece from either edge to the middle the reference is H itself, but for a break between
-    simple = (next_ - own <= 1) & (np.bincount(k.gap, ~k.follows, n) == 0.0)
-    broken = simple & (next_ > own)
-    reference = np.where(simple[k.gap, None], 0.0, reference - base[k.gap, None])
-    excess = (reference - T * D / np.pi) * k.dx
-    width = np.bincount(k.gap, k.dx.sum(axis=1), n)
-    integral = np.bincount(k.gap, excess.sum(axis=1), n)
-    risen = np.where(simple, 0.0, pieces.rises(b, a, walls=True) - base * width)
-    break_, middle = (pieces.ends[next_[broken]], 0.0), (b[broken], 0.5 * (a - b)[broken])
-    risen[broken] = pieces.rise(next_[broken], break_, middle)
-    risen[broken] -= pieces.rise(own[broken], break_, middle)
-    across: Array = -across_gaps(P, k, T * k.dx) * ratio[:n] / np.pi
-    return np.asarray(risen - integral), across
-
-
-def moves(state: State, linear: Linear, load: float) -> Array:
-    """The derivatives of the edges (2N,) by ln P; those of sharp ones are 0.
-
-    Where a half-width is given they are by the logarithm of that, in place of a load.
-    """
-    size = np.abs(linear.matrix).max(axis=1)
-    n = 2 * state.patches.number
-    right = np.zeros(n + 1)
-    right[n - 1] = load
-    y = np.linalg.solve(linear.matrix / size[:, None], right / size)[:n]
-    with np.errstate(divide="ignore", invalid="ignore"):
-        moved = 2.0 * y / np.where(state.sharp, 1.0, linear.intensity)
-    return np.where(state.sharp, 0.0, moved)
-
-
-class Damping(NamedTuple):
-    """What limits the next moves of the edges, (2N,) each.
-
-    trust      the most that an edge moves after it was asked back
-    moved      its last move
-    insists    steps in a row in which it was asked for more than is allowed
-    turns      how often it was asked back
-    """
-
-    trust: Array
-    moved: Array
-    insists: Array
-    turns: Array
-
-    def limited(self, state: State, asked: Array, corners: Array) -> Damping:
-        """Those after a step that asks for moves; no edge moves out over a concave corner."""
-        P, outward = state.patches, state.outward
-        r = np.repeat(P.r, 2)
-        gaps = np.stack((np.concatenate((P.gaps[-1:], P.gaps[:-1])), P.gaps), axis=1).ravel()
-        most = np.where(
-            asked * outward > 0.0,
-            np.minimum(np.minimum(OUTWARD * r, INTO_GAP * gaps), TO_CORNER * room(P, corners)),
-            np.minimum(INWARD * r, WIDTHS * gaps),
-        )
-        back = (asked * self.moved < 0.0) & (np.abs(asked) > 0.5 * np.abs(self.moved))
-        turns, last = self.turns + back, np.abs(self.moved)
-        growth = 1.0 + GROWTH / (1.0 + turns**2)
-        trust = np.where(back, 0.5 * last, np.maximum(growth * last, self.trust))
-        allowed = np.minimum(most, trust)
-        insists = np.where((np.abs(asked) > most) & ~back, self.insists + 1, 0)
-        return Damping(trust, np.clip(asked, -allowed, allowed), insists, turns)
-
-    def carried(self, before: State, after: State) -> tuple[Damping, State]:
-        """The same, and the charges, of the edges that were there before; others begin anew."""
-        old, edges = before.patches.edges, after.patches.edges
-        k = np.minimum(np.searchsorted(old, edges), len(old) - 1)
-        same = old[k] == edges
-        new = Damping.none(len(edges))
-        charge = np.where(same & after.sharp, before.charge[k], 0.0)
-        return Damping(*(np.where(same, v[k], w) for v, w in zip(self, new, strict=True))), replace(
-            after, charge=charge
-        )
-
-    @classmethod
-    def none(cls, n: int) -> Damping:
-        return cls(np.full(n, np.inf), *np.zeros((3, n)))
-
-
-def room(patches: Patches, corners: Array) -> Array:
-    """The distances of the edges (2N,) from the next corner outwards; inf where there is none."""
-    lower, upper = np.append(-np.inf, corners), np.append(corners, np.inf)
-    behind = patches.a - lower[np.searchsorted(corners, patches.a)]
-    ahead = upper[np.searchsorted(corners, patches.b, side="right")] - patches.b
-    return np.stack((behind, ahead), axis=1).ravel()
+# of the load over E*/2: K are 0 to the rounding of h if that is more
+BLURRED = 1e-7
 
 
 def solve(
@@ -247,20 +68,26 @@ def solve(
         if len(sizes) == most:
             break
         step_done()
-        _, linear = conditions(state, pieces, given)
-        y = linear.solution
+        o = operator_of(state, pieces)
+        linear = conditions(state, o, given)
+        changes = (
+            -missed(state, o, given, linear),
+            loaded(state, given.size),
+            linear.roundings(BLURRED * given.load),
+        )
+        y, by_load, by_rounding = linear.charged(np.column_stack(changes)).T
         asked = wished(state, linear, y, damping.turns)
         # D depends on the charges: they first
         unknown = state.sharp.any() and not state.charge.any()
         damping = damping.limited(state, 0.0 * asked if unknown else asked, pieces.concave)
-        size = relative_size(state, y, _told(state, asked, moves(state, linear, given.size)))
+        size = relative_size(state, y, _told(state, asked, linear, (by_load, by_rounding)))
         limits = pieces.solid_around(state.patches.c), given.moment is not None
         state, clipped = moved(state, damping.moved, y, limits)
         sizes.append(np.inf if clipped else size)
         whole = np.array_equal(asked, damping.moved)
         if _settled(sizes, enough, whole, state.sharp.any()):
-            return state, _turning_smooth(state), step + 1
-        event = _event(state, asked, damping.insists, pieces)
+            return state, turning_smooth(state), step + 1
+        event = event_of(state, asked, damping.insists, pieces)
         if event is not None:
             fewer = after(event, state, pieces)
             if fewer.patches.number >= state.patches.number or not balances(fewer, given):
@@ -288,11 +115,16 @@ def wished(state: State, linear: Linear, y: Array, turns: Array) -> Array:
     return np.where(pulls, inward, np.where(smooth, 2.0 * y[: 2 * N] / D, 0.0))
 
 
-def _told(state: State, asked: Array, moves: Array) -> Array:
-    """The moves of edges, less what doubles of the edges and of the load do not resolve."""
-    resolved = EPS * np.where(np.isfinite(moves), np.abs(moves), 0.0)
+def _told(state: State, asked: Array, linear: Linear, charges: tuple[Array, Array]) -> Array:
+    """The moves of edges, less what doubles of the edges, of the load and of h do not resolve.
+
+    `charges`: those of the load, and of the rounding of h.
+    """
+    by_load, by_rounding = (np.abs(linear.moves(state, y)) for y in charges)
+    resolved = EPS * np.where(np.isfinite(by_load), by_load, 0.0)
     least = np.spacing(np.abs(state.patches.edges)) + resolved
-    return np.maximum(np.abs(asked) - ULPS * least, 0.0)
+    blurred = np.nan_to_num(by_rounding)
+    return np.maximum(np.abs(asked) - np.maximum(ULPS * least, blurred), 0.0)
 
 
 def relative_size(state: State, y: Array, told: Array) -> float:
@@ -312,21 +144,6 @@ def relative_size(state: State, y: Array, told: Array) -> float:
     )
 
 
-def moved(state: State, move: Array, y: Array, limits: tuple[Any, bool]) -> tuple[State, bool]:
-    """The state after a step, and whether edges became sharp at the ends of the indenter."""
-    (low, high), turns = limits
-    low, high = np.repeat(low, 2), np.repeat(high, 2)
-    n, outward, sharp = len(move), state.outward, state.sharp
-    e = state.patches.edges + move
-    charge = np.where(sharp, state.charge + y[:n], 0.0)
-    ends = ((e <= low) & (outward < 0.0)) | ((e >= high) & (outward > 0.0))
-    clipped = bool((ends & ~sharp).any())
-    if clipped:
-        e, sharp = np.where(ends, np.where(outward < 0.0, low, high), e), sharp | ends
-    tilt = state.tilt + float(y[n]) if turns else state.tilt
-    return State(Patches(e[::2], e[1::2], state.patches.chord), sharp, charge, tilt), clipped
-
-
 def _settled(sizes: list[float], enough: float, whole: bool, sharp: np.bool_) -> bool:
     """Whether the last step is small enough.
 
@@ -342,57 +159,214 @@ def _settled(sizes: list[float], enough: float, whole: bool, sharp: np.bool_) ->
     return (decreased and whole) or (last < SETTLED and last >= 0.5 * before)
 
 
-def _turning_smooth(state: State) -> Event | None:
-    """The event of sharp edges whose charges pull."""
-    wrong = np.flatnonzero(state.sharp & (state.charge * state.outward < 0.0)).tolist()
-    return Event("smooth", wrong[0], tuple(wrong[1:])) if wrong else None
+# -- the conditions --------------------------------------------------------------------------------
 
 
-def _event(state: State, asked: Array, insists: Array, pieces: Pieces) -> Event | None:
-    """The event of patches whose edges are asked to pass each other, or of gaps asked to close.
+class Linear(NamedTuple):
+    """How the conditions at a state change.
 
-    They are so several times in a row. The same holds of a single edge.
+    charges     the charges at the edges that change C, K, P and M
+    intensity   D at the edges, (2N,); 0 at sharp ones
+    replaced    the numbers of those that gave way to others, (R,)
+    rows        the derivatives of the others by the charges, (R, 2N)
+    slack       what rounding of h and of the edges changes in the conditions, (2N + 1,)
     """
-    P, out = state.patches, asked * state.outward > 0.0
-    single = insists >= INSISTS
-    both = (insists >= TOGETHER).reshape(-1, 2) & ~out.reshape(-1, 2)
-    shrinking = both.all(axis=1) | (single & ~out).reshape(-1, 2).any(axis=1)
-    growing = out & (insists >= TOGETHER)
-    closing = growing[1::2] & np.roll(growing[::2], -1)
-    outward = single & out
-    closing |= outward[1::2] | np.roll(outward[::2], -1)
-    closed = P.gaps < CLOSED * np.minimum(P.r, np.roll(P.r, -1))
-    if not P.chord.periodic:
-        closing[-1] = closed[-1] = False
-    kept = np.flatnonzero(closing & ~closed)
-    if kept.size:
-        closing[sorted(held_open(P, pieces).intersection(kept.tolist()))] = False
-    vanished, merged = np.flatnonzero(shrinking), np.flatnonzero(closing | closed)
-    if merged.size and P.number > 1:  # full contact is no event: it is ruled out before
-        return Event("merge", int(merged[0]), tuple(merged.tolist()))
-    if vanished.size:
-        return Event("vanish", int(vanished[0]), tuple(vanished.tolist()))
-    return None
+
+    charges: EdgeCharges
+    intensity: Array
+    replaced: list[int]
+    rows: Array
+    slack: Array
+
+    @property
+    def rounding(self) -> Array:
+        """A bound of that of the K, by h from patch to patch and by the places of the edges."""
+        return self.slack[len(self.slack) // 2 : -2]
+
+    def charged(self, changes: Array) -> Array:
+        """Charges and the change of the tilt, (2N + 1, m), by changes of the conditions."""
+        R = len(self.replaced)
+        if not R:
+            return self.charges.of(changes)
+        kept, alone = changes.copy(), np.zeros((len(changes), R))
+        kept[self.replaced], alone[self.replaced, np.arange(R)] = 0.0, 1.0
+        y = self.charges.of(np.column_stack((kept, alone)))
+        y, alone = y[:, :-R], y[:, -R:]
+        matrix, right = self.rows @ alone[:-1], changes[self.replaced] - self.rows @ y[:-1]
+        size = np.abs(matrix).max(axis=1, keepdims=True)
+        return np.asarray(y + alone @ np.linalg.solve(matrix / size, right / size))
+
+    def moves(self, state: State, y: Array) -> Array:
+        """The moves of the edges (2N,) by charges; those of sharp ones are 0."""
+        with np.errstate(divide="ignore", invalid="ignore"):
+            moved = 2.0 * y[: len(state.sharp)] / np.where(state.sharp, 1.0, self.intensity)
+        return np.where(state.sharp, 0.0, moved)
+
+    def growth(self, state: State, size: float) -> Array:
+        """The derivatives of the edges (2N,) by ln P, or by that of the half-width in its place."""
+        return self.moves(state, self.charged(loaded(state, size))[:, 0])
+
+    def roundings(self, most: float = np.inf) -> Array:
+        """The change of the conditions by the rounding of h where that is at most so much.
+
+        That of the valleys lifts every other one, which is the worst for neighbours: (2N + 1, 1).
+        """
+        changes, K = np.zeros((len(self.slack), 1)), self.rounding
+        changes[len(K) + 1 : -2, 0] = np.where(most < K, 0.0, K) * (-1.0) ** np.arange(len(K))
+        return changes
+
+    def rounded_moves(self, state: State) -> Array:
+        """How far the rounding of h from patch to patch moves the edges (2N,)."""
+        return self.moves(state, self.charged(self.roundings())[:, 0])
 
 
-def punch(o: Operator) -> Array:
-    """The charges at all edges of a flat punch on the patches, under a unit load."""
-    P, N = o.patches, o.patches.number
-    k = np.repeat(np.arange(N), 2)
-    ratio = edge_ratio(P, np.arange(N))
-    matrix = np.zeros((2 * N, 2 * N))
-    matrix[:N] = ratio * P.chord.cosine(P.edges - P.c[:, None])
-    matrix[N : 2 * N - 1] = closures(o, ratio)[1]
-    matrix[2 * N - 1] = P.chord.apart(P.edges - P.c[k])
-    size = np.abs(matrix).max(axis=1)
-    right = np.append(np.zeros(2 * N - 1), 1.0 / size[-1])
-    return np.asarray(np.linalg.solve(matrix / size[:, None], right))
+def loaded(state: State, size: float) -> Array:
+    """The change of the conditions by a load, or by a width in its place, (2N + 1, 1)."""
+    changes = np.zeros((2 * state.patches.number + 1, 1))
+    changes[-2] = size
+    return changes
 
 
-def held_open(patches: Patches, pieces: Pieces) -> set[int]:
-    """The gaps that never close."""
-    lo, hi = patches.b, patches.b + patches.gaps
-    places = pieces.never_closed
-    return set(
-        np.flatnonzero(np.searchsorted(places, hi, "right") > np.searchsorted(places, lo)).tolist()
-    )
+def edge_charges(o: Operator, moment: bool) -> EdgeCharges:
+    """The charges at the edges of an operator; `moment`: whether that is given, not the tilt."""
+    about = float((o.b * o.panels.points.x).sum()) if moment else None
+    _, plain = o.closures
+    inner = slice(_last_panels(o).start)
+    gaps, roots = o.gaps[inner], o.gap_roots[0][inner]
+    return EdgeCharges(o.patches, gaps, roots, o.S, plain, float(o.b.sum()), about)
+
+
+def conditions(state: State, o: Operator, given: Given) -> Linear:
+    """How the conditions of patches, of the gaps between, of the load and the moment change."""
+    P = state.patches
+    intensity = np.where(state.sharp, 0.0, at_edges(o))
+    slack = _slack(o, state.tilt, intensity)
+    replaced, rows = [], []
+    if P.closing:
+        replaced, rows = [int(np.argmax(P.r))], [_last_gap(o)]
+        slack[replaced] = slack[-2]
+    slack[-2:] = 0.0
+    if given.by_width:
+        replaced, rows = [*replaced, 2 * P.number - 1], [*rows, _of_width(state, intensity)]
+    charges = edge_charges(o, given.moment is not None)
+    return Linear(charges, intensity, replaced, np.array(rows), slack)
+
+
+def missed(state: State, o: Operator, given: Given, linear: Linear) -> Array:
+    """What the conditions miss, (2N + 1,)."""
+    N, K = o.patches.number, closed(o)
+    out = _unclosed(o, state.tilt + o.H0, given)
+    out[N:-2] = K[: N - 1]  # D contains what charges change in the gaps
+    if o.patches.closing:
+        out[linear.replaced[0]] = K[-1]
+    if (linear.slack[N:] > BLURRED * given.load).any():
+        # else rounding moves the edges to and fro, and with them the load
+        out[np.abs(out) <= linear.slack] = 0.0
+    if given.by_width:
+        out[-2] = _width(o.patches) - given.size
+    return out
+
+
+def _unclosed(o: Operator, tilt: float, given: Given) -> Array:
+    """What the conditions of the patches, of the load and of the moment miss, (2N + 1,)."""
+    P, N, x = o.patches, o.patches.number, o.panels.points.x
+    C, plain = o.closures
+    missed = np.zeros(2 * N + 1)
+    missed[:N] = C + tilt * plain
+    force = o.b * (o.H + tilt)
+    missed[-2] = force.sum() - given.load
+    if given.moment is not None:
+        missed[-1] = (force * x).sum() - given.moment
+    sharp = np.flatnonzero(o.Y)
+    if sharp.size:
+        e, k, Y = P.edges[sharp], sharp // 2, o.Y[sharp]
+        ratio = edge_ratio(P, np.arange(N))[:, sharp]
+        missed[:N] += (ratio * P.chord.cosine(e - P.c[:, None])) @ Y
+        force = P.chord.apart(e - P.c[k]) * Y
+        missed[-2] += force.sum()
+        missed[-1] += (force @ e) * (given.moment is not None)
+    return missed
+
+
+def _slack(o: Operator, tilt: float, intensity: Array) -> Array:
+    """What rounding changes in C_1..N and in the K of all gaps, and a 0, (2N + 1,).
+
+    All edges move by an ulp the same way, and h is rounded from patch to patch. In K_i the kernel
+    1/d(x, e) is that of the middle of the gap: for any edge e it is right to a factor of 2.
+    """
+    P, k, N = o.patches, o.gaps, o.patches.number
+    charge = 0.5 * np.abs(intensity) * np.spacing(np.abs(P.edges))
+    force = charge * P.chord.apart(np.repeat(P.r, 2))
+    root = np.bincount(k.gap, np.abs(o.gap_roots[0] * k.dx).sum(axis=1), N) / np.pi
+    middle, slack = P.b + 0.5 * P.gaps, np.zeros(2 * N + 1)
+    for some in parts(N, 2 * N):
+        pole = force / np.abs(P.chord.apart(P.edges - P.c[some, None]))
+        slack[:N][some] = pole.sum(axis=1)
+        pole /= np.abs(P.chord.apart(P.edges - middle[some, None]))
+        slack[N:-1][some] = root[some] * pole.sum(axis=1)
+    n = N - 1 + P.closing
+    slack[N : N + n] += o.pieces.rounding(P.b[:n], P.b[:n] + P.gaps[:n])
+    slack[N : N + n] += EPS * abs(tilt) * P.gaps[:n]
+    return slack
+
+
+def outermost(patches: Patches) -> tuple[int, int]:
+    """The edges on both sides of all patches; per period, of its widest gap."""
+    last = int(np.argmax(patches.gaps)) if patches.chord.periodic else patches.number - 1
+    return 2 * last + 1, (2 * last + 2) % (2 * patches.number)
+
+
+def _width(P: Patches) -> float:
+    """The distance of the outermost edges; per period that beside its widest gap."""
+    last, first = outermost(P)
+    if P.chord.periodic:
+        return P.chord.period - float(P.gaps[last // 2])
+    return float(P.edges[last] - P.edges[first])
+
+
+def _of_width(state: State, intensity: Array) -> Array:
+    """The derivatives of that distance by the charges, (2N,)."""
+    row = np.zeros(len(intensity))
+    for edge, sign in zip(outermost(state.patches), (2.0, -2.0), strict=True):
+        if not state.sharp[edge]:
+            D = intensity[edge]
+            row[edge] = sign / (D if D > 0.0 else np.abs(intensity).mean())
+    return row
+
+
+def _last_panels(o: Operator) -> slice:
+    """The panels of the last gap of a period that is closing, which follow all others."""
+    return slice(int(np.searchsorted(o.gaps.gap, o.patches.number - 1)), None)
+
+
+def _last_gap(o: Operator) -> Array:
+    """The derivatives of K_N by the charges, (2N,): -(1/π) ρ_N(e) ∫ T_N/d(x, e) dx."""
+    P, last = o.patches, _last_panels(o)
+    x, T = o.gaps.points[last], o.gap_roots[0][last] * o.gaps.dx[last]
+    apart = P.chord.apart(x.anchor[..., None] - P.edges, x.offset[..., None])
+    ratio = edge_ratio(P, np.array([P.number - 1]))[0]
+    return np.asarray(-ratio / np.pi * (T[..., None] / apart).sum(axis=(0, 1)))
+
+
+def closed(o: Operator) -> Array:
+    """K_i of the N - 1 inner gaps; that of the last gap is added where a period is closing."""
+    P, pieces, k = o.patches, o.pieces, o.gaps
+    n = P.number - 1 + P.closing
+    if not n:
+        return np.zeros(0)
+    reference, T, D = gap_values(o)
+    b, a = P.b[:n], np.append(P.a[1:], P.a[0] + P.chord.period)[:n]
+    own, next_ = pieces.locate(b, "left"), pieces.locate(a)
+    base = pieces.value(own, b, 0.0)
+    # on one piece from either edge to the middle the reference is H itself, but for a break between
+    simple = (next_ - own <= 1) & (np.bincount(k.gap, ~k.follows, n) == 0.0)
+    broken = simple & (next_ > own)
+    reference = np.where(simple[k.gap, None], 0.0, reference - base[k.gap, None])
+    excess = (reference - T * D / np.pi) * k.dx
+    width = np.bincount(k.gap, k.dx.sum(axis=1), n)
+    integral = np.bincount(k.gap, excess.sum(axis=1), n)
+    risen = np.where(simple, 0.0, pieces.rises(b, a, walls=True) - base * width)
+    break_, middle = (pieces.ends[next_[broken]], 0.0), (b[broken], 0.5 * (a - b)[broken])
+    risen[broken] = pieces.rise(next_[broken], break_, middle)
+    risen[broken] -= pieces.rise(own[broken], break_, middle)
+    return np.asarray(risen - integral)

@@ -21,9 +21,9 @@ from numpy.typing import NDArray
 from sie.profiles.base import Profile
 
 from .density import PatchPressure
-from .newton import conditions
+from .newton import conditions, loaded, missed
 from .of_scene import Problem
-from .operator import Found, Operator
+from .operator import Found, Operator, operator_of
 from .profile_pieces import of_profile
 from .state import Given, State
 
@@ -95,15 +95,16 @@ def _changed(several: Answer, error: Profile, places: Array, moment: bool) -> tu
     pieces = of_profile(error, several.found.operator.pieces.domain, TOLERANCE)
     none = Given(0.0, 0.0, 0.0 if moment else None)
     still = State(P, np.ones(2 * P.number, dtype=bool), np.zeros(2 * P.number), 0.0)
-    _, linear = conditions(still, pieces, none)
-    _, whole = conditions(state, several.found.operator.pieces, none)
+    o = operator_of(still, pieces)
+    linear = conditions(still, o, none)
+    whole = conditions(state, several.found.operator, none)
     moved = np.where(sharp, 0.0, 2.0 / np.where(sharp, 1.0, whole.intensity))
-    n = len(moved)
+    y, by_load = linear.charged(
+        np.column_stack((-missed(still, o, none, linear), loaded(state, 1.0)))
+    ).T
     if several.problem.given.half_width is not None:  # the load changes in its place
-        linear.missed[n - 1], linear.matrix[n - 1] = 0.0, 0.0
-        linear.matrix[n - 1, [0, n - 1]] = -moved[0], moved[-1]
-    size = np.abs(linear.matrix).max(axis=1)
-    y = np.linalg.solve(linear.matrix / size[:, None], -linear.missed / size)
+        wider, by_load_wider = (moved[-1] * v[-2] - moved[0] * v[0] for v in (y, by_load))
+        y = y - by_load * (wider / by_load_wider)
     charged = Operator(P, pieces, y[:-1])
     G, tilt = several.pressure.half_modulus, float(y[-1])
     p = PatchPressure(charged, G, tilt, 0.0)(places)

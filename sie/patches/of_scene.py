@@ -23,7 +23,7 @@ Array = NDArray[np.float64]
 class Problem:
     """The given profile and loads, in units of E*/2.
 
-    pieces     window -> the slope, without tilt
+    pieces     window, cuts or None -> the slope, without tilt
     slope      H(x);  height: h(x);  by_slope: whether the slope is a function, and h costs more
     domain     where the indenter is known; corners: whether its ends are the indenter's own
     given      load or half-width, tilt or moment
@@ -31,7 +31,7 @@ class Problem:
     effort     what the search has taken so far
     """
 
-    pieces: Callable[[tuple[float, float]], Pieces]
+    pieces: Callable[..., Pieces]
     slope: Callable[[Array], Array]
     height: Callable[[Array], Array]
     by_slope: bool
@@ -64,7 +64,7 @@ def problem_of(scene: Scene, tol: float = 1e-15) -> Problem:
     load = np.nan if scene.normal_load is None else scene.normal_load / G
     domain = profile.pieces.domain
     return Problem(
-        pieces=lambda window: of_profile(profile, window, tol),
+        pieces=lambda window, cuts=None: of_profile(profile, window, tol, cuts),
         slope=profile.pieces,
         height=profile.height,
         by_slope=bool(profile.pieces.functions),

@@ -25,6 +25,7 @@ from numpy.typing import NDArray
 from .chord import Points
 from .measure import Measure, Targets, close, edge_ratio, integrals
 from .panels import GapPanels, gap_panels
+from .pieces import Pieces
 from .state import Findings, State
 from .sums import Groups, add, far_sums, parts, ranges, steps
 from .tree import Level, Separation
@@ -110,6 +111,13 @@ class Operator(Measure):
         charge = np.where(own[:, None], level.charges[:2, node], level.charges[2:, node] / distance)
         return q, charge.transpose(1, 2, 0)
 
+    @cached_property
+    def gap_roots(self) -> tuple[Array, Array]:
+        """T_i and S_i on the nodes of `gaps`, i the patch to the left."""
+        k = self.gaps
+        return self.root(np.maximum(k.gap, 0), k.points, k.gap)
+
+    @cached_property
     def closures(self) -> tuple[Array, Array]:
         """∫ H cos dν_i and ∫ cos dν_i of all patches i, without point charges."""
         P, N = self.patches, self.patches.number
@@ -170,9 +178,10 @@ def at_edges(o: Operator) -> Array:
     """D at all edges (2N,); a smooth edge is that of no other charge."""
     P, N = o.patches, o.patches.number
     piece = np.stack((o.pieces.locate(P.a), o.pieces.locate(P.b, "left")), axis=1)
+    x, i = Points(P.edges.reshape(N, 2), np.zeros((N, 2))), np.arange(N)
+    H, owner = o.pieces.value(piece, x.anchor, x.offset), np.broadcast_to(i[:, None], (N, 2))
     with np.errstate(divide="ignore", invalid="ignore"):
-        x = Points(P.edges.reshape(N, 2), np.zeros((N, 2)))
-        return on_patches(o, np.arange(N), x, piece).ravel()
+        return np.asarray(o.D(Targets(i, i, x, H, piece, owner, o.S[:, ::2]))).ravel()
 
 
 def blocks(i: Index, x: Array) -> Index:
@@ -192,18 +201,19 @@ def gap_values(o: Operator, panels: GapPanels | None = None) -> tuple[Array, Arr
 
     i is the patch to the left; outside on the left the first one.
     """
-    panels = o.gaps if panels is None else panels
     P, pieces = o.patches, o.pieces
+    if panels is None:
+        panels, (T, S) = o.gaps, o.gap_roots
+    else:
+        T, S = o.root(np.maximum(panels.gap, 0), panels.points, panels.gap)
     shape = panels.dx.shape
     at_edge = pieces.value(panels.piece, panels.points.anchor[:, 0], 0.0)
     continued = pieces.value(panels.piece[:, None], panels.points.anchor, panels.points.offset)
     reference = np.where(panels.follows[:, None], continued, at_edge[:, None])
-    i = np.maximum(panels.gap, 0)
-    T, S = o.root(i, panels.points, panels.gap)
     piece = np.where(panels.follows, panels.piece, -1)[:, None]
     nearer = ((panels.gap + panels.right) % P.number)[:, None]
     targets = Targets(
-        i,
+        np.maximum(panels.gap, 0),
         panels.gap,
         panels.points,
         reference,
@@ -212,6 +222,11 @@ def gap_values(o: Operator, panels: GapPanels | None = None) -> tuple[Array, Arr
         S,
     )
     return reference, T, np.asarray(o.D(targets))
+
+
+def operator_of(state: State, pieces: Pieces) -> Operator:
+    """The operator of a state, with the charges of its sharp edges."""
+    return Operator(state.patches, pieces, np.where(state.sharp, state.charge, 0.0))
 
 
 @dataclass(frozen=True, eq=False)

@@ -8,7 +8,7 @@ towards an edge as far as the nearest other patch, or the patch behind a gap, as
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from functools import cached_property
 from typing import NamedTuple
 
@@ -207,6 +207,9 @@ class GapPanels:
     points: Points
     root: Array
     dx: Array
+
+    def __getitem__(self, some: slice) -> GapPanels:
+        return GapPanels(*(getattr(self, field.name)[some] for field in fields(self)))
 
     def parameter(self, panel: Index, distance: Array) -> Array:
         """The parameter at a distance from the edge."""

@@ -22,6 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie.numerics import chebyshev
+from sie.numerics.interval import EPS
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
@@ -30,6 +31,8 @@ GROWTH = 8.0  # a piece is continued beyond its ends while its polynomial grows 
 EASY = 1.5  # lengths: how far a polynomial of degree 3 or less is continued
 WAVES = 6.0  # of these lengths a panel may take in
 CORNER = 1e-9  # of the terms of H: a jump that is no rounding
+# times the rounding of each term: what a series leaves out, and the sums over it, are as much
+ROUNDINGS = 4.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,6 +44,7 @@ class Pieces:
     series     (K, E): Chebyshev coefficients on [ends[k], ends[k + 1]], E = 0 without functions
     void       (K,): whether there is no indenter there
     across     (K,): h at the upper end less h at the lower one, of a void piece
+    blur       (K,): the rounding of that
     """
 
     ends: Array
@@ -49,6 +53,7 @@ class Pieces:
     series: Array
     void: NDArray[np.bool_]
     across: Array
+    blur: Array
 
     @property
     def domain(self) -> tuple[float, float]:
@@ -160,10 +165,10 @@ class Pieces:
         with np.errstate(invalid="ignore"):
             step = self.value(k + 1, x, 0.0) - self.value(k, x, 0.0)
             # H itself may be next to nothing there
-            size = np.maximum(self._terms(k, x), self._terms(k + 1, x))
+            size = np.maximum(self.terms(k, x), self.terms(k + 1, x))
             return np.asarray(np.where(np.abs(step) > CORNER * size, step, 0.0))
 
-    def _terms(self, k: Index, x: Array) -> Array:
+    def terms(self, k: Index, x: Array) -> Array:
         """The sum of the magnitudes of what H of the pieces k at x is the sum of."""
         degree = np.arange(self.power.shape[1])
         power = np.abs(self.power[k]) * np.abs(x - self.origin[k])[:, None] ** degree
@@ -212,6 +217,64 @@ class Pieces:
         whole = np.where(self.void, self.across, 0.0)
         whole[k] = self.rise(k, (self.ends[k], 0.0), (self.ends[k + 1], 0.0))
         return whole
+
+    def rounding(self, x: Array, y: Array) -> Array:
+        """A bound of the rounding error of h(y) - h(x) for x <= y.
+
+        It is that of the terms of H over the way; of a series that of its places as well, and of
+        the place of a concave corner.
+        """
+        kx, ky = self.locate(x), self.locate(y, "left")
+        ky = np.maximum(kx, ky)
+        total = np.zeros(x.shape)
+        for k, from_, to in (
+            (kx, x, np.where(kx == ky, y, self.ends[kx + 1])),
+            (ky, np.where(kx == ky, y, self.ends[ky]), y),
+        ):
+            total += self._rounding(k, from_, to)
+        until = np.concatenate(([0.0], np.cumsum(self._roundings)))
+        total += np.maximum(until[ky] - until[np.minimum(kx + 1, ky)], 0.0)
+        corners = np.concatenate(([0.0], np.cumsum(np.abs(self.ends[1:-1] * self._drops))))
+        total += corners[ky] - corners[kx]
+        return np.asarray(ROUNDINGS * EPS * total)
+
+    def horizon(self, tilt: float, c: Array) -> float:
+        """The distance from places c within which all valleys of h + tilt x are.
+
+        On the line: the finite ends, and the roots of the outer polynomials (Fujiwara's bound).
+        """
+        ends = self.ends[np.isfinite(self.ends)]
+        reach = [np.abs(ends[[0, -1], None] - c).max()] if ends.size else [0.0]
+        for k in {0, len(self.origin) - 1}:
+            power = np.abs(self.power[k])
+            power[0] += abs(tilt)
+            degree = int(np.flatnonzero(power)[-1]) if power.any() else 0
+            if degree and not np.isfinite(self._half[k]):
+                order = 1.0 / np.arange(degree, 0, -1)
+                bound = 2.0 * ((power[:degree] / power[degree]) ** order).max()
+                reach.append(np.abs(self.origin[k] - c).max() + bound)
+        return float(max(reach))
+
+    @cached_property
+    def _drops(self) -> Array:
+        return np.minimum(self.steps, 0.0)
+
+    @cached_property
+    def _roundings(self) -> Array:
+        """The terms of h over each piece (0 of an unbounded one)."""
+        k = np.flatnonzero(np.isfinite(self._half))
+        found = np.zeros(len(self.origin))
+        found[k] = self._rounding(k, self.ends[k], self.ends[k + 1])
+        return found
+
+    def _rounding(self, k: Index, x: Array, y: Array) -> Array:
+        """The terms of h(y) - h(x) on pieces k, and what the places of a series come to."""
+        length = y - x
+        terms = np.maximum(self.terms(k, x), self.terms(k, y)) * length
+        if self.series.shape[1] > 1:
+            bent = np.abs(self.series[k, 1:]).sum(axis=1)
+            terms = terms + np.where(length > 0.0, bent * np.maximum(np.abs(x), np.abs(y)), 0.0)
+        return np.where(self.void[k], np.where(length > 0.0, self.blur[k] / EPS, 0.0), terms)
 
     def solid_around(self, x: Array) -> tuple[Array, Array]:
         """The ends of the interval without walls that each x is in."""

@@ -3,41 +3,60 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
+from numpy.typing import NDArray
 
 from sie.numerics import chebyshev
+from sie.numerics.interval import EPS
 from sie.profiles.base import Profile
 from sie.profiles.resolution import refined
 from sie.profiles.slope import Slope
 
 from .pieces import Pieces
 
+Array = NDArray[np.float64]
+
 # Periods: patches are found from one cut to the next, wherever that is.
 COPIES = (-1.0, 0.0, 1.0, 2.0)
 ROUNDING = 1e-15  # of the largest coefficient: what of a series is left out
 
 
-def of_profile(profile: Profile, window: tuple[float, float], tol: float) -> Pieces:
+def of_profile(
+    profile: Profile, window: tuple[float, float], tol: float, cuts: Array | None = None
+) -> Pieces:
     """The slope of a profile with its walls, functions resolved on the window.
 
-    Of a periodic one there are several copies.
+    Between two of the `cuts` they are resolved to the rounding of the slopes there. Of a periodic
+    profile there are several copies.
     """
     slope = profile.pieces
-    pieces = _with_walls(from_slope(slope, window, tol), profile.walls, profile)
+    pieces = _with_walls(_resolved(slope, window, tol, cuts), profile.walls, profile)
     if profile.period == np.inf:
         return pieces
     parts = []
     for turn in COPIES:
         shift = turn * profile.period
         parts.append(replace(pieces, ends=pieces.ends + shift, origin=pieces.origin + shift))
-    return Pieces(
-        np.concatenate([parts[0].ends[:1], *(p.ends[1:] for p in parts)]),
-        *(
-            np.concatenate([getattr(p, name) for p in parts])
-            for name in ("origin", "power", "series", "void", "across")
-        ),
-    )
+    return _joined(parts)
+
+
+def _joined(parts: list[Pieces]) -> Pieces:
+    """Pieces of intervals that follow each other."""
+    most = max(p.series.shape[1] for p in parts)
+    series = [np.pad(p.series, ((0, 0), (0, most - p.series.shape[1]))) for p in parts]
+    names = ("origin", "power", "void", "across", "blur")
+    origin, power, *others = (np.concatenate([getattr(p, n) for p in parts]) for n in names)
+    ends = np.concatenate([parts[0].ends[:1], *(p.ends[1:] for p in parts)])
+    return Pieces(ends, origin, power, np.concatenate(series), *others)
+
+
+def _resolved(slope: Slope, window: tuple[float, float], tol: float, cuts: Array | None) -> Pieces:
+    if cuts is None or not slope.functions:
+        return from_slope(slope, window, tol)
+    ends = [window[0], *cuts[(cuts > window[0]) & (cuts < window[1])].tolist(), window[1]]
+    return _joined([from_slope(slope, part, tol) for part in pairwise(ends)])
 
 
 def _with_walls(pieces: Pieces, walls: tuple[tuple[float, float], ...], profile: Profile) -> Pieces:
@@ -62,9 +81,9 @@ def _with_walls(pieces: Pieces, walls: tuple[tuple[float, float], ...], profile:
             pieces.void[first:last] = True
             if lo < first_end or hi > last_end:
                 continue  # nothing solid is in the window on the other side
-        pieces.across[first] = _height_after(pieces, last, profile) - _height_before(
-            pieces, first, profile
-        )
+        after, before = _height_after(pieces, last, profile), _height_before(pieces, first, profile)
+        pieces.across[first] = after - before
+        pieces.blur[first] = EPS * (abs(after) + abs(before))
     return pieces
 
 
@@ -77,6 +96,7 @@ def _inserted(pieces: Pieces, k: int, end: float) -> Pieces:
         np.insert(pieces.series, k, 0.0, axis=0),
         np.insert(pieces.void, k, True),
         np.insert(pieces.across, k, 0.0),
+        np.insert(pieces.blur, k, 0.0),
     )
 
 
@@ -106,7 +126,7 @@ def from_slope(slope: Slope, window: tuple[float, float], tol: float) -> Pieces:
         only = replace(resolved, coefficients=np.zeros((K, 1)))
         series = chebyshev.transform(only.local(np.arange(K), lo, np.zeros(K), u))
         series[np.abs(series) < ROUNDING * np.abs(series).max()] = 0.0
-    none = np.zeros(K, dtype=bool)
+    none, zero = np.zeros(K, dtype=bool), np.zeros(K)
     return Pieces(
-        resolved.breaks, resolved.origins, resolved.coefficients, series, none, np.zeros(K)
+        resolved.breaks, resolved.origins, resolved.coefficients, series, none, zero, zero.copy()
     )

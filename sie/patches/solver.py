@@ -18,29 +18,39 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from sie.errors import ContactError, LoadError
+from sie.errors import ContactError, LoadError, ResolutionError
 from sie.progress_bar import reported
 
 from . import newton
 from .gap import gap, overlaps
 from .newton import FINAL, MOST_STEPS
 from .of_scene import Problem, changed
-from .operator import Found, Operator
+from .operator import Found, Operator, operator_of
 from .panels import Patches
 from .pieces import Pieces
 from .repairs import after, apart, bounded, mended
 from .start import cells_of, grid_pressure
 from .start_state import start_of
-from .state import Effort, Event, Findings, Given, State, balances
+from .state import SAME, Effort, Event, Findings, Given, State, balances
 from .tension import tensions
-from .window import COARSE, WIDENED, fitted_window, levels
+from .unknown import refuse_unknown_depths, refuse_unknown_ends, unsettled
+from .valleys import graded_about, is_light, pressed, valleys, within_reach
+from .window import (
+    COARSE,
+    WIDENED,
+    falling,
+    fitted_window,
+    levels,
+    overlap_beyond,
+    whole_window,
+)
 
 Array = NDArray[np.float64]
 
-SAME = 1e-9  # half-widths: by which starts differ that do not lead to the same
 ROUNDS, STALLS = 30, 1  # the most rounds, and those that end without edges or an event
-SEVERAL = 12  # patches: of more than these, cuts are sought ...
-EARLY, EARLY_STEPS, ROUGHLY = 4, 5, 0.1  # ... in so many rounds of so many steps, or of such a size
+SEVERAL = 12  # patches: of more than these, cuts and births are sought ...
+EARLY, EARLY_STEPS, ROUGHLY = 4, 3, 0.1  # ... in so many rounds of so many steps, or of such a size
+DEEP = 2.0  # times what a gap misses to close: such an overlap is not of the edges' errors
 # of the largest D: tension that is accepted beside a merger, where no arithmetic tells more
 NEARLY = 1e-7
 LIGHTEST = 10  # quarters of the load, one of another, of which one has to lead somewhere
@@ -58,8 +68,6 @@ Start = Callable[[Problem], State]
 FEWEST_CELLS, MOST_CELLS = 2048, 1 << 18
 FINER = 8  # a second grid, if the first as a start leads nowhere
 CELLS = 1.5  # for each break in the window
-# Windows beyond a window, and places there, at which the bodies must not overlap
-FAR, LOOKED_AT = 1e3, 4000
 
 
 class Exhausted(Exception):
@@ -74,8 +82,9 @@ def contact_near(problem: Problem, near: Found) -> Found | None:
     try:
         found = settled(near.state, near.operator.pieces, problem)
         refuse_unknown_ends(found.state, problem)
-        if _overlap_beyond(found, problem, window) == window:
-            return _in_one_period(found, problem)
+        _refuse_unknown(found, problem.given)
+        if overlap_beyond(found, problem, window, gap) == window:
+            return _in_one_period(_with_far_valleys(found, problem), problem)
     except (*ASTRAY, Exhausted):
         pass
     return None
@@ -86,7 +95,9 @@ def contact(problem: Problem) -> Found:
     """The patches of a problem. Raises ContactError where none are certified."""
     problem = replace(problem, effort=Effort())
     try:
-        return _in_windows(problem)
+        found = _in_windows(problem)
+        _refuse_unknown(found, problem.given)
+        return found
     except Exhausted:
         moment = problem.given.moment is not None
         raise LoadError(
@@ -97,17 +108,56 @@ def contact(problem: Problem) -> Found:
 
 
 def _in_windows(problem: Problem) -> Found:
+    light = light_contact(problem)
+    if light is not None:
+        return _in_one_period(light, problem)
     window = fitted_window(problem)
     for _ in range(WIDENED):
         found = _within(problem, window)
-        beyond = _overlap_beyond(found, problem, window)
+        beyond = overlap_beyond(found, problem, window, gap)
         if beyond == window:
-            return _in_one_period(found, problem)
+            return _in_one_period(_with_far_valleys(found, problem), problem)
         window = beyond
     raise LoadError(
         f"contact goes on beyond [{window[0]:.6g}, {window[1]:.6g}]: the slope rises too little; "
         "give a domain"
     )
+
+
+def light_contact(problem: Problem, several: bool = False) -> Found | None:
+    """The patches of a load that presses each valley like a parabola; None if it does not.
+
+    `several`: they are sought only if the profile has more than one valley.
+    """
+    if problem.given.moment is not None:
+        return None
+    window, chord, tilt = whole_window(problem), problem.chord, problem.given.tilt
+    hints = falling(problem, window)
+    if several and not hints.size:
+        return None
+    try:
+        pieces = problem.pieces(window, hints)
+        every = valleys(pieces, window, tilt)
+        if several and len(every.x) < 2:
+            return None
+        near = within_reach(every, problem.given.load, pieces, chord)
+        found = pressed(near, problem.given.load, chord)
+        if found is None or not is_light(*found, pieces, tilt, chord):
+            return None
+        (x, *_), r = found
+        pieces = problem.pieces(window, np.union1d(graded_about(x, r, window, chord), hints))
+        light = settled(bounded(x - r, x + r, pieces, chord, tilt), pieces, problem)
+    except (*ASTRAY, Exhausted):
+        return None
+    refuse_unknown_ends(light.state, problem)
+    _refuse_unknown(light, problem.given)
+    return light
+
+
+def _refuse_unknown(found: Found, given: Given) -> None:
+    linear = newton.conditions(found.state, found.operator, given)
+    moved = linear.rounded_moves(found.state)
+    refuse_unknown_depths(found, given, linear.rounding, moved)
 
 
 def _in_one_period(found: Found, problem: Problem) -> Found:
@@ -176,64 +226,26 @@ def _within(problem: Problem, window: tuple[float, float]) -> Found:
     return found
 
 
-def _overlap_beyond(
-    found: Found, problem: Problem, window: tuple[float, float]
-) -> tuple[float, float]:
-    """A wider window where this one is too narrow for a load that is a force.
+def _with_far_valleys(found: Found, problem: Problem) -> Found:
+    """The same contact, or that in which valleys beyond its window touch as well.
 
-    It is so where contact reaches its end, or the bodies overlap beyond it.
+    They are all looked at, unless the function has more features than can be resolved.
     """
-    lo, hi = found.operator.pieces.domain
-    if problem.chord.periodic or (lo, hi) == problem.domain:
-        return window
-    P = found.state.patches
-    a, b = float(P.a[0]), float(P.b[-1])
-    wider = [lo, hi]
-    for k, (end, limit, side) in enumerate(
-        ((lo, problem.domain[0], -1.0), (hi, problem.domain[1], 1.0))
-    ):
-        if end == limit:
-            continue
-        if end == (a, b)[k]:
-            wider[k] = end + side * 4.0 * (hi - lo)
-            continue
-        distance = (hi - lo) * np.geomspace(1e-3, FAR, LOOKED_AT)
-        x = np.clip(end + side * distance, min(end, limit), max(end, limit))
-        with np.errstate(all="ignore"):
-            H = problem.slope(x) + found.state.tilt
-            rise = np.cumsum(side * 0.5 * (H[1:] + H[:-1]) * np.abs(np.diff(x)))
-            middle = 0.5 * (a + b)
-            opened = float(gap(found.operator, np.array([end]))[0])
-            g = (
-                opened
-                + rise
-                - problem.given.load / np.pi * np.log(np.abs((x[1:] - middle) / (x[0] - middle)))
-            )
-            below = np.flatnonzero(g < -1e-3 * max(opened, 0.0))
-        if below.size:
-            wider[k] = float(x[1:][below[0]]) + side * 2.0 * (hi - lo)
-    return max(wider[0], problem.domain[0]), min(wider[1], problem.domain[1])
-
-
-def refuse_unknown_ends(state: State, problem: Problem) -> None:
-    """Raises LoadError where contact reaches an end beyond which the indenter is not known."""
-    edges = zip(state.patches.edges[[0, -1]].tolist(), problem.domain, problem.corners, strict=True)
-    for edge, end, corner in edges:
-        if edge != end or problem.chord.periodic:
-            continue
-        if not np.isfinite(float(problem.slope(np.array([end]))[0])):
-            raise LoadError(
-                f"the slope is infinite at the end x = {end:.6g} of its domain, which the "
-                "contact comes near: "
-                "narrow the domain"
-            )
-        if not corner:
-            raise LoadError(
-                f"the contact reaches the end of the trace at x = {end:.6g}, and what the indenter "
-                "is like beyond is not known: lower the load or the tilt, repeat the trace by "
-                "sie.Periodic(trace, period), or measure further out",
-                end=end,
-            )
+    window, whole = found.operator.pieces.domain, whole_window(problem)
+    if problem.chord.periodic or (window[0] <= whole[0] and window[1] >= whole[1]):
+        return found
+    try:
+        wide = min(window[0], whole[0]), max(window[1], whole[1])
+        pieces = problem.pieces(wide, np.union1d(window, falling(problem, wide)))
+    except ResolutionError:
+        return found
+    state = found.state
+    seen = findings(
+        Operator(state.patches, pieces, found.operator.Y), state.tilt, problem.given.load
+    )
+    if seen.overlap:
+        return settled(mended(state, replace(seen, tension=()), pieces), pieces, problem)
+    return replace(found, findings=replace(found.findings, doubt=seen.doubt, place=seen.place))
 
 
 # -- Newton's method and repairs -------------------------------------------------------------------
@@ -242,15 +254,18 @@ def refuse_unknown_ends(state: State, problem: Problem) -> None:
 def settled(state: State, pieces: Pieces, problem: Problem) -> Found:
     """The certified answer near a start."""
     steps, stalls, nearly = 0, 0, None
-    # before the edges of many patches are exact, most patches that have to be cut show it
+    # before the edges of many patches are exact, most that have to be cut or added show it
     early = EARLY if state.patches.number > SEVERAL else 0
     seen: set[tuple[object, ...]] = set()
     for round_ in range(ROUNDS):
-        start = _rounded(state)
-        # the same start ends the same again
-        if not state.patches.number or not (state.patches.gaps > 0.0).all() or start in seen:
+        if not state.patches.number or not (state.patches.gaps > 0.0).all():
             break
-        seen.add(start)
+        if round_ >= early:
+            start = state.rounded
+            # the same start ends the same again
+            if start in seen:
+                break
+            seen.add(start)
         accuracy = (ROUGHLY, EARLY_STEPS) if round_ < early else (FINAL, MOST_STEPS)
         state, event, count = _stepped(state, pieces, problem, accuracy)
         steps += count
@@ -261,13 +276,13 @@ def settled(state: State, pieces: Pieces, problem: Problem) -> Found:
             state = _after(event, state, pieces, problem.given)
             if round_ >= early:
                 continue
-        o = Operator(state.patches, pieces, np.where(state.sharp, state.charge, 0.0))
+        o = operator_of(state, pieces)
         if round_ < early:
-            pulled, lowest = tensions(o)
-            early = early if pulled or event is not None else 0
-            state = mended(state, Findings(pulled, (), lowest), pieces) if pulled else state
+            rough = roughly(o, state.tilt, problem.given.load, gaps=round_ > 0)
+            early = early if event is not None or not rough.ok else 0
+            state = state if rough.ok else mended(state, rough, pieces)
             continue
-        found = Found(state, o, findings(o), steps)
+        found = Found(state, o, findings(o, state.tilt, problem.given.load), steps)
         if found.findings.ok:
             return found
         if not found.findings.overlap and found.findings.lowest > -NEARLY:
@@ -275,7 +290,7 @@ def settled(state: State, pieces: Pieces, problem: Problem) -> Found:
         state = mended(state, found.findings, pieces)
     if nearly is not None:
         return nearly
-    raise _unsettled(problem, state.patches.number)
+    raise unsettled(problem, state.patches.number)
 
 
 def _stepped(
@@ -291,36 +306,31 @@ def _stepped(
     return found
 
 
-def _unsettled(problem: Problem, patches: int, reached: float = 0.0) -> LoadError:
-    """The refusal of a load; `reached` is the largest under which patches were found on the way."""
-    load, other = problem.given.load, problem.given.moment is not None
-    so_far = f" (they do at {reached:.6g})" if 0.0 < reached < load else ""
-    return LoadError(
-        f"the patches of contact do not settle at normal_load over E*/2 = {load:.6g}{so_far}: two "
-        "of them are about to merge, or one to appear; change the load"
-        f"{' or the moment' * other} a little",
-        patches=patches,
-    )
-
-
-def findings(o: Operator) -> Findings:
+def findings(o: Operator, tilt: float, load: float) -> Findings:
     """What the bounds of pressure and gap find."""
     tension, lowest = tensions(o)
-    return Findings(tension, overlaps(o), lowest)
+    looked = overlaps(o, tilt, load)
+    return Findings(tension, looked.overlap, lowest, looked.doubt, looked.place)
 
 
-def _rounded(state: State) -> tuple[object, ...]:
-    """What tells a start of Newton's method from another: edges, and which are sharp."""
-    P = state.patches
-    digits = SAME * np.repeat(P.r, 2)
-    return state.tilt, state.sharp.tobytes(), np.rint(P.edges / digits).tobytes()
+def roughly(o: Operator, tilt: float, load: float, gaps: bool) -> Findings:
+    """What has to be mended before the edges are exact; `gaps`: in the gaps as well.
+
+    Only overlaps count that are deeper than what the gap misses to close.
+    """
+    tension, lowest = tensions(o)
+    if not gaps:
+        return Findings(tension, (), lowest)
+    missed = np.abs(newton.closed(o))
+    inner = (v for v in overlaps(o, tilt, load).overlap if 0 <= v.gap < len(missed))
+    return Findings(tension, tuple(v for v in inner if v.depth > DEEP * missed[v.gap]), lowest)
 
 
 def _after(event: Event, state: State, pieces: Pieces, given: Given) -> State:
     # a cut may leave the end without pull; an edge that stalls at a concave corner asks for contact
     # beyond it
     if event.kind in ("smooth", "stall"):
-        found = findings(Operator(state.patches, pieces, np.where(state.sharp, state.charge, 0.0)))
+        found = findings(operator_of(state, pieces), state.tilt, given.load)
         if found.tension or (event.kind == "stall" and found.overlap):
             return mended(state, found, pieces)
     left = after(event, state, pieces)
@@ -348,7 +358,7 @@ def continued(problem: Problem, pieces: Pieces, start: Start, tilt: float) -> Fo
             load, factor = wanted, min(factor**2, FIRST)
             if load == target:
                 return _turned(problem, pieces, found)
-    raise _unsettled(problem, found.state.patches.number, load)
+    raise unsettled(problem, found.state.patches.number, load)
 
 
 def _light(problem: Problem, level: Problem, pieces: Pieces, start: Start) -> tuple[Found, float]:
@@ -361,7 +371,7 @@ def _light(problem: Problem, level: Problem, pieces: Pieces, start: Start) -> tu
             return settled(start(lighter), pieces, lighter), load
         except ASTRAY:
             continue
-    raise _unsettled(problem, 0)
+    raise unsettled(problem, 0)
 
 
 def _turned(problem: Problem, pieces: Pieces, found: Found) -> Found:
@@ -384,4 +394,4 @@ def _turned(problem: Problem, pieces: Pieces, found: Found) -> Found:
             if wanted == asked:
                 return found
             now, step = wanted, 2.0 * step
-    raise _unsettled(problem, found.state.patches.number, problem.given.load)
+    raise unsettled(problem, found.state.patches.number, problem.given.load)

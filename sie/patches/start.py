@@ -135,7 +135,7 @@ def _gradients(system: System, p: Array, stiffness: Array | None) -> tuple[Array
     h = np.where(solid, system.h, 0.0)
     enough = LAST if stiffness is None else 0.2 * LAST
     t, last, before, conjugate = np.zeros(len(h)), np.zeros(len(h)), 1.0, 0.0
-    still = False
+    still, change = False, 1.0
     for number in range(ITERATIONS if stiffness is None else PRECONDITIONED):
         contact = p > 0.0
         if not contact.any() or not np.isfinite(p).all():
@@ -170,10 +170,11 @@ def _gradients(system: System, p: Array, stiffness: Array | None) -> tuple[Array
                 step = float(deep @ deep) / float(deep @ system.displaced(deep))
             p = np.maximum(p - step * deep, 0.0)
         p *= system.load / (p.sum() * system.dx)
-        still = bool(np.abs(p - old).sum() <= enough * p.sum())
+        change = float(np.abs(p - old).sum() / p.sum())
+        still = change <= enough
         if still and looks and not overlap.any():
             return p, True
-    return p, False
+    return p, change <= LAST
 
 
 BEYOND = 0.9  # of a cell: an edge is no farther from the middle of the outer cell

@@ -14,6 +14,7 @@ from .panels import Patches
 Array = NDArray[np.float64]
 
 MOST_EFFORT = 1500.0
+SAME = 1e-9  # half-widths: by which starts differ that do not lead to the same
 
 
 class Given(NamedTuple):
@@ -51,6 +52,12 @@ class State:
     def outward(self) -> Array:
         """-1 at a, 1 at b."""
         return np.tile([-1.0, 1.0], self.patches.number)
+
+    @property
+    def rounded(self) -> tuple[object, ...]:
+        """What tells a start of Newton's method from another: edges, and which are sharp."""
+        digits = SAME * np.repeat(self.patches.r, 2)
+        return self.tilt, self.sharp.tobytes(), np.rint(self.patches.edges / digits).tobytes()
 
 
 def balances(state: State, given: Given) -> bool:
@@ -119,11 +126,15 @@ class Findings:
     """The violations of the inequalities; none if the patches are the answer.
 
     lowest      the lowest bound of D over the largest D
+    doubt       the largest rounding of h, a length, at a place where it hides whether the bodies
+                overlap; place: where that is
     """
 
     tension: tuple[Tension, ...]
     overlap: tuple[Overlap, ...]
     lowest: float
+    doubt: float = 0.0
+    place: float = 0.0
 
     @property
     def ok(self) -> bool:

@@ -2,18 +2,31 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
+from numpy.typing import NDArray
 
 from sie.errors import LoadError
 
 from .of_scene import Problem
+from .operator import Found, Operator
 from .start import grid_pressure
+
+Array = NDArray[np.float64]
 
 NARROWEST = 0.02  # of the window: what contact takes at least of a window that fits ...
 # ... where the slope is resolved to rounding of its largest value there
 FITTED = 0.18
+# Windows beyond a window, and places there, at which the bodies must not overlap
+FAR, LOOKED_AT = 1e3, 4000
 COARSE = 512  # cells of the grid on which the window is sought
 WINDOWS = 200
+# lengths, and places on each side, at which a function without ends is looked at; beyond the last
+# of them at which it falls valleys are looked for so many times as far
+SCALES, PLACES, BEYOND = (1e-6, 1e9), 6000, 4.0
+EVEN = 10_000  # places of a window, between which a function is not looked at
+MOST_NARROW = 128  # ends of parts on which it falls: waves in greater number show by themselves
 WIDENED = 12  # times a window is widened, before the slope is said to rise too little
 
 
@@ -75,6 +88,98 @@ def _first_window(problem: Problem) -> tuple[float, float]:
         enough = [np.flatnonzero(force >= problem.given.load) for force in (right, left)]
     size = max((float(sizes[k[0]]) for k in enough if k.size), default=1.0)
     return max(lo, first - 4.0 * size), min(hi, last + 4.0 * size)
+
+
+def whole_window(problem: Problem) -> tuple[float, float]:
+    """An interval that holds all valleys of the profile: its domain, or of a function a part.
+
+    A function without ends is looked at from place to place, at least as far as its breaks and as
+    the load needs, and four times as far as it falls outwards.
+    """
+    lo, hi = problem.domain
+    if problem.chord.periodic:
+        return lo, lo + problem.chord.period
+    if not problem.by_slope or (np.isfinite(lo) and np.isfinite(hi)):
+        return lo, hi
+    first, last = _first_window(problem)
+    middle = 0.5 * (first + last)
+    distance = np.geomspace(SCALES[0], SCALES[1], PLACES)
+    ends = []
+    for side, end, limit in ((-1.0, first, lo), (1.0, last, hi)):
+        x = middle + side * distance
+        x = x[(x >= lo) & (x <= hi)]
+        with np.errstate(all="ignore"):
+            H = side * (problem.slope(x) + problem.given.tilt)
+        away = np.abs(x - middle)
+        falls = away[:-1][(H[:-1] <= 0.0) | (H[1:] < H[:-1])]
+        reach = max(abs(end - middle), BEYOND * float(falls.max(initial=0.0)))
+        ends.append(min(max(middle + side * reach, lo), hi) if np.isinf(limit) else limit)
+    return ends[0], ends[1]
+
+
+def falling(problem: Problem, window: tuple[float, float]) -> Array:
+    """Places about the parts where the slope falls; none if the profile has one valley only.
+
+    A function is looked at from place to place. Pieces that end at these places show what is as
+    narrow as they are apart.
+    """
+    if not problem.by_slope:
+        return np.zeros(1)
+    even = np.linspace(*window, EVEN)
+    middle, far = 0.5 * (window[0] + window[1]), 0.5 * (window[1] - window[0])
+    near = far * np.geomspace(SCALES[0], 1.0, PLACES)
+    x = np.unique(np.concatenate((even, middle - near, middle + near, problem.breaks)))
+    x = x[(x >= window[0]) & (x <= window[1])]
+    with np.errstate(all="ignore"):
+        H = problem.slope(x)
+    falls = H[1:] < H[:-1]
+    ends = np.flatnonzero(np.diff(np.concatenate(([False], falls, [False]))))
+    step = len(x) // 8  # of parts that long the resolution needs no hint
+    narrow = np.repeat(ends[1::2] - ends[::2] < step, 2)
+    kept = ends[narrow] if np.count_nonzero(narrow) <= MOST_NARROW else ends[:1]
+    return x[np.minimum(kept if kept.size else ends, len(x) - 1)]
+
+
+def overlap_beyond(
+    found: Found,
+    problem: Problem,
+    window: tuple[float, float],
+    gap: Callable[[Operator, Array], Array],
+) -> tuple[float, float]:
+    """A wider window where this one is too narrow for a load that is a force.
+
+    It is so where contact reaches its end, or the bodies overlap beyond it.
+    """
+    lo, hi = found.operator.pieces.domain
+    if problem.chord.periodic or (lo, hi) == problem.domain:
+        return window
+    P = found.state.patches
+    a, b = float(P.a[0]), float(P.b[-1])
+    wider = [lo, hi]
+    for k, (end, limit, side) in enumerate(
+        ((lo, problem.domain[0], -1.0), (hi, problem.domain[1], 1.0))
+    ):
+        if end == limit:
+            continue
+        if end == (a, b)[k]:
+            wider[k] = end + side * 4.0 * (hi - lo)
+            continue
+        distance = (hi - lo) * np.geomspace(1e-3, FAR, LOOKED_AT)
+        x = np.clip(end + side * distance, min(end, limit), max(end, limit))
+        with np.errstate(all="ignore"):
+            H = problem.slope(x) + found.state.tilt
+            rise = np.cumsum(side * 0.5 * (H[1:] + H[:-1]) * np.abs(np.diff(x)))
+            middle = 0.5 * (a + b)
+            opened = float(gap(found.operator, np.array([end]))[0])
+            g = (
+                opened
+                + rise
+                - problem.given.load / np.pi * np.log(np.abs((x[1:] - middle) / (x[0] - middle)))
+            )
+            below = np.flatnonzero(g < -1e-3 * max(opened, 0.0))
+        if below.size:
+            wider[k] = float(x[1:][below[0]]) + side * 2.0 * (hi - lo)
+    return max(wider[0], problem.domain[0]), min(wider[1], problem.domain[1])
 
 
 def levels(problem: Problem, window: tuple[float, float]) -> tuple[float, float]:

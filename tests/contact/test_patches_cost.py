@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 import sie
-from sie.patches import full, gap_rows, newton, start, state
+from sie.patches import edge_charges, full, newton, start, state
 from sie.patches.chord import Chord, Points
-from sie.patches.newton import Damping
+from sie.patches.edge_moves import Damping
 from sie.patches.operator import Operator
 from sie.patches.panels import Patches
 from sie.patches.profile_pieces import of_profile
@@ -37,15 +37,56 @@ def operator(count, period):
 
 
 @pytest.mark.parametrize("period", [np.inf, 120.0])
-def test_charges_at_edges_open_far_gaps_as_their_plain_sum_says(period):
+def test_poles_at_centres_act_on_far_gaps_as_their_plain_sum_says(period):
     o = operator(110, period)
-    k, e = o.gaps, o.patches.edges
-    step = o.patches.chord.apart(k.points.anchor[..., None] - e, k.points.offset[..., None])
-    plain = np.zeros((o.patches.number - 1, len(e)))
-    np.add.at(plain, k.gap, (k.dx[..., None] / step).sum(axis=1))
-    across = gap_rows.across_gaps(o.patches, k, k.dx)
-    scale = np.abs(plain).max(axis=1, keepdims=True)
-    np.testing.assert_allclose(across / scale, plain / scale, rtol=0.0, atol=1e-14)
+    k, P = o.gaps, o.patches
+    poles = P.chord.poles(
+        P.chord.difference(k.points.anchor[..., None] - P.c, k.points.offset[..., None])
+    )
+    for kernel, across in zip(poles, edge_charges.across_gaps(P, k, k.dx), strict=True):
+        plain = np.zeros((P.number - 1, P.number))
+        np.add.at(plain, k.gap, (k.dx[..., None] * kernel).sum(axis=1))
+        scale = np.abs(plain).max(axis=1, keepdims=True)
+        np.testing.assert_allclose(across / scale, plain / scale, rtol=0.0, atol=1e-14)
+
+
+def changed_by(o, y, tilt):
+    """The change of the conditions (2N + 1,) by charges at the edges, as it is defined."""
+    P, d = o.patches, o.patches.chord.apart
+    e, N, k = P.edges, P.number, o.gaps
+    patch = np.repeat(np.arange(N), 2)
+    arm = d(e - P.c[patch])
+    ratio = np.where(patch == np.arange(N)[:, None], 1.0, arm / d(e - P.c[:, None]))
+    _, plain = o.closures
+    T, _ = o.root(k.gap, k.points, k.gap)
+    across = np.zeros((N - 1, 2 * N))
+    kernel = 1.0 / d(k.points.anchor[..., None] - e, k.points.offset[..., None])
+    np.add.at(across, k.gap, ((k.dx * T)[..., None] * kernel).sum(axis=1))
+    return np.concatenate(
+        (
+            (ratio * P.chord.cosine(e - P.c[:, None])) @ y + tilt * plain,
+            -(across * ratio[:-1]) @ y / np.pi,
+            [arm @ y + tilt * o.b.sum()],
+            [(arm * e) @ y + tilt * (o.b * o.panels.points.x).sum()],
+        )
+    )
+
+
+@pytest.mark.parametrize(("period", "moment"), [(np.inf, True), (np.inf, False), (14.0, False)])
+@pytest.mark.parametrize("gap", [0.3, 1e-6])
+def test_charges_at_the_edges_change_the_conditions_as_asked(period, moment, gap):
+    count = 12
+    before = operator(count, period)
+    P = before.patches
+    a = P.a.copy()
+    a[5] = P.b[4] + gap * P.r[4]
+    o = Operator(Patches(a, P.b, P.chord), before.pieces, np.zeros(2 * count))
+    asked = np.random.default_rng(1).normal(size=2 * count + 1)
+    charges = newton.edge_charges(o, moment).of(asked[:, None])[:, 0]
+    reached = changed_by(o, charges[:-1], charges[-1])
+    if not moment:
+        reached[-1] = charges[-1]
+    np.testing.assert_allclose(reached, asked, rtol=0.0, atol=1e-13 / min(gap, 0.1))
 
 
 @pytest.mark.parametrize("period", [np.inf, 120.0])

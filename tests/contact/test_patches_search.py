@@ -107,3 +107,12 @@ def test_a_patch_missing_beyond_a_concave_corner_is_found_where_the_edge_beside_
     row = sie.Row([sie.Parabola(r).shifted(at).raised(z) for r, at, z in parts])
     solution = sie.solve(sie.Scene(profile=row, modulus=1.0, normal_load=6.16))
     assert solution.check().ok
+
+
+@pytest.mark.parametrize("period", [None, 26.0])
+def test_more_flats_than_are_searched_roughly_keep_their_edges(period):
+    """Edges that stay where they are while their charges are found are no search that repeats."""
+    flats = sie.Row([sie.Flat(0.2 + 0.02 * k).shifted(1.9 * k) for k in range(13)])
+    profile = flats if period is None else sie.Periodic(flats, period)
+    solution = sie.solve(sie.Scene(profile=profile, normal_load=0.05, modulus=1.0))
+    assert len(solution.patches) == 13 and solution.check().ok

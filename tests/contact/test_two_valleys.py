@@ -5,6 +5,7 @@ import pytest
 
 import sie
 
+TURN = float(2.0 * np.pi)
 PROFILES = {
     "waves on a bounded indenter": sie.FromFunction("x - 1.5*sin(2*x)", domain=(-3.0, 3.0)),
     "waves without ends": sie.FromFunction("x - 1.5*sin(2*x)"),
@@ -22,3 +23,64 @@ def test_a_valley_higher_than_a_light_load_presses_stays_open():
     profile = sie.FromFunction("x - 1.5*sin(2*x) + 1e-3", domain=(-3.0, 3.0))
     contact = sie.solve(sie.Scene(profile=profile, normal_load=1e-6, modulus=2.0))
     assert len(contact.patches) == 1
+
+
+# -- loads that touch lightly ----------------------------------------------------------------------
+
+EQUAL = {
+    "a formula": (PROFILES["waves without ends"], 2),
+    "a function": (sie.FromFunction(lambda x: x**3 - x, domain=(-2.0, 2.0)), 2),
+    "a polynomial": (sie.Polynomial((0.0, 0.0, -0.5, 0.0, 0.25)), 2),
+    "a row": (sie.Row([sie.Parabola(1.0).shifted(x) for x in (-2.0, 0.0, 2.0)]), 3),
+    "a period": (sie.Periodic(sie.FromFunction("0.2*sin(3*x)", domain=(0.5, 0.5 + TURN)), TURN), 3),
+}
+
+
+@pytest.mark.parametrize("load", [1e-9, 1e-11, 1e-12])
+@pytest.mark.parametrize(("profile", "valleys"), EQUAL.values(), ids=EQUAL)
+def test_equal_valleys_all_touch_however_light_the_load(profile, valleys, load):
+    contact = sie.solve(sie.Scene(profile=profile, normal_load=load, modulus=2.0))
+    assert len(contact.patches) == valleys
+    assert contact.check().ok
+
+
+@pytest.mark.parametrize(("profile", "valleys"), EQUAL.values(), ids=EQUAL)
+def test_a_load_that_the_rounding_of_h_would_share_is_refused(profile, valleys):
+    with pytest.raises(sie.LoadError, match=r"difference of their depths of .* doubles of h tell"):
+        _ = sie.solve(sie.Scene(profile=profile, normal_load=1e-16, modulus=2.0)).patches
+
+
+@pytest.mark.parametrize("raised", [1e-10, 1e-12, 1e-16])
+def test_flats_of_almost_equal_height_share_a_light_load_by_it(raised):
+    """The heights of flats are exact, and so is their difference."""
+    row = sie.Row([sie.Flat(0.3).shifted(-1.0), sie.Flat(0.3).shifted(1.0).raised(raised)])
+    few, many = (
+        len(sie.solve(sie.Scene(profile=row, normal_load=part * raised, modulus=2.0)).patches)
+        for part in (0.1, 10.0)
+    )
+    assert (few, many) == (1, 2)
+
+
+def test_the_certificate_says_how_well_a_light_load_is_shared():
+    contact = sie.solve(sie.Scene(profile=EQUAL["a formula"][0], normal_load=1e-12, modulus=2.0))
+    assert any("loads of the patches" in note for note in contact.check().notes)
+
+
+@pytest.mark.parametrize("width", [0.02, 0.002])
+def test_a_narrow_valley_far_from_the_widest_is_where_a_light_load_acts(width):
+    def slope(x):
+        t = (x - 7.65) / width
+        return x + 60.0 * t / width * np.exp(-t * t)
+
+    profile = sie.FromFunction(slope, domain=(-10.0, 10.0))
+    contact = sie.solve(sie.Scene(profile=profile, normal_load=1e-6, modulus=2.0))
+    assert contact.patches[0] == pytest.approx((7.65, 7.65), abs=width)
+
+
+def test_a_valley_that_touches_more_lightly_than_the_rounding_of_its_neighbour_is_found():
+    """The gap is looked at as far as the profile has valleys, not in half-widths of the contact."""
+    deeper = sie.Polynomial((0.0, 1e-11, -0.5, 0.0, 0.25))
+    light, heavier = (
+        sie.solve(sie.Scene(profile=deeper, normal_load=P, modulus=2.0)) for P in (1e-12, 1e-10)
+    )
+    assert (len(light.patches), len(heavier.patches)) == (1, 2)

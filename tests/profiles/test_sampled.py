@@ -372,7 +372,7 @@ def test_a_trace_that_no_smoothing_helps_and_a_profile_without_trace_are_refused
 
 
 @pytest.mark.parametrize("load", [1e-3, 0.3, 2.0])
-def test_a_rough_trace_costs_one_search_for_one_patch(load, monkeypatch):
+def test_a_rough_trace_costs_at_most_one_search_for_one_patch(load, monkeypatch):
     searches, smoothings = [], []
     whole = normal.normal_contact
     counted = lambda *args: searches.append(args) or whole(*args)  # noqa: E731
@@ -380,7 +380,9 @@ def test_a_rough_trace_costs_one_search_for_one_patch(load, monkeypatch):
     monkeypatch.setattr("sie.profiles.sampled.cross_validated", smoothings.append)
     rough = sie.Sampled(X, H + 0.1 * np.cos(40.0 * X))
     assert len(pressed(rough, load).patches) > 1
-    assert (len(searches), smoothings) == (1, [])
+    # none where the load is light and several valleys are known to touch
+    assert len(searches) <= 1
+    assert smoothings == []
 
 
 @pytest.mark.parametrize(

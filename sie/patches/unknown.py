@@ -1,0 +1,87 @@
+"""Refusals of contacts that what is known of the indenter does not decide.
+
+Beyond the end of a trace nothing is known. And doubles of h tell no difference of two depths below
+their rounding: where a load is so light that such a difference decides which valleys touch, or how
+they share it, there is no answer. Nor is there one where two patches are about to merge, and the
+search for them does not come to rest.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sie.errors import LoadError
+
+from .of_scene import Problem
+from .operator import Found
+from .state import Given, State
+
+Array = NDArray[np.float64]
+
+UNKNOWN = 0.01  # part by which the rounding of h may change the load of a patch
+
+
+def refuse_unknown_ends(state: State, problem: Problem) -> None:
+    """Raises LoadError where contact reaches an end beyond which the indenter is not known."""
+    edges = zip(state.patches.edges[[0, -1]].tolist(), problem.domain, problem.corners, strict=True)
+    for edge, end, corner in edges:
+        if edge != end or problem.chord.periodic:
+            continue
+        if not np.isfinite(float(problem.slope(np.array([end]))[0])):
+            raise LoadError(
+                f"the slope is infinite at the end x = {end:.6g} of its domain, which the "
+                "contact comes near: "
+                "narrow the domain"
+            )
+        if not corner:
+            raise LoadError(
+                f"the contact reaches the end of the trace at x = {end:.6g}, and what the indenter "
+                "is like beyond is not known: lower the load or the tilt, repeat the trace by "
+                "sie.Periodic(trace, period), or measure further out",
+                end=end,
+            )
+
+
+def refuse_unknown_depths(found: Found, given: Given, rounding: Array, moved: Array) -> None:
+    """Raises LoadError where the rounding of h decides which valleys touch, or how they share.
+
+    `rounding` (N - 1,) is that from patch to patch, and `moved` (2N,) how far it moves the edges.
+    """
+    P, findings = found.state.patches, found.findings
+    if findings.doubt:
+        k = int(np.argmin(np.abs(P.c - findings.place)))
+        away = abs(findings.place - P.c[k])
+        decides = given.load / np.pi * (np.log(max(2.0 * away / P.r[k], 1.0)) + 0.5)
+        if findings.doubt > UNKNOWN * decides:
+            raise _unknown_depth(given, (P.c[k], findings.place), findings.doubt, decides)
+    if P.number == 1:
+        return
+    if 2.0 * float(np.abs(moved / np.repeat(P.r, 2)).max()) > UNKNOWN:
+        k = int(np.argmax(rounding))
+        decides = given.load / np.pi * (np.log(2.0 * (P.c[k + 1] - P.c[k]) / P.r[k]) + 0.5)
+        raise _unknown_depth(given, (P.c[k], P.c[k + 1]), rounding[k], decides)
+
+
+def _unknown_depth(
+    given: Given, places: tuple[float, float], known: float, decides: float
+) -> LoadError:
+    x1, x2 = sorted(places)
+    return LoadError(
+        f"which of the valleys at x = {x1:.6g} and {x2:.6g} touch, and how they share the load, is "
+        f"decided by a difference of their depths of {decides:.2g} at normal_load over E*/2 = "
+        f"{given.load:.6g}, and doubles of h tell {known:.2g}: raise the load, or give a profile "
+        "of which only one valley is as deep"
+    )
+
+
+def unsettled(problem: Problem, patches: int, reached: float = 0.0) -> LoadError:
+    """The refusal of a load; `reached` is the largest under which patches were found on the way."""
+    load, other = problem.given.load, problem.given.moment is not None
+    so_far = f" (they do at {reached:.6g})" if 0.0 < reached < load else ""
+    return LoadError(
+        f"the patches of contact do not settle at normal_load over E*/2 = {load:.6g}{so_far}: two "
+        "of them are about to merge, or one to appear; change the load"
+        f"{' or the moment' * other} a little",
+        patches=patches,
+    )
