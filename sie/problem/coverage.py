@@ -90,6 +90,17 @@ def refused_load(kappa: float, loads: tuple[float, float, float], spreads: bool)
     )
 
 
+def refused_slip(kappa: float, part: float, least: float) -> ContactError:
+    """The ContactError: under Q, a part of f P, what slips has slipped against Q since P."""
+    return ContactError(
+        f"dissimilar bodies with β f = {kappa:.3g} under |Q| = {part:.3g} f P: since the normal "
+        f"load a place would have slipped against Q, by {-least:.2g} of the largest slip, as an "
+        "edge of contact passes a corner of the profile. The zones then depend on every state "
+        "before, and are not solved; give a larger |Q| up to f P, round the corner, lower the "
+        "friction, or give dundurs = 0 to neglect β"
+    )
+
+
 def _part(part: float) -> str:
     """A part of f P in words that tell it from 1."""
     return f"{part:.4g}" if part < 0.99 or part == 1.0 else f"(1 - {1.0 - part:.3g})"

@@ -36,9 +36,10 @@ def refuse_uncovered(scene: Scene) -> None:
     if scene.beta and scene.friction and not scene.sliding:
         raise ContactError(
             f"a path of dissimilar bodies (β = {scene.beta:.4g}) with friction is solved where P "
-            "and Q grow in proportion from (0, 0, 0) only: what sticks again after unloading of P "
-            "or a reversal of Q keeps a slip gradient that depends on every state before; solve P, "
-            "then a Q that grows, as scenes, or give dundurs = 0 to neglect β"
+            "and Q grow in proportion from (0, 0, 0) only: what sticks under another Q/P, or again "
+            "after unloading of P or a reversal of Q, keeps a slip gradient that depends on the "
+            "states before; solve P, then a Q that grows, as scenes, or give dundurs = 0 to "
+            "neglect β"
         )
 
 

@@ -597,6 +597,13 @@ CORNERS = sie.Piecewise((-9.0, -0.4, 0.4, 9.0), ((-0.8, 1.0), (0.0, 0.5), (0.8, 
         # Nodes of a rule next to a corner, or to the end of a stick zone, are few doubles apart
         (CORNERS, -0.00345, 0.0184, 0.459, 2.3),
         (CORNERS, -0.1516, 0.3515, -0.9998, 0.45),
+        # Where stick is kept at a corner, p and q are evaluated a few doubles beside it
+        (CORNERS, -0.03724, 0.06593, -2.839e-4, 0.13228),
+        (CORNERS, 0.08146, 0.03331, 2.06e-4, 2.583),
+        # The stick zone ends a few doubles beside a corner as this is passed by the edge
+        (CORNERS, 0.002832, 0.07036, -8.023e-5, 0.201),
+        # A corner comes into contact under Q
+        (CORNERS, 0.11377, 0.72307, 0.30067, 0.12637),
         # Zones of 1e-8 half-widths
         (sie.Parabola(1.0), 0.0389, 4.2, -1.34e-6, 0.107),
         (sie.RoundedFlat(56.9, 1.0), -0.039, 0.867, -1.215e-3, 0.405),
@@ -606,6 +613,12 @@ CORNERS = sie.Piecewise((-9.0, -0.4, 0.4, 9.0), ((-0.8, 1.0), (0.0, 0.5), (0.8, 
 )
 def test_certificate_holds_next_to_corners_and_kinks(profile, beta, friction, part, load):
     assert solved(profile, beta, friction, part, load).check().ok
+
+
+def test_slip_against_the_load_where_an_edge_passes_a_corner_is_refused():
+    state = solved(CORNERS, 0.04441, 4.967, 0.1854, 0.1361)
+    with pytest.raises(sie.ContactError, match="would have slipped against Q"):
+        _ = state.edges
 
 
 @pytest.mark.parametrize(("beta", "friction"), [(0.36, 0.57), (0.3, 0.3)])

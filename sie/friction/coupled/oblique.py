@@ -192,7 +192,8 @@ class Oblique:
         def rows(below: Array, above: Array) -> tuple[Array, ...]:
             y = np.where(below < above, y0 + below, c - above)
             t = np.abs(y)
-            from_c = np.where(y < 0.0, below + (c + y0), above)
+            # c + y0 would lose digits next to the other edge
+            from_c = np.where(y < 0.0, below + (self._from_edge - flat.rest), above)
             at = t, flat.rest + from_c, from_c
             p = flat.pressure(*at)
             q = np.sign(y) * (flat.friction * p - flat.shear_deficit(*at))
@@ -200,7 +201,11 @@ class Oblique:
             power = w * rho**-self.j
             return p * power, q * power, p * w * rho
 
-        reach = -min(0.5 * REACH, DEEPEST / self.j), 0.5 * REACH
+        # p̂ w is finite at both ends, but as large as their distances from the edges are small
+        lowest = math.log(min(self._from_edge / self.length, 1.0)) - min(
+            0.5 * REACH, DEEPEST / self.j
+        )
+        reach = lowest, 0.5 * REACH - math.log(flat.rest)
         return Running(self.length, reach, self._step, rows)
 
     @cached_property

@@ -233,8 +233,9 @@ def proportional_contact(scene: Scene) -> tuple[Edges, ProportionalContact]:
     if law is None or not LEAST <= law.exponent <= MOST:
         raise ContactError(
             "P and Q of dissimilar bodies that grow in proportion are solved for power laws h = "
-            f"A |x|^m, {LEAST} <= m <= {MOST}, and {scene.profile!r} is none: how its zones move "
-            "is not solved; press it with P first, then apply Q, or give dundurs = 0 to neglect β"
+            f"A |x|^m, {LEAST} <= m <= {MOST}, and {scene.profile!r} is none of these: how its "
+            "zones move is not solved; press it with P first, then apply Q, or give dundurs = 0 to "
+            "neglect β"
         )
     assert P is not None
     refuse_sliding(scene.friction, P, Q)

@@ -21,10 +21,11 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from sie.contact.inequalities import TOLERATED
 from sie.contact.known_contact import Edges
 from sie.numerics import chebyshev
 from sie.numerics.interval import Interval
-from sie.problem.coverage import old_slip_width
+from sie.problem.coverage import old_slip_width, refused_slip
 from sie.problem.scene import Scene
 from sie.profiles.base import Profile
 from sie.traction.base import on_line, zero_or_nan
@@ -32,6 +33,7 @@ from sie.traction.on_panels import SlidingDensity
 
 from .gradient import RESOLVED, SlipGradient
 from .integral import RATIO, Integral, integral, towards_ends
+from .near_corner import Corner, stuck_corners
 from .tangential import TangentialSearch, Trial
 from .two_sided import Known, TwoSidedTraction, both_tractions
 
@@ -124,10 +126,15 @@ class ShearedContact:
         zones, p = self.state.zones, self._regular(u)
         stuck = (u >= zones.e1) & (u <= zones.e2)
         p[stuck] = self._stuck_pressure(u[stuck])
+        for corner in self._stuck_corners:
+            corner.corrected(p, u, self._stuck_pressure, self._pressure_before)
         for on_right in (False, True):
             slips = u > zones.e2 if on_right else u < zones.e1
             p[slips] += self._beside_stick(u[slips], on_right)
         return p
+
+    def _pressure_before(self, u: Array) -> Array:
+        return self.search.normal.pressure(np.abs(u))
 
     def _stuck_pressure(self, u: Array) -> Array:
         beta, problem = self.search.beta, self.state.problem
@@ -182,9 +189,26 @@ class ShearedContact:
         """f p - q at x1 <= u <= x2, 0 in slip."""
         zones, r = self.state.zones, np.zeros(len(u))
         stuck = (u > zones.e1) & (u < zones.e2)
-        at = u[stuck]
-        r[stuck] = self.state.problem.deficit(at, self._gamma_of_rest(at, self.state.sliding(at)))
+        r[stuck] = self._stuck_deficit(u[stuck])
+        for corner in self._stuck_corners:
+            corner.corrected(r, u, self._stuck_deficit, self._deficit_before)
         return r
+
+    def _stuck_deficit(self, u: Array) -> Array:
+        gamma = self._gamma_of_rest(u, self.state.sliding(u))
+        r: Array = self.state.problem.deficit(u, gamma)
+        return r
+
+    def _deficit_before(self, u: Array) -> Array:
+        """f p - q under P alone."""
+        normal = self.search.normal
+        p, q = normal.pressure_and_shear(np.abs(u))
+        r: Array = self.friction * p - normal.sign * np.sign(u) * q
+        return r
+
+    @cached_property
+    def _stuck_corners(self) -> tuple[Corner, ...]:
+        return stuck_corners(self.search.corners, self.state.zones.e1, self.state.zones.e2)
 
     def frame_shear(self, u: Array) -> Array:
         """q; under a corner of the profile, where p is infinite, the mean of q on both sides."""
@@ -218,7 +242,9 @@ class ShearedContact:
         (x1, e1, e2, x2), b = self.state.zones, self.search.normal.b
         cuts = self.search.gamma.cuts
         spread = b + (-x1 - b) * RATIO ** -np.arange(30.0)
-        left = towards_ends(x1, e1, np.append(cuts, -spread))
+        # A corner up to b is one of the cuts, but for rounding
+        beyond = [corner for corner in self.search.corners if corner < -b]
+        left = towards_ends(x1, e1, np.concatenate((cuts, -spread, beyond)))
         return integral(self._gain, left), integral(self._gain, towards_ends(e2, x2, cuts))
 
     @property
@@ -345,17 +371,25 @@ class ShearedContact:
         """Places in the contact where p or q is not smooth, with its edges, ascending."""
         (lo, hi), normal = self.contact[:2], self.search.normal
         ends = [end for zone in self.stick for end in zone]
-        places = {*ends, *(self.axis + s * y for y in normal.marks for s in (-1.0, 1.0)), self.axis}
+        # A corner beside the contact of P alone may lie in that under Q
+        of_normal = {*normal.marks, *map(abs, self.search.corners)}
+        places = {*ends, *(self.axis + s * y for y in of_normal for s in (-1.0, 1.0)), self.axis}
         kept = [x for x in places if lo < x < hi]
         return (lo, *sorted(kept), hi)
 
 
 def sheared_contact(scene: Scene, search: TangentialSearch) -> tuple[Edges, ShearedContact]:
-    """The edges and the state under the scene's Q; ContactError where none is found."""
+    """The edges and the state under the scene's Q.
+
+    Raises ContactError where none is found, or slip since P would oppose Q.
+    """
     sign = math.copysign(1.0, scene.beta)
     flip = math.copysign(1.0, sign * scene.tangential_load)
     Q = abs(scene.tangential_load)
     state = ShearedContact(search, search.found(Q), Q, sign, flip)
+    # Where an edge passes a corner the zones next to Q = 0 do not lead to these without slip back
+    if search.corners and state.least_slip < -TOLERATED:
+        raise refused_slip(search.beta * search.friction, Q / search.limit, state.least_slip)
     P = search.normal.load
     moment = state.axis * P + flip * state.moment
     edges = Edges(state.contact, P, moment, 0.0, (False, False), 0.0, 0.0, 0.0, 0)

@@ -347,14 +347,14 @@ class TangentialSearch:
         gaps = edges[1:3] - bounds
         new[1:3] = bounds + gaps * np.exp(np.clip(step[1:3] / gaps, -FOLDS, FOLDS))
         # The conditions have powers and logarithms of the distance from a corner of the profile
-        for corner in self._corners:
+        for corner in self.corners:
             before = edges - corner
             crosses = (before * (new - corner) < 0.0) & (np.abs(before) > AT_CORNER * self.normal.b)
             new[crosses] = corner + NEARER * before[crosses]
         return new
 
     @cached_property
-    def _corners(self) -> tuple[float, ...]:
+    def corners(self) -> tuple[float, ...]:
         """Places where the slope jumps."""
         return tuple(place for place, _ in self.slope.rises)
 
