@@ -32,6 +32,7 @@ from .advancing_end import EndAdvances, end_advances
 from .growing_contact import Course, LoadChange, SmoothEdges, course
 from .growing_edge import EdgeSticks, edge_sticks
 from .marched_step import Held, MarchedStep
+from .moved_end import MovedEnd
 from .receding_step import Receded
 from .several_sticks import SeveralSticks, in_several_zones
 from .slip_onset import Onset, onsets
@@ -191,14 +192,17 @@ def _moving(trial: Trial, edges: Course, share: float, advances: float) -> Moved
         if said:
             at = first_share(lambda at: bool(_wrong(part.until(at), part)), share, at)
             raise trial.refusal(said, (at - share) / (1.0 - share))
+    if isinstance(part, MovedEnd) and part.lost:
+        raise trial.refusal(part.lost, (part.share - share) / (1.0 - share))
     return part
 
 
 def _wrong(state: MarchedStep, end: MarchedStep) -> str:
     """What is wrong with a state on the way, "" for nothing."""
-    advances = isinstance(state, EndAdvances)
     if excess(state, end.stick)[1] > EXCEEDED:
-        return f"{ISLAND} while an end of the stick zone advances" if advances else ISLAND
+        advances = isinstance(state, EndAdvances)
+        meanwhile = "an end of the stick zone advances" if advances else "an edge sticks and grows"
+        return f"{ISLAND} while {meanwhile}"
     if isinstance(state, EndAdvances) and not state.slip_goes_on:
         return TURNS
     return ""
