@@ -166,14 +166,27 @@ def _passed(
 
 
 def _receding(trial: Trial, edges: SmoothEdges, share: float) -> tuple[MarchedStep, float, Onset]:
-    """The part of a step in which both ends recede, until one of them stops and then advances."""
+    """The part of a step in which both ends recede, until one of them does no longer.
+
+    It stops, and then advances; or an edge of contact catches up with it, and slip turns there.
+    """
     part, advances = trial.stop() or (1.0, 0.0)
     if part == 0.0:
         moved = _moving(trial, edges.at(share), share, advances)
         return moved, moved.share, moved.then
+    then = Onset(trial.signs, (True, True), advances)
+    try:
+        passed = trial.passed(part)
+    except ContactError:
+        closed = None if advances else trial.closed()
+        if closed is None:
+            raise
+        part, k = closed
+        left, right = trial.signs
+        then = Onset((left, -right) if k else (-left, right), (k == 1, k == 0))
+        passed = trial.passed(part)
     until = 1.0 if part == 1.0 else share + part * (1.0 - share)
-    whole = replace(trial.passed(part), change=edges.change, begun=share, share=until)
-    return whole, until, Onset(trial.signs, (True, True), advances)
+    return replace(passed, change=edges.change, begun=share, share=until), until, then
 
 
 def _moving(trial: Trial, edges: Course, share: float, advances: float) -> MovedStep:
