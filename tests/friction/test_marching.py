@@ -309,25 +309,29 @@ def test_a_mesh_tends_to_the_shear_of_loads_in_phase():
 CAUGHT_UP = [(1, 0, 0), (1.34, -0.34, 0.16), (0.66, 0.34, -0.16)]
 
 
-def test_slip_turns_where_an_edge_of_contact_catches_up_with_its_zone():
+@pytest.fixture(scope="module")
+def caught_up():
     """The end of the stick zone recedes on the left, and the edge of contact faster."""
-    state = followed(HERTZ, CAUGHT_UP)[-1]
-    before, after = state.history.turning_points[2].marched
+    return followed(HERTZ, CAUGHT_UP)[-1]
+
+
+def test_slip_turns_where_an_edge_of_contact_catches_up_with_its_zone(caught_up):
+    before, after = caught_up.history.turning_points[2].marched
     assert before.signs == (-1.0, 1.0) and after.signs == (1.0, 1.0)
     assert 0.0 < before.stick.x1 - before.pressure.contact.x1 < 1e-5
-    assert state.check().ok
+    assert caught_up.check().ok
 
 
-def test_a_mesh_tends_to_the_energy_where_an_edge_of_contact_catches_up_with_a_slip_zone():
+def test_a_mesh_tends_to_the_energy_where_an_edge_catches_up_with_a_slip_zone(caught_up):
     """Twice the elements and increments, less than half the error."""
-    state, errors = followed(HERTZ, CAUGHT_UP)[-1], []
+    errors = []
     given = [(P * P0, Q * F, sigma * S, 0.0) for P, Q, sigma in CAUGHT_UP]
     for n in (60, 120):
         mesh = Mesh((-1.3, 1.3), n, 1.0)
         found = on_a_mesh(mesh, HERTZ.profile.height, f, given, n // 6)[-1]
-        assert np.abs(state.shear(mesh.x) - found.shear).mean() < 1e-3 * f
-        errors.append(abs(found.energy - state.energy_lost))
-    assert errors[1] < 0.5 * errors[0] < 0.5 * 0.05 * state.energy_lost
+        assert np.abs(caught_up.shear(mesh.x) - found.shear).mean() < 1e-3 * f
+        errors.append(abs(found.energy - caught_up.energy_lost))
+    assert errors[1] < 0.5 * errors[0] < 0.5 * 0.05 * caught_up.energy_lost
 
 
 # -- a mesh ---------------------------------------------------------------------------------------
