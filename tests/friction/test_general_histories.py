@@ -7,7 +7,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 
 import sie
@@ -97,6 +97,8 @@ def test_opposite_slip_under_a_falling_load_is_that_of_the_end_loads():
     st.tuples(st.floats(0.6, 1.0), st.floats(0.1, 0.5), st.floats(-0.2, 0.2), st.floats(-0.1, 0.1)),
     st.sampled_from([HERTZ, LOPSIDED]),
 )
+# The left edge passes a zone of slip on the way, and slip turns there.
+@example((0.975, 0.19, -0.2, 0.0), HERTZ)
 def test_a_step_in_parts_ends_in_the_same_state(end, scene):
     points = [(1, 0, 0, 0), end]
     try:
@@ -108,7 +110,7 @@ def test_a_step_in_parts_ends_in_the_same_state(end, scene):
     assert parts.shear(x) == pytest.approx(whole.shear(x), abs=1e-13)
     x = x[(x > x1) & (x < x2)]  # a marched step tells no slip of points that came into contact
     assert parts.slip(x) == pytest.approx(whole.slip(x), abs=1e-12)
-    assert parts.energy_lost == pytest.approx(whole.energy_lost, rel=1e-10, abs=1e-15)
+    assert parts.energy_lost == pytest.approx(whole.energy_lost, rel=1e-11, abs=1e-15)
 
 
 # -- the ladder of tilted contacts ----------------------------------------------------------------

@@ -306,6 +306,34 @@ def test_a_mesh_tends_to_the_shear_of_loads_in_phase():
     assert errors[1] < 0.7 * errors[0] < 0.7 * 0.02 * f
 
 
+CAUGHT_UP = [(1, 0, 0), (1.34, -0.34, 0.16), (0.66, 0.34, -0.16)]
+
+
+@pytest.fixture(scope="module")
+def caught_up():
+    """The end of the stick zone recedes on the left, and the edge of contact faster."""
+    return followed(HERTZ, CAUGHT_UP)[-1]
+
+
+def test_slip_turns_where_an_edge_of_contact_catches_up_with_its_zone(caught_up):
+    before, after = caught_up.history.turning_points[2].marched
+    assert before.signs == (-1.0, 1.0) and after.signs == (1.0, 1.0)
+    assert 0.0 < before.stick.x1 - before.pressure.contact.x1 < 1e-5
+    assert caught_up.check().ok
+
+
+def test_a_mesh_tends_to_the_energy_where_an_edge_catches_up_with_a_slip_zone(caught_up):
+    """Twice the elements and increments, less than half the error."""
+    errors = []
+    given = [(P * P0, Q * F, sigma * S, 0.0) for P, Q, sigma in CAUGHT_UP]
+    for n in (60, 120):
+        mesh = Mesh((-1.3, 1.3), n, 1.0)
+        found = on_a_mesh(mesh, HERTZ.profile.height, f, given, n // 6)[-1]
+        assert np.abs(caught_up.shear(mesh.x) - found.shear).mean() < 1e-3 * f
+        errors.append(abs(found.energy - caught_up.energy_lost))
+    assert errors[1] < 0.5 * errors[0] < 0.5 * 0.05 * caught_up.energy_lost
+
+
 # -- a mesh ---------------------------------------------------------------------------------------
 
 
@@ -340,6 +368,14 @@ def test_a_second_zone_of_slip_is_refused_with_the_loads_at_which_it_opens():
     with pytest.raises(sie.ContactError, match=r"step 2 .*second zone of slip opens") as refused:
         followed(HERTZ, [*TRAVELLING, (1, -0.5, -3)])
     assert 0.0 < refused.value.reached["share"] < 0.01 and refused.value.reached["step"] == 2
+
+
+def test_a_second_zone_of_slip_is_named_that_opens_while_an_edge_grows_and_sticks():
+    """Shortly before loads in phase are back where slip was at both edges."""
+    points = [(1, 0, 0), (1.15, 0.135, 0.08), (1.015, 0.0135, 0.008), (1.15, 0.135, 0.08)]
+    with pytest.raises(sie.ContactError, match=r"second zone .* an edge sticks and grows") as told:
+        followed(HERTZ, points)
+    assert told.value.reached["step"] == 3 and told.value.reached["share"] > 0.99
 
 
 def test_the_loads_at_which_a_second_zone_opens_are_told_to_a_millionth_of_the_step():

@@ -30,7 +30,7 @@ from sie.numerics import chebyshev
 from sie.numerics.interval import Interval
 
 from .advancing_zone import AdvancingZone
-from .end_motion import SAME, EndMotion
+from .end_motion import LOST, OVER, SAME, EndMotion
 from .growing_contact import Course
 from .marched_step import Held, places
 from .moved_end import MovedEnd
@@ -40,6 +40,7 @@ from .slip_rates import Ends, SlipRates
 
 Array = NDArray[np.float64]
 
+BOTH = "both ends of the stick zone would advance"
 WORK_NODES = 10  # on each panel
 TOGETHER = 128  # places at a time
 
@@ -48,11 +49,11 @@ TOGETHER = 128  # places at a time
 class EndAdvances(MovedEnd):
     """The state after one end of the stick zone receded while the other advanced.
 
-    event    what ends it: 0 the zone of slip ahead has vanished, 1 its end recedes, -1 the course
+    event    what ends it: 0 the zone of slip ahead has vanished, 1 its end recedes, OVER the course
     """
 
     zone: AdvancingZone
-    event: int = -1
+    event: int = OVER
 
     @property
     def then(self) -> Onset:
@@ -60,7 +61,7 @@ class EndAdvances(MovedEnd):
         d, (left, right) = self.zone.direction, self.signs
         if self.event == 1:
             return Onset(self.signs, (True, True))
-        if self.event < 0:
+        if self.event == OVER:
             return Onset(self.signs, (True, True), d)
         edge = np.array(self.share)
         near, far = self.zone.edge(edge), self.zone.far_edge(edge)
@@ -192,9 +193,10 @@ def end_advances(
     try:
         panels, event = motion.way(start, share, marks)
     except ContactError:
-        raise ContactError("both ends of the stick zone would advance") from None
+        raise ContactError(BOTH) from None
+    lost = BOTH if event == LOST else ""
     error = abs(motion.end_from_fewer(panels) - panels[-1].end) / zone.half(panels[-1].end, share)
-    end = panels[-1].until if event >= 0 else course.hi
+    end = course.hi if event == OVER else panels[-1].until
     Q, tau = course.shear(end)
     p = course.pressure(end) if end < course.hi else edge
-    return EndAdvances(before, p, f, signs, Q, tau, zone, panels, end, error, event)
+    return EndAdvances(before, p, f, signs, Q, tau, zone, panels, end, error, lost, event)

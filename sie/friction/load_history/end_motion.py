@@ -32,6 +32,9 @@ RETURNED = 1e-10  # of a step: what is left of it when its end returns to a mark
 WATCHED = np.linspace(0.0, 1.0, 17)  # of a panel: where it is seen whether all goes on
 OFTEN, DOUBLED, HALVED = 24, 4, 40
 STEADY = np.ones(2)  # of M, for time in proportion to the distance
+OVER, LOST = -1, -2  # in place of an event: the course is over, or the way is not found farther
+
+UNSTEADY = "the end of the stick zone does not recede steadily"
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,7 +51,7 @@ class EndMotion:
     def way(self, u: float, time: float, marks: list[float]) -> tuple[tuple[Panel, ...], int]:
         """The way from a place at a time until an event, and which of `room` is lost there.
 
-        It is -1 where the course is over before.
+        It is OVER or LOST where none is. Raises ContactError where there is no way at all.
         """
         panels: list[Panel] = []
         rho, over = self.zone.half(u, time), self.zone.course.hi
@@ -72,7 +75,9 @@ class EndMotion:
                 return tuple(panels), event
             u, time = u + length, panel.until
             length *= 2.0
-        raise ContactError("the end of the stick zone does not recede steadily")
+        if panels:
+            return tuple(panels), LOST
+        raise ContactError(UNSTEADY)
 
     def end_from_fewer(self, panels: tuple[Panel, ...]) -> float:
         """The end of the same way from fewer terms."""
@@ -167,8 +172,8 @@ def _derivatives(T: Array, s: Array) -> Array:
 
 
 def _until_event(zone: MovingZone, panel: Panel) -> tuple[Panel, int]:
-    """A panel up to where room is lost, and in which respect, -1 for none."""
-    w, last, event = panel.last * WATCHED, panel.last, -1
+    """A panel up to where room is lost, and in which respect, OVER for none."""
+    w, last, event = panel.last * WATCHED, panel.last, OVER
     for k, values in enumerate(zone.room(panel, w)):
         lost = np.flatnonzero((values[:-1] >= 0.0) & (values[1:] < 0.0))
         if lost.size:

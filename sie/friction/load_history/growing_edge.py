@@ -31,7 +31,7 @@ from numpy.typing import NDArray
 from sie.numerics import chebyshev
 from sie.numerics.interval import Interval
 
-from .end_motion import SAME, EndMotion
+from .end_motion import LOST, OVER, SAME, UNSTEADY, EndMotion
 from .growing_contact import Course
 from .marched_step import FrozenEdge, Held, places
 from .moved_end import MovedEnd
@@ -167,7 +167,8 @@ def edge_sticks(
     judge = motion.end_from_fewer(panels)
     rho = 0.5 * (float(zone.edge(np.array(panels[-1].until))) - panels[-1].end)
     error = abs(judge - panels[-1].end) / rho
-    end = panels[-1].until if slips else course.hi
+    end = course.hi if event == OVER else panels[-1].until
     Q, tau = course.shear(end)
     p = course.pressure(end) if end < course.hi else edge
-    return EdgeSticks(before, p, f, signs, Q, tau, zone, panels, end, error, slips)
+    lost = UNSTEADY if event == LOST else ""
+    return EdgeSticks(before, p, f, signs, Q, tau, zone, panels, end, error, lost, slips)

@@ -32,6 +32,7 @@ from .advancing_end import EndAdvances, end_advances
 from .growing_contact import Course, LoadChange, SmoothEdges, course
 from .growing_edge import EdgeSticks, edge_sticks
 from .marched_step import Held, MarchedStep
+from .moved_end import MovedEnd
 from .receding_step import Receded
 from .several_sticks import SeveralSticks, in_several_zones
 from .slip_onset import Onset, onsets
@@ -165,14 +166,27 @@ def _passed(
 
 
 def _receding(trial: Trial, edges: SmoothEdges, share: float) -> tuple[MarchedStep, float, Onset]:
-    """The part of a step in which both ends recede, until one of them stops and then advances."""
+    """The part of a step in which both ends recede, until one of them does no longer.
+
+    It stops, and then advances; or an edge of contact catches up with it, and slip turns there.
+    """
     part, advances = trial.stop() or (1.0, 0.0)
     if part == 0.0:
         moved = _moving(trial, edges.at(share), share, advances)
         return moved, moved.share, moved.then
+    then = Onset(trial.signs, (True, True), advances)
+    try:
+        passed = trial.passed(part)
+    except ContactError:
+        closed = None if advances else trial.closed()
+        if closed is None:
+            raise
+        part, k = closed
+        left, right = trial.signs
+        then = Onset((left, -right) if k else (-left, right), (k == 1, k == 0))
+        passed = trial.passed(part)
     until = 1.0 if part == 1.0 else share + part * (1.0 - share)
-    whole = replace(trial.passed(part), change=edges.change, begun=share, share=until)
-    return whole, until, Onset(trial.signs, (True, True), advances)
+    return replace(passed, change=edges.change, begun=share, share=until), until, then
 
 
 def _moving(trial: Trial, edges: Course, share: float, advances: float) -> MovedStep:
@@ -191,14 +205,17 @@ def _moving(trial: Trial, edges: Course, share: float, advances: float) -> Moved
         if said:
             at = first_share(lambda at: bool(_wrong(part.until(at), part)), share, at)
             raise trial.refusal(said, (at - share) / (1.0 - share))
+    if isinstance(part, MovedEnd) and part.lost:
+        raise trial.refusal(part.lost, (part.share - share) / (1.0 - share))
     return part
 
 
 def _wrong(state: MarchedStep, end: MarchedStep) -> str:
     """What is wrong with a state on the way, "" for nothing."""
-    advances = isinstance(state, EndAdvances)
     if excess(state, end.stick)[1] > EXCEEDED:
-        return f"{ISLAND} while an end of the stick zone advances" if advances else ISLAND
+        advances = isinstance(state, EndAdvances)
+        meanwhile = "an end of the stick zone advances" if advances else "an edge sticks and grows"
+        return f"{ISLAND} while {meanwhile}"
     if isinstance(state, EndAdvances) and not state.slip_goes_on:
         return TURNS
     return ""

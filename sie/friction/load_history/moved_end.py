@@ -19,12 +19,14 @@ class MovedEnd(MarchedStep):
     panels   the time on the way of the end that recedes
     share    the share of the step at its end
     error    the error of the end of the way over its half-width, from fewer terms
+    lost     why there is no way beyond its end, "" if there may be one
     """
 
     zone: MovingZone
     panels: tuple[Panel, ...]
     share: float
     error: float = 0.0
+    lost: str = ""
 
     def _at_marks(self, marks: tuple[float, ...]) -> list[Panel]:
         """The panels that begin at a mark, where the end changes its speed."""

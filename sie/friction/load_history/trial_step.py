@@ -44,6 +44,8 @@ LOCATED = 1e-7  # of a step: so well it is known where in it what is refused hap
 # the end misses is of the second order.
 SURE, STILL = 1e-10, 1e-9
 
+VANISHED = 1e-5  # of the half-width of contact: what is left of a zone of slip then
+
 ISLAND = "the shear in the stick zone reaches f p, and a second zone of slip opens there"
 TURNS = "slip next to an edge of contact turns while it goes on farther in"
 TRY = "this is not covered; change P, Q, σ and tilt in other proportions"
@@ -171,6 +173,25 @@ class Trial:
 
         share = false_position(rate, low, high, (float(at_low[k]), float(at_high[k])), settled)
         return share, (-1.0, 1.0)[k]
+
+    def closed(self) -> tuple[float, int] | None:
+        """The share of the step at which a zone of slip vanishes at an edge that retreats.
+
+        With it 0 if it is the left one, and 1 if it is the right one; None where none vanishes. The
+        zone that is left has slipped in the wrong direction, which is of the second order.
+        """
+        low, high, last = 0.0, 1.0, None
+        while high - low > LOCATED:
+            middle = 0.5 * (low + high)
+            try:
+                low, last = middle, self.state(middle)
+            except ContactError:
+                high = middle
+        if last is None:
+            return None
+        stick, contact = last.stick, last.pressure.contact
+        left = stick.x1 - contact.x1, contact.x2 - stick.x2
+        return (low, left.index(min(left))) if min(left) <= VANISHED * contact.r else None
 
     # -- tests -------------------------------------------------------------------------------------
 
