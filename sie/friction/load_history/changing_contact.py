@@ -95,12 +95,12 @@ class ChangingContact:
     def slip_of_new(self, x: Array) -> Array:
         """The slip at the end of the step at x, which came into contact in it."""
         self._refuse_slip(x)
-        return np.array([self._slip(at, self._crossed(at), 1.0) for at in x.tolist()])
+        return np.array([self._slip(at, self.crossed(at), 1.0) for at in x.tolist()])
 
     def slip_of_left(self, x: Array) -> Array:
         """The slip in the step at x, until it left the contact."""
         self._refuse_slip(x)
-        return np.array([self._slip(at, 0.0, self._crossed(at)) for at in x.tolist()])
+        return np.array([self._slip(at, 0.0, self.crossed(at)) for at in x.tolist()])
 
     def _slip(self, x: float, begin: float, end: float) -> float:
         """The slip at x from one share of the step to another, while it is in contact."""
@@ -231,7 +231,7 @@ class ChangingContact:
 
         return o.upper + (carried(share) - carried(self.shares(o)[0])) / o.jump
 
-    def _crossed(self, x: float) -> float:
+    def crossed(self, x: float) -> float:
         """The share of the step at which an edge passes x.
 
         It is the last time if x comes into contact, the first if it leaves.

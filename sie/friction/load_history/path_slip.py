@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from functools import cached_property
 from itertools import pairwise
 from typing import Any, Protocol
@@ -12,10 +13,12 @@ from numpy.typing import NDArray
 from sie.errors import ContactError
 from sie.friction.loads import Loads
 from sie.friction.slip_state import Slip
+from sie.numerics.halving import integral
 from sie.numerics.interval import Interval
 from sie.numerics.zones import left_over, within
 from sie.traction.base import ZERO, Density
 from sie.traction.combination import superposed
+from sie.traction.of_slope import SlopeDensity
 
 from . import changing_contact
 from .changing_contact import ChangingContact
@@ -34,6 +37,8 @@ class Followed(changing_contact.Followed, Protocol):
     plain            the solution under P and a tilt, without shear
     patches          the patches of contact under P and a tilt
     shift_of_step    the shift that slip adds in one step
+    sheared_by       Q and τ of loads
+    pressure_at      the pressure under loads, in one patch
     """
 
     @property
@@ -42,6 +47,8 @@ class Followed(changing_contact.Followed, Protocol):
     def plain(self, P: float, turn: float) -> Any: ...
     def patches(self, P: float, turn: float) -> tuple[tuple[float, float], ...]: ...
     def shift_of_step(self, index: int) -> float: ...
+    def sheared_by(self, loads: Loads) -> tuple[float, float]: ...
+    def pressure_at(self, loads: Loads) -> SlopeDensity: ...
 
 
 class PathSlip(Slip):
@@ -191,12 +198,7 @@ class PathSlip(Slip):
             total = np.where(stayed, total, 0.0) + step_slip(self.history, index, x)
             new = touches & ~stayed
             if state.marched and new.any():
-                raise ContactError(
-                    f"step {index} of the path was marched, and brings x = {float(x[new][0]):.6g} "
-                    "into contact while it slips: how far it slipped since is not covered; ask for "
-                    f"points within the contact under P = {before.loads.P:.6g}",
-                    step=index,
-                )
+                total[new] = _marched_slip_of_new(self.history, index, x[new])
             if state.slips and index and new.any():
                 total[new] = ChangingContact(self.history, index).slip_of_new(x[new])
         return total
@@ -278,12 +280,8 @@ def step_shift(history: Followed, index: int) -> float:
     """The shift that slip adds in one step."""
     state = history.turning_points[index]
     if state.marched:
-        if index and history.turning_points[index - 1].loads.normal != state.loads.normal:
-            raise ContactError(
-                f"step {index} of the path was marched while P or the tilt changed: the shift that "
-                "slip adds in it is not covered",
-                step=index,
-            )
+        if history.turning_points[index - 1].loads.normal != state.loads.normal:
+            return _marched_shift(history, index)
         return sum(part.integrals.shift for part in state.marched)
     if any(any(o.surface) for event in state.slips for o in event.layers):
         return ChangingContact(history, index).shift
@@ -319,3 +317,31 @@ def step_slip(history: Followed, index: int, x: Array) -> Array:
                     loading = history.first_loading(under, at, state.turned)
                     out += sign * o.jump * state.last.sign * loading.slip(x)
     return out
+
+
+# -- a marched step while the contact changes ------------------------------------------------------
+
+
+def _marched_shift(history: Followed, index: int) -> float:
+    """The shift that slip adds in a marched step: all of it, less that without slip.
+
+    A contact [M - R, M + R] that does not slip shifts by -2 ln R/(π E*) dQ + 2/E* M dτ.
+    """
+    start, end = (history.turning_points[k].loads for k in (index - 1, index))
+    (Q0, tau0), (Q, tau) = (history.sheared_by(loads) for loads in (start, end))
+
+    def without_slip(share: float) -> float:
+        contact = history.pressure_at(start.towards(end, share)).contact
+        return math.pi * (tau - tau0) * contact.m - (Q - Q0) * math.log(contact.r)
+
+    parts = history.turning_points[index].marched
+    whole = sum(part.drag for part in parts)
+    stuck = integral(without_slip, abs(Q - Q0) + abs(without_slip(1.0)))
+    return (whole - stuck) / (math.pi * parts[-1].pressure.half_modulus)
+
+
+def _marched_slip_of_new(history: Followed, index: int, x: Array) -> Array:
+    """The slip at places (1-d) that came into contact in a marched step, since then."""
+    parts, step = history.turning_points[index].marched, ChangingContact(history, index)
+    places = [(step.crossed(float(at)), np.array([at])) for at in x]
+    return np.array([sum(part.slip_since(*place)[0] for part in parts) for place in places])
