@@ -220,38 +220,9 @@ class MarchedStep(ABC):
 
     @property
     def drag(self) -> float:
-        """π E*/2 times the shift of the indenter, but for a multiple of ΔQ that is always the same.
-
-        It is the change of the displacement where the surface stuck all along. Its mean under the
-        pressure of a flat punch there, of the centre μ and the half-width ρ, is
-
-            π Δτ μ - ΔQ ln ρ - ∫Δq arccosh|(x - μ)/ρ| dx,
-
-        the integral over the rest. Raises ContactError where nothing stuck all along.
-        """
+        """What the part adds to the shift of the indenter, as of `drag`."""
         stuck = Interval(*max(self.kept_zones, key=lambda zone: zone[1] - zone[0]))
-        if stuck.r <= 0.0:
-            raise ContactError(
-                "the stick zone has left the place where it was: how far slip shifts the indenter "
-                "is not covered; give a turning point on the way"
-            )
-        old, new = self.before.pressure.contact, self.pressure.contact
-        marks = np.array([*self._places, *self.marks, *self.reach])
-        total = math.pi * (self.tau - self.before.tau) * stuck.m
-        total -= (self.Q - self.before.Q) * math.log(stuck.r)
-        for side, edge, inner in (
-            (-1.0, min(old.x1, new.x1), stuck.x1),
-            (1.0, max(old.x2, new.x2), stuck.x2),
-        ):
-            frame = FrozenEdge(edge, side, 2.0 * max(old.r, new.r), self._change, marks)
-            zone = frame.zone(side * (edge - inner))
-            total -= float(zone.force @ np.arccosh(1.0 + zone.from_stick / stuck.r))
-        return total
-
-    def _change(self, x: Array) -> Array:
-        """Δq at places (1-d)."""
-        change: Array = self.shear(x) - self.before.shear(x)
-        return change
+        return drag(self.before, self.held, stuck)
 
     @cached_property
     def integrals(self) -> IntegralsOfSlip:
@@ -271,3 +242,36 @@ def places(before: Held, pressure: SlopeDensity) -> tuple[float, ...]:
     """Where p at both ends of a step, and q at its start, may not be smooth."""
     ends = before.stick.x1, before.stick.x2, *before.pressure.interval, *pressure.interval
     return *before.marks, *ends, *pressure.breaks
+
+
+def drag(start: Held, end: Held, stuck: Interval) -> float:
+    """π E*/2 times the shift of the indenter, but for a multiple of ΔQ that is always the same.
+
+    It is the change of the displacement where the surface stuck all along. Its mean under the
+    pressure of a flat punch there, of the centre μ and the half-width ρ, is
+
+        π Δτ μ - ΔQ ln ρ - ∫Δq arccosh|(x - μ)/ρ| dx,
+
+    the integral over the rest. Raises ContactError where nothing stuck all along.
+    """
+    if not stuck.r > 0.0:
+        raise ContactError(
+            "no point stuck all along: how far slip shifts the indenter is not covered; give a "
+            "turning point on the way"
+        )
+    old, new = start.pressure.contact, end.pressure.contact
+    marks = np.array([*places(start, end.pressure), *end.marks, *stuck])
+
+    def change(x: Array) -> Array:
+        added: Array = end.shear(x) - start.shear(x)
+        return added
+
+    total = math.pi * (end.tau - start.tau) * stuck.m - (end.Q - start.Q) * math.log(stuck.r)
+    for side, edge, inner in (
+        (-1.0, min(old.x1, new.x1), stuck.x1),
+        (1.0, max(old.x2, new.x2), stuck.x2),
+    ):
+        frame = FrozenEdge(edge, side, 2.0 * max(old.r, new.r), change, marks)
+        zone = frame.zone(side * (edge - inner))
+        total -= float(zone.force @ np.arccosh(1.0 + zone.from_stick / stuck.r))
+    return total

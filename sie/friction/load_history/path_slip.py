@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from functools import cached_property
 from itertools import pairwise
 from typing import Any, Protocol
@@ -22,7 +23,7 @@ from sie.traction.of_slope import SlopeDensity
 
 from . import changing_contact
 from .changing_contact import ChangingContact
-from .marched_step import Held, MarchedStep
+from .marched_step import Held, MarchedStep, drag
 from .panel_shear import PanelShear
 from .turning_point import TurningPoint
 
@@ -39,6 +40,7 @@ class Followed(changing_contact.Followed, Protocol):
     shift_of_step    the shift that slip adds in one step
     sheared_by       Q and τ of loads
     pressure_at      the pressure under loads, in one patch
+    contact          the contact under loads, in one patch
     """
 
     @property
@@ -49,6 +51,7 @@ class Followed(changing_contact.Followed, Protocol):
     def shift_of_step(self, index: int) -> float: ...
     def sheared_by(self, loads: Loads) -> tuple[float, float]: ...
     def pressure_at(self, loads: Loads) -> SlopeDensity: ...
+    def contact(self, loads: Loads) -> Interval: ...
 
 
 class PathSlip(Slip):
@@ -263,6 +266,15 @@ def held(history: Followed, point: TurningPoint, loads: tuple[float, float]) -> 
     """What a step from a turning point under Q and τ starts from."""
     if point.marched:
         return point.marched[-1].held
+    found, contact = _layered(history, point, loads), history.contact(point.loads)
+    if found.shear is ZERO:
+        return found
+    # on panels, as a step evaluates it often
+    return replace(found, shear=PanelShear(contact, found.shear, found.marks, loads[0]))
+
+
+def _layered(history: Followed, point: TurningPoint, loads: tuple[float, float]) -> Held:
+    """The same after a step that layers answer, with the shear as it is."""
     state = PathSlip(history, state=point)
     contact, zones = state.contact, state.slipped
     stick = Interval(*state.stick[0]) if state.stick else Interval(contact.m, contact.m)
@@ -270,21 +282,19 @@ def held(history: Followed, point: TurningPoint, loads: tuple[float, float]) -> 
     right = [sign for lo, _, sign in zones if lo == stick.x2]
     signs = (left or [0.0])[-1], (right or [0.0])[-1]
     pressure = history.plain(*point.loads.normal).slope_density
-    shear, marks = state.shear, (*state.levels, *state.shear.breaks)
-    if shear is not ZERO:  # on panels, as a step evaluates it often
-        shear = PanelShear(contact, shear, marks, loads[0])
-    return Held(*loads, pressure, shear, stick, signs, marks)
+    marks = (*state.levels, *state.shear.breaks)
+    return Held(*loads, pressure, state.shear, stick, signs, marks)
 
 
 def step_shift(history: Followed, index: int) -> float:
     """The shift that slip adds in one step."""
     state = history.turning_points[index]
+    if any(any(o.surface) for event in state.slips for o in event.layers):
+        return _shift_of_change(history, index)
     if state.marched:
         if history.turning_points[index - 1].loads.normal != state.loads.normal:
-            return _marched_shift(history, index)
+            return _shift_of_change(history, index)
         return sum(part.integrals.shift for part in state.marched)
-    if any(any(o.surface) for event in state.slips for o in event.layers):
-        return ChangingContact(history, index).shift
 
     def until(depth: complex) -> float:
         return (
@@ -319,25 +329,33 @@ def step_slip(history: Followed, index: int, x: Array) -> Array:
     return out
 
 
-# -- a marched step while the contact changes ------------------------------------------------------
+# -- while the contact changes ---------------------------------------------------------------------
 
 
-def _marched_shift(history: Followed, index: int) -> float:
-    """The shift that slip adds in a marched step: all of it, less that without slip.
+def _shift_of_change(history: Followed, index: int) -> float:
+    """The shift that slip adds while the contact changes: all of it, less that without slip.
 
     A contact [M - R, M + R] that does not slip shifts by -2 ln R/(π E*) dQ + 2/E* M dτ.
     """
-    start, end = (history.turning_points[k].loads for k in (index - 1, index))
-    (Q0, tau0), (Q, tau) = (history.sheared_by(loads) for loads in (start, end))
+    before, point = history.turning_points[index - 1 : index + 1]
+    if not history.in_one_patch:
+        ChangingContact(history, index).refuse("how far slip shifts the indenter is not covered")
+    (Q0, tau0), (Q, tau) = sheared = [history.sheared_by(o.loads) for o in (before, point)]
 
     def without_slip(share: float) -> float:
-        contact = history.pressure_at(start.towards(end, share)).contact
+        contact = history.pressure_at(before.loads.towards(point.loads, share)).contact
         return math.pi * (tau - tau0) * contact.m - (Q - Q0) * math.log(contact.r)
 
-    parts = history.turning_points[index].marched
-    whole = sum(part.drag for part in parts)
-    stuck = integral(without_slip, abs(Q - Q0) + abs(without_slip(1.0)))
-    return (whole - stuck) / (math.pi * parts[-1].pressure.half_modulus)
+    if point.marched:
+        whole = sum(part.drag for part in point.marched)
+    else:
+        start, end = (_layered(history, *o) for o in zip((before, point), sheared, strict=True))
+        old = start.pressure.contact
+        stuck = Interval(max(old.x1, end.stick.x1), min(old.x2, end.stick.x2))
+        whole = drag(start, end, stuck)
+    stuck_shift = integral(without_slip, abs(Q - Q0) + abs(without_slip(1.0)))
+    half_modulus = 0.5 * history.scene.Estar
+    return (whole - stuck_shift) / (math.pi * half_modulus)
 
 
 def _marched_slip_of_new(history: Followed, index: int, x: Array) -> Array:
