@@ -26,13 +26,15 @@ Array = NDArray[np.float64]
 class State(NamedTuple):
     """The state at a turning point: tractions on the elements, slip, energy lost since the start.
 
-    `slip` is counted from when each element came into contact.
+    `slip` is counted from when each element came into contact. `shift` is what slip adds to the
+    shift of the indenter: at each time the mean under the pressure of a flat punch on the contact.
     """
 
     pressure: Array
     shear: Array
     slip: Array
     energy: float
+    shift: float
 
 
 def history(
@@ -48,7 +50,7 @@ def history(
     x, n = mesh.x, len(mesh.x)
     P, _, _, tilt = points[0]
     p = mesh.pressure(gap(x) + tilt * x, P, np.zeros(n))
-    q, slip, energy = np.zeros(n), np.zeros(n), 0.0
+    q, slip, energy, shift = np.zeros(n), np.zeros(n), 0.0, 0.0
     before, found = np.array([P, 0.0, 0.0, tilt]), []
     for target in np.array(points, dtype=float):
         for share in np.arange(1, increments + 1) / increments:
@@ -58,6 +60,13 @@ def history(
             q, moved = mesh.step(q, friction * p, Q, strain)
             energy += float(mesh.h * 0.5 * friction * (old + p) @ np.abs(moved))
             slip = np.where(p > 0.0, slip + moved, 0.0)
+            shift += float(moved[p > 0.0] @ _punch(mesh, p > 0.0))
         before = target
-        found.append(State(p, q, slip, energy))
+        found.append(State(p, q, slip, energy, shift))
     return found
+
+
+def _punch(mesh: Mesh, touching: NDArray[np.bool_]) -> Array:
+    """The shares of the elements in the load of a flat punch."""
+    pressure: Array = np.linalg.solve(mesh.A[np.ix_(touching, touching)], np.ones(touching.sum()))
+    return pressure / pressure.sum()

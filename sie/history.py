@@ -12,13 +12,14 @@ each point to the next all loads change in proportion to time. What is exact, an
     slip of opposite signs             at constant P with σ in proportion to Q; a first loading with
                                        P changing
     one end alone passes an earlier    step by step, by the shear at the start of each
-    one, or slip turns at one edge     (`friction.marching`); at constant P also a stick zone that
-                                       travels; several stick zones, all of which recede
+    one, or slip turns at one edge     (`load_history.marching`); at constant P also a stick zone
+                                       that travels; several stick zones, all of which recede
     dissimilar bodies                  P and Q in proportion from zero, under a power law
                                        (`friction.coupled.proportional`)
 
-`friction.memory` computes the layers that a step changes, `friction.partial_slip` the slip of a
-single step, `friction.path_slip` the state at one point, and `patches.path_energy` the energy.
+`path_contacts` has the contacts under the loads of the path. `friction.memory` computes the layers
+that a step changes, `friction.partial_slip` the slip of a single step, `load_history.path_slip` the
+state at one point, and `patches.path_energy` the energy.
 
 Everything else raises ContactError, which names the step and the reason. `History.plan` says which
 steps are marched, and why. A path may begin unloaded, at (0, 0, 0).
@@ -26,7 +27,6 @@ steps are marched, and why. A path may begin unloaded, at (0, 0, 0).
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Collection, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import replace
@@ -40,28 +40,23 @@ from . import higher_layers
 from .certificate.coupled_shear_check import sheared_certificate
 from .certificate.result import Certificate, ShearCertificate
 from .certificate.shear_check import marched_certificate
-from .contact.inequalities import slope_rises
 from .contact.known_contact import Edges, Normal
 from .errors import ContactError, LoadError
 from .friction.coupled.proportional import ProportionalContact, proportional_contact
 from .friction.coupled.two_sided import TwoSidedTraction
-from .friction.dissipation import Dissipation
-from .friction.load_history.known_zones import KnownZones
 from .friction.load_history.load_steps import Followable, proportional_points, turning_points
 from .friction.load_history.marching import march
 from .friction.load_history.path_slip import MarchedSlip, PathSlip, held, step_shift
 from .friction.load_history.turning_point import TurningPoint
 from .friction.loads import Loads
-from .friction.slip_state import NoSlip, Slip
-from .friction.states import OneSignedSlip
-from .numerics.interval import EPS, Interval
+from .friction.slip_state import Slip
 from .patches.answer import SeveralPatches
-from .patches.dissipation import PatchDissipation, Untouched
 from .patches.full import FullContact
 from .patches.path_energy import PathEnergy
+from .path_contacts import PathContacts
 from .plan import Plan, Step
 from .problem.load_path import Path
-from .problem.path_scene import in_proportion, unsheared
+from .problem.path_scene import in_proportion
 from .problem.request import ECONOMY
 from .problem.scene import Scene
 from .progress_bar import counted
@@ -69,8 +64,6 @@ from .solution import Solution, solve
 from .traction.of_slope import SlopeDensity
 
 Array = NDArray[np.float64]
-# P, and what is added to the scene's tilt or moment.
-Under = tuple[float, float]
 
 
 def follow(
@@ -121,7 +114,7 @@ def follow(
 # -- the sequence ----------------------------------------------------------------------------------
 
 
-class History(Sequence[Solution]):
+class History(PathContacts, Sequence[Solution]):
     """The solutions at the turning points of a load path; `follow` makes it.
 
     Parameters
@@ -140,9 +133,8 @@ class History(Sequence[Solution]):
     Notes
     -----
     A history is a sequence: `history[k]` is the `Solution` at turning point k, made when it is
-    asked for. Stages that the points share are solved once. `history.path` is the path. The methods
-    that take loads, a depth or an index serve the states of slip, which are made of contacts under
-    other loads (`sie.friction.load_history.path_slip`).
+    asked for. `history.path` is the path. The contacts that the points share are solved once
+    (`sie.path_contacts`).
     """
 
     def __init__(
@@ -153,21 +145,11 @@ class History(Sequence[Solution]):
         economy: Collection[str],
         steps: Callable[[Scene, Path, Followable], tuple[TurningPoint, ...]] = turning_points,
     ) -> None:
-        self.scene = unsheared(scene, path)
-        self._first = path.first_contact
+        super().__init__(scene, path, tol, economy)
         solve(self.scene, tol, economy)  # refuses what is not covered
-        self.path, self.tol, self.economy = path, tol, frozenset(economy)
-        self._plain: dict[Under, Solution] = {}
-        self._first_loadings: dict[tuple[Under, complex], Slip] = {}
-        self.largest = max(P for P, _, _ in path.points)
-        self._in_patches: dict[tuple[float, float], SeveralPatches | FullContact] = {}
         self._points: dict[int, PathSolution] = {}
         self._energy = PathEnergy(self)
-        self._tau = replace(self.scene, bulk_stress=1.0).tau  # of a unit of bulk stress
-        self._known: dict[Under, KnownZones] = {}
         self._shifts: dict[int, float] = {}
-        self._dissipation: dict[float, Dissipation] = {}
-        self._work_in_patches: dict[float, PatchDissipation] = {}
         self.in_proportion = steps is turning_points and in_proportion(scene, path)
         self.turning_points = (
             proportional_points(path) if self.in_proportion else steps(scene, path, self)
@@ -191,164 +173,6 @@ class History(Sequence[Solution]):
 
     def __iter__(self) -> Iterator[Solution]:
         return (self[k] for k in range(len(self)))
-
-    # -- the contacts of the path ------------------------------------------------------------------
-
-    @cached_property
-    def arm(self) -> float:
-        """The length by which bulk stress and tilt are made forces.
-
-        It is about π times the half-width of the first contact, and a power of 2, which does not
-        round.
-        """
-        return 2.0 ** round(math.log2(math.pi * self.plain(*self._first).half_width))
-
-    def level(self, loads: Loads) -> complex:
-        """f P, with the tilt beyond that of the first contact as imaginary part."""
-        f, turn = self.scene.friction, loads.turn - self._first[1]
-        if self.curved:
-            normals = self._first, loads.normal
-            first, now = (self.plain(*at).tilt if at[0] else 0.0 for at in normals)
-            turn = now - first if loads.P else 0.0
-        level = f * loads.P
-        return complex(level, f * 0.5 * self.scene.Estar * turn * self.arm) if turn else level
-
-    def tilt_of(self, level: complex) -> float:
-        """The tilt of the contact of a level."""
-        lever = self.scene.friction * 0.5 * self.scene.Estar * self.arm
-        return self.plain(*self._first).tilt + level.imag / lever
-
-    def contact_at(self, P: float, tilt: float) -> Interval:
-        """The contact under P at a tilt, in one patch."""
-        scene = replace(self.scene, normal_load=P, tilt=tilt, moment=None)
-        return Solution(scene, self.tol, self.economy).as_one_patch.edges.contact
-
-    @property
-    def by_moment(self) -> bool:
-        """Whether moments are added along the path, not tilts."""
-        return bool(self.path.moment)
-
-    @cached_property
-    def curved(self) -> bool:
-        """Whether the tilt follows from a moment that is carried at changing places."""
-        path, scene = self.path, self.scene
-        if not path.moment and (scene.moment is None or scene.moment == 0.0 == scene.profile.axis):
-            return False
-        normal = {(P, turn) for (P, _, _), turn in zip(path.points, path.turns, strict=True)}
-        return len(normal) > 1
-
-    def shear(self, loads: Loads) -> complex:
-        """Q, with the strain of the bulk stress as imaginary part."""
-        return complex(loads.Q, loads.sigma * self._tau * self.arm) if loads.sigma else loads.Q
-
-    def contact(self, loads: Loads) -> Interval:
-        """The contact under these loads, which is one patch."""
-        return self.plain(*loads.normal).as_one_patch.edges.contact
-
-    def half_width(self, loads: Loads) -> float:
-        """The half-width of the contact under these loads."""
-        return self.plain(*loads.normal).half_width
-
-    def plain(self, P: float, turn: float = 0.0) -> Solution:
-        """The contact under P and what is added to the scene's tilt or moment, without shear."""
-        if (P, turn) not in self._plain:
-            self._plain[P, turn] = self._frictionless(P, turn)
-        return self._plain[P, turn]
-
-    def pressure_at(self, loads: Loads) -> SlopeDensity:
-        """The pressure under loads, in one patch; it is kept at turning points."""
-        found = self._plain.get(loads.normal) or self._frictionless(*loads.normal)
-        _ = found.as_one_patch
-        return found.slope_density
-
-    def sheared_by(self, loads: Loads) -> tuple[float, float]:
-        """Q and τ of loads."""
-        return loads.Q, loads.sigma * self._tau
-
-    def march(self, before: TurningPoint, loads: Loads) -> TurningPoint:
-        """The turning point after a step that no layers answer."""
-        if any(any(self.plain(*at.normal).sharp) for at in (before.loads, loads)):
-            raise ContactError(
-                "no layers of the contact answer this step, and a contact with sharp edges is not "
-                "marched: the shear is infinite there; round its corners (sie.RoundedFlat)"
-            )
-        start = held(self, before, self.sheared_by(before.loads))
-        return march(self, start, before.loads, loads)
-
-    def _frictionless(self, P: float, turn: float) -> Solution:
-        if P == 0.0:
-            raise LoadError("the path is at P = 0 here: nothing touches; ask for a later point")
-        scene = replace(self.scene, normal_load=P)
-        if self.path.moment:
-            scene = replace(scene, moment=(scene.moment or 0.0) + turn)
-        elif turn:
-            scene = replace(scene, tilt=scene.tilt + turn)
-        return Solution(scene, self.tol, self.economy)
-
-    def first_loading(self, normal: Under, depth: complex, turned: bool) -> Slip:
-        """The state of a contact that was never sheared after S has risen to a depth.
-
-        `turned`: slip may have opposite directions at the two edges.
-        """
-        key = (normal, depth)
-        if key not in self._first_loadings:
-            if normal not in self._known:
-                self._known[normal] = KnownZones()
-            near = self._known[normal]
-            guess = None if depth.imag else near.guess(depth.real)
-            found = self._loaded(self.plain(*normal), depth, turned, guess)
-            if isinstance(found, OneSignedSlip) and not depth.imag:
-                near.add(depth.real, found.found.edges.contact)
-            self._first_loadings[key] = found
-        return self._first_loadings[key]
-
-    def on_the_way(self, normal: Under, depth: complex, turned: bool) -> Slip:
-        """The same between two turning points; it is not kept."""
-        plain = self._plain.get(normal) or self._frictionless(*normal)
-        if not depth:
-            return NoSlip(plain.as_one_patch.edges.contact, self.scene.friction)
-        return self._loaded(plain, depth, turned)
-
-    def _loaded(
-        self, plain: Solution, depth: complex, turned: bool, near: Interval | None = None
-    ) -> Slip:
-        f, P, Q = self.scene.friction, plain.normal_load, depth.real
-        if abs(Q) >= f * P * (1.0 - 4.0 * EPS):
-            Q = math.copysign(f * P, Q)
-        tau = depth.imag / self.arm if depth.imag else 0.0
-        return plain.first_loading((Q, tau), self.under, near, one_sign=not turned)
-
-    def under(self, load: float, tilt: float) -> SeveralPatches | FullContact:
-        """The contact in several patches under a load at a tilt."""
-        if (load, tilt) not in self._in_patches:
-            any_load = self.plain(self.largest, self._first[1])
-            self._in_patches[load, tilt] = any_load.patches_under(load, tilt)
-        return self._in_patches[load, tilt]
-
-    @property
-    def period(self) -> float:
-        """The period of the profile, inf if it does not repeat itself."""
-        return self.scene.profile.period
-
-    @cached_property
-    def in_one_patch(self) -> bool:
-        """Whether the contact is one patch under every load of the path, by a slope that rises."""
-        plain = self.plain(self.largest, self._first[1])
-        if not isinstance(plain.normal, Normal):
-            return False
-        slope = plain.normal.slope(self.scene.profile)
-        return self.scene.profile.convex or slope_rises(plain.slope_density, slope)
-
-    def patches(self, P: float, turn: float) -> tuple[tuple[float, float], ...]:
-        """The patches of contact under P."""
-        if not self.in_one_patch:
-            return self.under(P, self.plain(self.largest, turn).tilt).patches
-        contact = self.upright_contact(P, turn)
-        return ((contact.x1, contact.x2),)
-
-    def upright_contact(self, P: float, turn: float) -> Interval:
-        """The contact under P, in one patch, beside others at the same tilt."""
-        return self.dissipation(turn).contacts.contact(P).interval
 
     @property
     def plan(self) -> Plan:
@@ -409,6 +233,22 @@ class History(Sequence[Solution]):
             rows.append(row)
         return rows
 
+    # -- for steps and states ----------------------------------------------------------------------
+
+    def solution(self, scene: Scene) -> Solution:
+        """The solution of a scene, as of `solve`."""
+        return Solution(scene, self.tol, self.economy)
+
+    def march(self, before: TurningPoint, loads: Loads) -> TurningPoint:
+        """The turning point after a step that no layers answer."""
+        if any(any(self.plain(*at.normal).sharp) for at in (before.loads, loads)):
+            raise ContactError(
+                "no layers of the contact answer this step, and a contact with sharp edges is not "
+                "marched: the shear is infinite there; round its corners (sie.RoundedFlat)"
+            )
+        start = held(self, before, self.sheared_by(before.loads))
+        return march(self, start, before.loads, loads)
+
     def energy(self, index: int) -> float:
         """The energy lost from the beginning of the path to a turning point."""
         return self._energy.until(index)
@@ -418,27 +258,6 @@ class History(Sequence[Solution]):
         if index not in self._shifts:
             self._shifts[index] = step_shift(self, index)
         return self._shifts[index]
-
-    def dissipation(self, turn: float) -> Dissipation:
-        """The dissipated energy, and the contacts under all loads of the path, at one tilt."""
-        if turn not in self._dissipation:
-            normal = self.plain(self.largest, turn).as_one_patch
-            self._dissipation[turn] = Dissipation(self.scene, normal, self.tol, self.economy)
-        return self._dissipation[turn]
-
-    def work_in_patches(self, turn: float) -> PatchDissipation:
-        """The dissipated energy where the contact is not one patch under every load."""
-        if turn not in self._work_in_patches:
-            widest = self.plain(self.largest, turn).in_patches
-
-            def under(P: float) -> SeveralPatches | FullContact | Untouched:
-                tilt = widest.edges.tilt
-                if P > 0.0:
-                    return self.under(P, tilt)
-                return Untouched(self.scene.profile, tilt, widest.patches)
-
-            self._work_in_patches[turn] = PatchDissipation(under, self.largest, self.period)
-        return self._work_in_patches[turn]
 
 
 class PathSolution(Solution):
@@ -459,7 +278,8 @@ class PathSolution(Solution):
 
     @property
     def _plain(self) -> Solution:
-        return self.history.plain(*self.history.turning_points[self.index].loads.normal)
+        plain: Solution = self.history.plain(*self.history.turning_points[self.index].loads.normal)
+        return plain
 
     @cached_property
     def normal(self) -> Normal | SeveralPatches | FullContact:

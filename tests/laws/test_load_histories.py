@@ -1,5 +1,7 @@
 """Laws of load paths of every kind: bounds of the shear, work, memory, symmetry, steady state."""
 
+from contextlib import suppress
+
 import numpy as np
 import pytest
 from hypothesis import assume, given, settings
@@ -199,3 +201,6 @@ def test_a_steady_cycle_is_that_of_the_path_that_settles(case):
     bound = FRICTION * float(first.pressure(x).max())
     change = np.abs(third.shear(x) - second.shear(x))
     assert cycle.shear_range(x) == pytest.approx(change, abs=1e-10 * bound)
+    with suppress(sie.ContactError):  # a front is held up on the way
+        lost, size = third.energy_lost - first.energy_lost, Q_UNIT**2 / MODULUS
+        assert cycle.energy == pytest.approx(lost, rel=1e-8, abs=1e-11 * size)

@@ -1,17 +1,9 @@
-"""Slip of new points of contact, and the shift, in a step that slips while the contact changes.
+"""Slip of new points of contact in a step that slips while the contact changes.
 
 The stick zone is the contact of a level Λ^, and the slip beside it grows by s j times f times what
 the gap of Λ^ grows by, j the jump of κ that the front passes (`memory`). A point that comes into
 contact while this goes on slips from then on: by what the gap of the present Λ^ has more than that
 of the Λ^ of its arrival.
-
-The shift that slip adds is the mean of the slip that is added under 1/(π w), the pressure of a flat
-punch on the contact [M - R, M + R] of that time. With dΛ^ = (dP^, dθ^) beside [m - r, m + r] it is
-
-    s j f [-(2/(π E*)) ln(R/r) dP^ + (M - m) dθ^],
-
-the mean of arccosh|v| being ln(R/r), wherever the stick zone lies in the contact, and that of
-± sqrt((x - m)² - r²) being M - m (residue at infinity).
 """
 
 from __future__ import annotations
@@ -29,7 +21,6 @@ from sie.friction.contact_growth import near_contact
 from sie.friction.loads import Loads
 from sie.friction.memory import SlippedLayer
 from sie.friction.slip_state import Slip
-from sie.numerics.halving import integral
 from sie.numerics.interval import EPS, Interval
 from sie.problem.scene import Scene
 
@@ -89,18 +80,16 @@ class ChangingContact:
         self.rise = path.level(self.end) - path.level(self.start)
         self._states: dict[tuple[Loads, complex], Slip] = {}
         self._edges = KnownZones()
-        # In each layer: where a front passes an earlier one the zone jumps.
-        self._fronts: dict[SlippedLayer, KnownZones] = {}
 
     def slip_of_new(self, x: Array) -> Array:
         """The slip at the end of the step at x, which came into contact in it."""
         self._refuse_slip(x)
-        return np.array([self._slip(at, self._crossed(at), 1.0) for at in x.tolist()])
+        return np.array([self._slip(at, self.crossed(at), 1.0) for at in x.tolist()])
 
     def slip_of_left(self, x: Array) -> Array:
         """The slip in the step at x, until it left the contact."""
         self._refuse_slip(x)
-        return np.array([self._slip(at, 0.0, self._crossed(at)) for at in x.tolist()])
+        return np.array([self._slip(at, 0.0, self.crossed(at)) for at in x.tolist()])
 
     def _slip(self, x: float, begin: float, end: float) -> float:
         """The slip at x from one share of the step to another, while it is in contact."""
@@ -116,38 +105,6 @@ class ChangingContact:
             upper, lower = (self._beside(*place, x, begin == 0.0) for place in depths)
             total += o.jump * event.sign * (lower - upper)
         return total
-
-    @property
-    def shift(self) -> float:
-        """The shift that slip adds in the step."""
-        self.refuse("how far slip shifts the indenter is not covered")
-        return sum(
-            event.sign * o.jump * self._shift_of(o, event.sign)
-            for event in self.state.slips
-            for o in event.layers
-        )
-
-    def _shift_of(self, o: SlippedLayer, sign: float) -> float:
-        """The shift while a front passes a layer, for s j = 1."""
-        (first, last), G = self.shares(o), 0.5 * self.path.scene.Estar
-
-        def rate(v: float) -> float:
-            # In v the logarithm of a stick zone that vanishes at the end has a smooth weight.
-            share = last - (last - first) * (1.0 - v) ** 4
-            outer, inner = self._contact(share), self._front_zone(o, sign, share)
-            change = self._change(o, sign, outer)
-            added = math.log(outer.r / inner.r) / (math.pi * G) * change.real
-            turned = (outer.m - inner.m) / (G * self.path.arm) * change.imag
-            return 4.0 * (last - first) * (1.0 - v) ** 3 * (added - turned)
-
-        return integral(rate, abs(o.lower - o.upper) / G)
-
-    def _change(self, o: SlippedLayer, sign: float, contact: Interval) -> complex:
-        """The rate at which a front gets deeper below the level at the end of the step."""
-        strain = self.strain(contact)
-        f, arm = self.path.scene.friction, self.path.arm
-        rise = complex(f * (self.end.P - self.start.P), f * strain * arm) if strain else self.rise
-        return (sign * (self.path.shear(self.end) - self.path.shear(self.start)) - rise) / o.jump
 
     def strain(self, contact: Interval) -> float:
         """E*/2 times the rate of the tilt.
@@ -176,11 +133,6 @@ class ChangingContact:
     def _contact(self, share: float) -> Interval:
         loads = self._at(share)
         return self._zone(self.path.level(loads), share, self._edges)
-
-    def _front_zone(self, o: SlippedLayer, sign: float, share: float) -> Interval:
-        """The stick zone that a front in a layer has reached at a share of the step."""
-        level = self.path.level(self.end) - self._front(o, sign, share)
-        return self._zone(level, share, self._fronts.setdefault(o, KnownZones()))
 
     def _zone(self, level: complex, share: float, near: KnownZones) -> Interval:
         """The contact of a level; `near` are those at other shares of the step."""
@@ -231,7 +183,7 @@ class ChangingContact:
 
         return o.upper + (carried(share) - carried(self.shares(o)[0])) / o.jump
 
-    def _crossed(self, x: float) -> float:
+    def crossed(self, x: float) -> float:
         """The share of the step at which an edge passes x.
 
         It is the last time if x comes into contact, the first if it leaves.

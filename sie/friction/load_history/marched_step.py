@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from abc import ABC, abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -10,6 +11,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from sie.errors import ContactError
 from sie.friction.slip_state import IntegralsOfSlip
 from sie.friction.slip_zones import SlipZone, slip_zone
 from sie.numerics.interval import Interval
@@ -128,6 +130,26 @@ class MarchedStep(ABC):
         """The slip Δg in this step at places (1-d)."""
 
     @property
+    @abstractmethod
+    def span(self) -> tuple[float, float]:
+        """The shares of the step of a path between which this part of it lies."""
+
+    @abstractmethod
+    def until(self, share: float) -> MarchedStep:
+        """The same up to an earlier share of the step of the path."""
+
+    def slip_since(self, share: float, x: Array) -> Array:
+        """The slip at places (1-d) that come into contact at a share of the step of the path."""
+        begun, end = self.span
+        if share >= end:
+            return np.zeros(x.shape)
+        if share <= begun:
+            return self.slip(x)
+        first = self.until(share)
+        slip: Array = self.slip(x) - first.slip(np.clip(x, *first.pressure.interval))
+        return slip
+
+    @property
     def kept(self) -> tuple[float, float]:
         """What stuck all along the step, from the first such place to the last."""
         return max(self.reach[0], self.stick.x1), min(self.reach[1], self.stick.x2)
@@ -196,6 +218,12 @@ class MarchedStep(ABC):
         """The energy that slip dissipated."""
         return self.integrals.work
 
+    @property
+    def drag(self) -> float:
+        """What the part adds to the shift of the indenter, as of `drag`."""
+        stuck = Interval(*max(self.kept_zones, key=lambda zone: zone[1] - zone[0]))
+        return drag(self.before, self.held, stuck)
+
     @cached_property
     def integrals(self) -> IntegralsOfSlip:
         """Integrals of Δg."""
@@ -214,3 +242,36 @@ def places(before: Held, pressure: SlopeDensity) -> tuple[float, ...]:
     """Where p at both ends of a step, and q at its start, may not be smooth."""
     ends = before.stick.x1, before.stick.x2, *before.pressure.interval, *pressure.interval
     return *before.marks, *ends, *pressure.breaks
+
+
+def drag(start: Held, end: Held, stuck: Interval) -> float:
+    """π E*/2 times the shift of the indenter, but for a multiple of ΔQ that is always the same.
+
+    It is the change of the displacement where the surface stuck all along. Its mean under the
+    pressure of a flat punch there, of the centre μ and the half-width ρ, is
+
+        π Δτ μ - ΔQ ln ρ - ∫Δq arccosh|(x - μ)/ρ| dx,
+
+    the integral over the rest. Raises ContactError where nothing stuck all along.
+    """
+    if not stuck.r > 0.0:
+        raise ContactError(
+            "no point stuck all along: how far slip shifts the indenter is not covered; give a "
+            "turning point on the way"
+        )
+    old, new = start.pressure.contact, end.pressure.contact
+    marks = np.array([*places(start, end.pressure), *end.marks, *stuck])
+
+    def change(x: Array) -> Array:
+        added: Array = end.shear(x) - start.shear(x)
+        return added
+
+    total = math.pi * (end.tau - start.tau) * stuck.m - (end.Q - start.Q) * math.log(stuck.r)
+    for side, edge, inner in (
+        (-1.0, min(old.x1, new.x1), stuck.x1),
+        (1.0, max(old.x2, new.x2), stuck.x2),
+    ):
+        frame = FrozenEdge(edge, side, 2.0 * max(old.r, new.r), change, marks)
+        zone = frame.zone(side * (edge - inner))
+        total -= float(zone.force @ np.arccosh(1.0 + zone.from_stick / stuck.r))
+    return total

@@ -37,8 +37,11 @@ class MovedEnd(MarchedStep):
             if np.abs(self.zone.direction * panel.start - np.array(marks)).min() <= near
         ]
 
+    @property
+    def span(self) -> tuple[float, float]:
+        return self.panels[0].time, self.share
+
     def until(self, share: float) -> MovedEnd:
-        """The same at an earlier share of the step."""
         panels = [panel for panel in self.panels if panel.time < share]
         last = panels[-1]
         if last.until > share:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+from dataclasses import replace
 from functools import cached_property
 from itertools import pairwise
 from typing import Any, Protocol
@@ -12,14 +14,16 @@ from numpy.typing import NDArray
 from sie.errors import ContactError
 from sie.friction.loads import Loads
 from sie.friction.slip_state import Slip
+from sie.numerics.halving import integral
 from sie.numerics.interval import Interval
 from sie.numerics.zones import left_over, within
 from sie.traction.base import ZERO, Density
 from sie.traction.combination import superposed
+from sie.traction.of_slope import SlopeDensity
 
 from . import changing_contact
 from .changing_contact import ChangingContact
-from .marched_step import Held, MarchedStep
+from .marched_step import Held, MarchedStep, drag
 from .panel_shear import PanelShear
 from .turning_point import TurningPoint
 
@@ -34,6 +38,9 @@ class Followed(changing_contact.Followed, Protocol):
     plain            the solution under P and a tilt, without shear
     patches          the patches of contact under P and a tilt
     shift_of_step    the shift that slip adds in one step
+    sheared_by       Q and τ of loads
+    pressure_at      the pressure under loads, in one patch
+    contact          the contact under loads, in one patch
     """
 
     @property
@@ -42,6 +49,9 @@ class Followed(changing_contact.Followed, Protocol):
     def plain(self, P: float, turn: float) -> Any: ...
     def patches(self, P: float, turn: float) -> tuple[tuple[float, float], ...]: ...
     def shift_of_step(self, index: int) -> float: ...
+    def sheared_by(self, loads: Loads) -> tuple[float, float]: ...
+    def pressure_at(self, loads: Loads) -> SlopeDensity: ...
+    def contact(self, loads: Loads) -> Interval: ...
 
 
 class PathSlip(Slip):
@@ -191,12 +201,7 @@ class PathSlip(Slip):
             total = np.where(stayed, total, 0.0) + step_slip(self.history, index, x)
             new = touches & ~stayed
             if state.marched and new.any():
-                raise ContactError(
-                    f"step {index} of the path was marched, and brings x = {float(x[new][0]):.6g} "
-                    "into contact while it slips: how far it slipped since is not covered; ask for "
-                    f"points within the contact under P = {before.loads.P:.6g}",
-                    step=index,
-                )
+                total[new] = _marched_slip_of_new(self.history, index, x[new])
             if state.slips and index and new.any():
                 total[new] = ChangingContact(self.history, index).slip_of_new(x[new])
         return total
@@ -261,6 +266,15 @@ def held(history: Followed, point: TurningPoint, loads: tuple[float, float]) -> 
     """What a step from a turning point under Q and τ starts from."""
     if point.marched:
         return point.marched[-1].held
+    found, contact = _layered(history, point, loads), history.contact(point.loads)
+    if found.shear is ZERO:
+        return found
+    # on panels, as a step evaluates it often
+    return replace(found, shear=PanelShear(contact, found.shear, found.marks, loads[0]))
+
+
+def _layered(history: Followed, point: TurningPoint, loads: tuple[float, float]) -> Held:
+    """The same after a step that layers answer, with the shear as it is."""
     state = PathSlip(history, state=point)
     contact, zones = state.contact, state.slipped
     stick = Interval(*state.stick[0]) if state.stick else Interval(contact.m, contact.m)
@@ -268,25 +282,19 @@ def held(history: Followed, point: TurningPoint, loads: tuple[float, float]) -> 
     right = [sign for lo, _, sign in zones if lo == stick.x2]
     signs = (left or [0.0])[-1], (right or [0.0])[-1]
     pressure = history.plain(*point.loads.normal).slope_density
-    shear, marks = state.shear, (*state.levels, *state.shear.breaks)
-    if shear is not ZERO:  # on panels, as a step evaluates it often
-        shear = PanelShear(contact, shear, marks, loads[0])
-    return Held(*loads, pressure, shear, stick, signs, marks)
+    marks = (*state.levels, *state.shear.breaks)
+    return Held(*loads, pressure, state.shear, stick, signs, marks)
 
 
 def step_shift(history: Followed, index: int) -> float:
     """The shift that slip adds in one step."""
     state = history.turning_points[index]
-    if state.marched:
-        if index and history.turning_points[index - 1].loads.normal != state.loads.normal:
-            raise ContactError(
-                f"step {index} of the path was marched while P or the tilt changed: the shift that "
-                "slip adds in it is not covered",
-                step=index,
-            )
-        return sum(part.integrals.shift for part in state.marched)
     if any(any(o.surface) for event in state.slips for o in event.layers):
-        return ChangingContact(history, index).shift
+        return _shift_of_change(history, index)
+    if state.marched:
+        if history.turning_points[index - 1].loads.normal != state.loads.normal:
+            return _shift_of_change(history, index)
+        return sum(part.integrals.shift for part in state.marched)
 
     def until(depth: complex) -> float:
         return (
@@ -319,3 +327,39 @@ def step_slip(history: Followed, index: int, x: Array) -> Array:
                     loading = history.first_loading(under, at, state.turned)
                     out += sign * o.jump * state.last.sign * loading.slip(x)
     return out
+
+
+# -- while the contact changes ---------------------------------------------------------------------
+
+
+def _shift_of_change(history: Followed, index: int) -> float:
+    """The shift that slip adds while the contact changes: all of it, less that without slip.
+
+    A contact [M - R, M + R] that does not slip shifts by -2 ln R/(π E*) dQ + 2/E* M dτ.
+    """
+    before, point = history.turning_points[index - 1 : index + 1]
+    if not history.in_one_patch:
+        ChangingContact(history, index).refuse("how far slip shifts the indenter is not covered")
+    (Q0, tau0), (Q, tau) = sheared = [history.sheared_by(o.loads) for o in (before, point)]
+
+    def without_slip(share: float) -> float:
+        contact = history.pressure_at(before.loads.towards(point.loads, share)).contact
+        return math.pi * (tau - tau0) * contact.m - (Q - Q0) * math.log(contact.r)
+
+    if point.marched:
+        whole = sum(part.drag for part in point.marched)
+    else:
+        start, end = (_layered(history, *o) for o in zip((before, point), sheared, strict=True))
+        old = start.pressure.contact
+        stuck = Interval(max(old.x1, end.stick.x1), min(old.x2, end.stick.x2))
+        whole = drag(start, end, stuck)
+    stuck_shift = integral(without_slip, abs(Q - Q0) + abs(without_slip(1.0)))
+    half_modulus = 0.5 * history.scene.Estar
+    return (whole - stuck_shift) / (math.pi * half_modulus)
+
+
+def _marched_slip_of_new(history: Followed, index: int, x: Array) -> Array:
+    """The slip at places (1-d) that came into contact in a marched step, since then."""
+    parts, step = history.turning_points[index].marched, ChangingContact(history, index)
+    places = [(step.crossed(float(at)), np.array([at])) for at in x]
+    return np.array([sum(part.slip_since(*place)[0] for part in parts) for place in places])

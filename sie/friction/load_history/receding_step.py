@@ -86,8 +86,11 @@ class Receded(MarchedStep):
     def work(self) -> float:
         return super().work if self.change is None else moving_work(self, self.change)
 
-    def at(self, share: float, near: Receded | None = None) -> Receded:
-        """The state at another share of the step, with slip in the same directions."""
+    @property
+    def span(self) -> tuple[float, float]:
+        return self.begun, self.share
+
+    def until(self, share: float, near: Receded | None = None) -> Receded:
         change = self.change
         assert change is not None
         p, loads, stick = change.pressure(share), change.shear(share), (near or self).stick
@@ -196,7 +199,7 @@ def moving_work(part: Receded, change: LoadChange) -> float:
     def state(share: float) -> Receded:
         if share not in known:
             nearest = min(known, key=lambda other: abs(other - share))
-            known[share] = part.at(share, known[nearest])
+            known[share] = part.until(share, known[nearest])
         return known[share]
 
     rates = SlipRates(change.rates, part.friction, part.signs)

@@ -79,7 +79,7 @@ class SeveralSticks(Receded):
             q[slips] = sign * self.friction * self.pressure(x[slips])
         return q
 
-    def at(self, share: float, near: Receded | None = None) -> SeveralSticks:
+    def until(self, share: float, near: Receded | None = None) -> SeveralSticks:
         assert self.change is not None
         loads, pressure = self.change.shear(share), self.change.pressure(share)
         return stuck_in_several(self.before, pressure, self.friction, loads)
@@ -92,7 +92,7 @@ class SeveralSticks(Receded):
             return whole
 
         def rate(share: float) -> float:
-            state = self.at(share)
+            state = self.until(share)
             contact = state.pressure.contact
             strain = float(change.rates.strain(np.array(contact.m), np.array(contact.r)))
             return state.integrals.work_of(change.rates.P, strain)

@@ -74,8 +74,11 @@ class BothStick(MarchedStep):
         """What goes on after its end."""
         return Onset(self.slips, (False, False))
 
+    @property
+    def span(self) -> tuple[float, float]:
+        return self.begun, self.share
+
     def until(self, share: float) -> BothStick:
-        """The same at an earlier share of the step."""
         Q, tau = self.course.shear(share)
         p = self.course.pressure(share)
         return replace(self, pressure=p, Q=Q, tau=tau, share=share)

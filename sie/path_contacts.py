@@ -1,0 +1,234 @@
+"""The contacts of a load path, without shear and in first loading, each solved once.
+
+The solution at each turning point, and every step between two of them, is made of contacts under
+other loads: those of the path itself, those of the layers in its memory, and those on the way.
+"""
+
+from __future__ import annotations
+
+import math
+from abc import ABC, abstractmethod
+from collections.abc import Collection
+from dataclasses import replace
+from functools import cached_property
+from typing import Any
+
+from .contact.inequalities import slope_rises
+from .contact.known_contact import Normal
+from .errors import LoadError
+from .friction.dissipation import Dissipation
+from .friction.load_history.known_zones import KnownZones
+from .friction.loads import Loads
+from .friction.slip_state import NoSlip, Slip
+from .friction.states import OneSignedSlip
+from .numerics.interval import EPS, Interval
+from .patches.answer import SeveralPatches
+from .patches.dissipation import PatchDissipation, Untouched
+from .patches.full import FullContact
+from .problem.load_path import Path
+from .problem.path_scene import unsheared
+from .problem.scene import Scene
+from .traction.of_slope import SlopeDensity
+
+# P, and what is added to the scene's tilt or moment.
+Under = tuple[float, float]
+
+
+class PathContacts(ABC):
+    """The contacts that the points of a load path share.
+
+    scene      the scene of the path without shear
+    path       its turning points
+    tol        as in `solve`
+    economy    as in `solve`
+    largest    the largest P of the path
+    """
+
+    def __init__(self, scene: Scene, path: Path, tol: float, economy: Collection[str]) -> None:
+        self.scene, self.path = unsheared(scene, path), path
+        self.tol, self.economy = tol, frozenset(economy)
+        self.largest = max(P for P, _, _ in path.points)
+        self._first = path.first_contact
+        self._plain: dict[Under, Any] = {}
+        self._first_loadings: dict[tuple[Under, complex], Slip] = {}
+        self._known: dict[Under, KnownZones] = {}
+        self._in_patches: dict[tuple[float, float], SeveralPatches | FullContact] = {}
+        self._dissipation: dict[float, Dissipation] = {}
+        self._work_in_patches: dict[float, PatchDissipation] = {}
+
+    @abstractmethod
+    def solution(self, scene: Scene) -> Any:
+        """The solution of a scene, as of `solve`."""
+
+    @cached_property
+    def _tau(self) -> float:
+        """τ of a unit of bulk stress."""
+        return replace(self.scene, bulk_stress=1.0).tau
+
+    @cached_property
+    def arm(self) -> float:
+        """The length by which bulk stress and tilt are made forces.
+
+        It is about π times the half-width of the first contact, and a power of 2, which does not
+        round.
+        """
+        return 2.0 ** round(math.log2(math.pi * self.plain(*self._first).half_width))
+
+    def level(self, loads: Loads) -> complex:
+        """f P, with the tilt beyond that of the first contact as imaginary part."""
+        f, turn = self.scene.friction, loads.turn - self._first[1]
+        if self.curved:
+            normals = self._first, loads.normal
+            first, now = (self.plain(*at).tilt if at[0] else 0.0 for at in normals)
+            turn = now - first if loads.P else 0.0
+        level = f * loads.P
+        return complex(level, f * 0.5 * self.scene.Estar * turn * self.arm) if turn else level
+
+    def tilt_of(self, level: complex) -> float:
+        """The tilt of the contact of a level."""
+        lever = self.scene.friction * 0.5 * self.scene.Estar * self.arm
+        return self.plain(*self._first).tilt + level.imag / lever
+
+    def contact_at(self, P: float, tilt: float) -> Interval:
+        """The contact under P at a tilt, in one patch."""
+        scene = replace(self.scene, normal_load=P, tilt=tilt, moment=None)
+        contact: Interval = self.solution(scene).as_one_patch.edges.contact
+        return contact
+
+    @property
+    def by_moment(self) -> bool:
+        """Whether moments are added along the path, not tilts."""
+        return bool(self.path.moment)
+
+    @cached_property
+    def curved(self) -> bool:
+        """Whether the tilt follows from a moment that is carried at changing places."""
+        path, scene = self.path, self.scene
+        if not path.moment and (scene.moment is None or scene.moment == 0.0 == scene.profile.axis):
+            return False
+        normal = {(P, turn) for (P, _, _), turn in zip(path.points, path.turns, strict=True)}
+        return len(normal) > 1
+
+    def shear(self, loads: Loads) -> complex:
+        """Q, with the strain of the bulk stress as imaginary part."""
+        return complex(loads.Q, loads.sigma * self._tau * self.arm) if loads.sigma else loads.Q
+
+    def contact(self, loads: Loads) -> Interval:
+        """The contact under these loads, which is one patch."""
+        return self.plain(*loads.normal).as_one_patch.edges.contact
+
+    def half_width(self, loads: Loads) -> float:
+        """The half-width of the contact under these loads."""
+        return self.plain(*loads.normal).half_width
+
+    def plain(self, P: float, turn: float = 0.0) -> Any:
+        """The contact under P and what is added to the scene's tilt or moment, without shear."""
+        if (P, turn) not in self._plain:
+            self._plain[P, turn] = self._frictionless(P, turn)
+        return self._plain[P, turn]
+
+    def pressure_at(self, loads: Loads) -> SlopeDensity:
+        """The pressure under loads, in one patch; it is kept at turning points."""
+        found = self._plain.get(loads.normal) or self._frictionless(*loads.normal)
+        _ = found.as_one_patch
+        return found.slope_density
+
+    def sheared_by(self, loads: Loads) -> tuple[float, float]:
+        """Q and τ of loads."""
+        return loads.Q, loads.sigma * self._tau
+
+    def _frictionless(self, P: float, turn: float) -> Any:
+        if P == 0.0:
+            raise LoadError("the path is at P = 0 here: nothing touches; ask for a later point")
+        scene = replace(self.scene, normal_load=P)
+        if self.path.moment:
+            scene = replace(scene, moment=(scene.moment or 0.0) + turn)
+        elif turn:
+            scene = replace(scene, tilt=scene.tilt + turn)
+        return self.solution(scene)
+
+    def first_loading(self, normal: Under, depth: complex, turned: bool) -> Slip:
+        """The state of a contact that was never sheared after S has risen to a depth.
+
+        `turned`: slip may have opposite directions at the two edges.
+        """
+        key = (normal, depth)
+        if key not in self._first_loadings:
+            if normal not in self._known:
+                self._known[normal] = KnownZones()
+            near = self._known[normal]
+            guess = None if depth.imag else near.guess(depth.real)
+            found = self._loaded(self.plain(*normal), depth, turned, guess)
+            if isinstance(found, OneSignedSlip) and not depth.imag:
+                near.add(depth.real, found.found.edges.contact)
+            self._first_loadings[key] = found
+        return self._first_loadings[key]
+
+    def on_the_way(self, normal: Under, depth: complex, turned: bool) -> Slip:
+        """The same between two turning points; it is not kept."""
+        plain = self._plain.get(normal) or self._frictionless(*normal)
+        if not depth:
+            return NoSlip(plain.as_one_patch.edges.contact, self.scene.friction)
+        return self._loaded(plain, depth, turned)
+
+    def _loaded(
+        self, plain: Any, depth: complex, turned: bool, near: Interval | None = None
+    ) -> Slip:
+        f, P, Q = self.scene.friction, plain.normal_load, depth.real
+        if abs(Q) >= f * P * (1.0 - 4.0 * EPS):
+            Q = math.copysign(f * P, Q)
+        tau = depth.imag / self.arm if depth.imag else 0.0
+        return plain.first_loading((Q, tau), self.under, near, one_sign=not turned)
+
+    def under(self, load: float, tilt: float) -> SeveralPatches | FullContact:
+        """The contact in several patches under a load at a tilt."""
+        if (load, tilt) not in self._in_patches:
+            any_load = self.plain(self.largest, self._first[1])
+            self._in_patches[load, tilt] = any_load.patches_under(load, tilt)
+        return self._in_patches[load, tilt]
+
+    @property
+    def period(self) -> float:
+        """The period of the profile, inf if it does not repeat itself."""
+        return self.scene.profile.period
+
+    @cached_property
+    def in_one_patch(self) -> bool:
+        """Whether the contact is one patch under every load of the path, by a slope that rises."""
+        plain = self.plain(self.largest, self._first[1])
+        if not isinstance(plain.normal, Normal):
+            return False
+        slope = plain.normal.slope(self.scene.profile)
+        return self.scene.profile.convex or slope_rises(plain.slope_density, slope)
+
+    def patches(self, P: float, turn: float) -> tuple[tuple[float, float], ...]:
+        """The patches of contact under P."""
+        if not self.in_one_patch:
+            return self.under(P, self.plain(self.largest, turn).tilt).patches
+        contact = self.upright_contact(P, turn)
+        return ((contact.x1, contact.x2),)
+
+    def upright_contact(self, P: float, turn: float) -> Interval:
+        """The contact under P, in one patch, beside others at the same tilt."""
+        return self.dissipation(turn).contacts.contact(P).interval
+
+    def dissipation(self, turn: float) -> Dissipation:
+        """The dissipated energy, and the contacts under all loads of the path, at one tilt."""
+        if turn not in self._dissipation:
+            normal = self.plain(self.largest, turn).as_one_patch
+            self._dissipation[turn] = Dissipation(self.scene, normal, self.tol, self.economy)
+        return self._dissipation[turn]
+
+    def work_in_patches(self, turn: float) -> PatchDissipation:
+        """The dissipated energy where the contact is not one patch under every load."""
+        if turn not in self._work_in_patches:
+            widest = self.plain(self.largest, turn).in_patches
+
+            def under(P: float) -> SeveralPatches | FullContact | Untouched:
+                tilt = widest.edges.tilt
+                if P > 0.0:
+                    return self.under(P, tilt)
+                return Untouched(self.scene.profile, tilt, widest.patches)
+
+            self._work_in_patches[turn] = PatchDissipation(under, self.largest, self.period)
+        return self._work_in_patches[turn]
