@@ -26,6 +26,7 @@ ROUNDING = 7e-14  # of max|H| on the patches times the distance from an edge
 # of the load over E*/2: where h is rounded to less, a place that its rounding leaves open carries
 # too little to look for it
 NEGLIGIBLE = 1e-9
+OUT_OF_SIGHT = 1e16  # widths of the whole contact: from there doubles do not tell its edges
 
 
 class Looked(NamedTuple):
@@ -43,7 +44,8 @@ class Looked(NamedTuple):
 def overlaps(o: Operator, tilt: float, load: float) -> Looked:
     """Where the gap is negative by more than the rounding of h, at a tilt and a load over E*/2."""
     hull = float(o.patches.b[-1] - o.patches.a[0])
-    farthest = max(FARTHEST, 1.1 * o.pieces.horizon(tilt, o.patches.c) / hull)
+    beyond = min(1.1 * o.pieces.horizon(tilt, o.patches.c) / hull, OUT_OF_SIGHT)
+    farthest = max(FARTHEST, beyond)
     panels = gap_panels(o.patches, o.pieces, outside=True, farthest=farthest)
     if not len(panels.gap):
         return Looked((), 0.0, 0.0)
