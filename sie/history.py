@@ -56,7 +56,7 @@ from .patches.path_energy import PathEnergy
 from .path_contacts import PathContacts
 from .plan import Plan, Step
 from .problem.load_path import Path
-from .problem.path_scene import in_proportion
+from .problem.path_scene import in_proportion, unsheared
 from .problem.request import ECONOMY
 from .problem.scene import Scene
 from .progress_bar import counted
@@ -145,8 +145,8 @@ class History(PathContacts, Sequence[Solution]):
         economy: Collection[str],
         steps: Callable[[Scene, Path, Followable], tuple[TurningPoint, ...]] = turning_points,
     ) -> None:
+        solve(unsheared(scene, path), tol, economy)  # refuses what is not covered
         super().__init__(scene, path, tol, economy)
-        solve(self.scene, tol, economy)  # refuses what is not covered
         self._points: dict[int, PathSolution] = {}
         self._energy = PathEnergy(self)
         self._shifts: dict[int, float] = {}

@@ -269,7 +269,7 @@ def test_the_slope_of_a_function_is_called_a_few_times_only():
         np.linspace(-1, 1, 1001)
     )
     assert len(calls) <= 80
-    assert sum(calls) <= 20_000
+    assert sum(calls) <= 40_000  # 22,000 of them look for narrow valleys between the ends
 
 
 def test_a_pressure_is_computed_once():
