@@ -72,6 +72,9 @@ from .traction.of_slope import SlopeDensity
 Array = NDArray[np.float64]
 
 NEARLY = 0.999  # of f P: a load in partial slip next to sliding
+# Of the slope's change over one patch: where that much of it is not linear, the search for overlaps
+# shows other valleys (it misses them where a contact is 1e-5 of their distance).
+BENT = 1e-3
 
 
 class Solution:
@@ -117,7 +120,8 @@ class Solution:
         if asks_for_patches(self.scene.profile):
             return self._in_patches()
         try:
-            light = light_patches(self.scene) if self._may_be_in_patches else None
+            may_be_light = self._may_be_in_patches and not self._bent
+            light = light_patches(self.scene) if may_be_light else None
         except ContactError as error:
             raise explained(error, self.scene.profile) from None
         if light is not None and len(light.patches) > 1:
@@ -215,6 +219,15 @@ class Solution:
             bulk_stress=0.0,
         )
         return several_patches(plain)
+
+    @property
+    def _bent(self) -> bool:
+        """Whether the slope of a function bends within one patch: the load is not light."""
+        try:
+            c = self.unverified.series
+        except ContactError:
+            return False
+        return c is not None and float(np.abs(c[2:]).sum()) > BENT * abs(float(c[1]))
 
     @property
     def _several(self) -> SeveralPatches | FullContact | None:
