@@ -212,7 +212,7 @@ class Search:
         given = self.problem.given._replace(load=load)
         moved = conditions(state, found.operator, given).growth(state, load)
         P, last = state.patches, len(moved) - 1
-        whole = float(P.b[-1] - P.a[0])
+        whole = P.hull
         if P.chord.periodic:
             last = 2 * int(np.argmax(P.gaps)) + 1
             whole = P.chord.period - float(P.gaps.max())
