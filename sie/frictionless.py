@@ -30,22 +30,7 @@ BENT = 1e-3
 
 
 class Frictionless:
-    """The contact of a scene without shear, as a lazy view; `Solution` adds the shear.
-
-    Parameters
-    ----------
-    scene : Scene
-        The question. Its friction is not looked at.
-    tol : float, optional
-        Relative accuracy, as in `solve`.
-    economy : collection of str, optional
-        The savings that are allowed, as in `solve`.
-
-    Raises
-    ------
-    ContactError
-        By any attribute, where the scene has no answer that the package covers.
-    """
+    """The contact of a scene without shear, as a lazy view; parameters are those of `solve`."""
 
     def __init__(
         self, scene: Scene, tol: float = 1e-13, economy: Collection[str] = ECONOMY
