@@ -31,6 +31,14 @@ FILES = {
     "compare": ("scene", "mesh"),
     "live": ("scene",),
 }
+# What has the name of a file or a folder, as a refusal says it.
+NAMED = {
+    "scene": "the scene file",
+    "mesh": "the mesh result",
+    "deck": "the input deck",
+    "folder": "the directory",
+    **{name: f"the file after --{name}" for name in ("plot", "csv", "json", "field")},
+}
 POSITIONAL = ("command", "scene", "mesh", "name", "shell")
 LEVELS = ("info", "debug")
 EXIT_CODES = """exit codes:
@@ -65,6 +73,9 @@ def parse(argv: Sequence[str]) -> argparse.Namespace:
         raise ValueError(f'there is no command "{argv[0]}": {remedy}')
     arguments, unknown = parser().parse_known_args(argv)
     _order_files(arguments, argv, unknown)
+    for name, what in NAMED.items():
+        if getattr(arguments, name, None) == "":
+            raise ValueError(f"the name of {what} is empty: give one")
     if unknown:
         near = nearest(unknown[0], _options(arguments))
         remedy = f"did you mean {near}?" if near else f"`sie {arguments.command} --help` explains"

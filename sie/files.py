@@ -31,6 +31,13 @@ KINDS = {
 # -- reading -------------------------------------------------------------------------------------
 
 
+def named(path: str | Path) -> Path:
+    """The path of a file that is named; ValueError, with the remedy, if the name is empty."""
+    if not os.fspath(path):
+        raise ValueError("the name of the file is empty: give one")
+    return Path(path)
+
+
 def content(path: str | Path, most: int) -> bytes:
     """The bytes of a regular file, at most so many.
 

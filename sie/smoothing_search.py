@@ -7,7 +7,8 @@ from dataclasses import replace
 
 from .errors import ContactError
 from .problem.scene import Scene, refuse_no_scene
-from .profiles.base import Derived, Profile
+from .profiles.base import Profile
+from .profiles.derived import Derived
 from .profiles.placed_traces import traces_in
 from .profiles.sampled import Sampled
 from .profiles.splines import longest_lambda

@@ -1,6 +1,7 @@
 """The solution of a scene: a lazy view over the stages of the work.
 
-Each result is computed when it is read first, and `vars(solution)` shows the computed ones.
+Each result is computed when it is read first, and `vars(solution)` shows the computed ones. The
+contact without shear is in `frictionless`, the stress in the body in `stress_answers`.
 """
 
 from __future__ import annotations
@@ -24,11 +25,10 @@ from .certificate.result import RETREAT, Certificate, ShearCertificate
 from .certificate.shear_check import goodman_certificate, shear_certificate
 from .certificate.trace_noise import TraceReport, trace_reports
 from .contact.gap import gap
-from .contact.inequalities import slope_rises, slope_rises_far, verify_inequalities
 from .contact.known_contact import Edges, Normal
-from .contact.normal import contact_under, normal_contact
+from .contact.normal import contact_under
 from .contact.pressure import pressure
-from .errors import ContactError, InequalityError, LoadError, ResolutionError
+from .errors import ContactError, InequalityError, LoadError
 from .friction.contact_growth import ContactGrowth
 from .friction.coupled.contact import CoupledContact
 from .friction.coupled.energy import tangential_energy
@@ -43,28 +43,18 @@ from .friction.goodman.departure import departure
 from .friction.goodman.slip import GoodmanSlip, goodman_slip
 from .friction.partial_slip import slip
 from .friction.slip_state import Slip, Step
+from .frictionless import Frictionless
 from .kept_stages import changed_scene, kept_stages
 from .numerics.interval import Interval
-from .patches.answer import SeveralPatches, asks_for_patches, light_patches, several_patches
+from .patches.answer import SeveralPatches
 from .patches.friction import PatchesUnder, PatchSlip
 from .patches.full import FullContact
 from .patches.result import PatchCertificate, worst_of
 from .problem.coverage import refuse_uncovered
-from .problem.material import Elastic
-from .problem.request import ECONOMY, refuse_unknown_poisson, sheared
+from .problem.request import ECONOMY, sheared
 from .problem.scene import Scene
-from .profiles.placed_traces import explained
-from .profiles.slope import Slope
 from .stages import stage as cached_property  # its first reading is logged
-from .stress.half_plane import Stress, Tractions
-from .stress.yield_limit import (
-    Criterion,
-    Peak,
-    YieldPoint,
-    elastic_limit,
-    peak_tension,
-    refuse_unknown_criterion,
-)
+from .stress_answers import StressAnswers
 from .traction.base import ZERO, Density, on_line
 from .traction.combination import scaled
 from .traction.of_slope import SlopeDensity
@@ -72,12 +62,9 @@ from .traction.of_slope import SlopeDensity
 Array = NDArray[np.float64]
 
 NEARLY = 0.999  # of f P: a load in partial slip next to sliding
-# Of the slope's change over one patch: where that much of it is not linear, the search for overlaps
-# shows other valleys (it misses them where a contact is 1e-5 of their distance).
-BENT = 1e-3
 
 
-class Solution:
+class Solution(Frictionless, StressAnswers):
     """The solution of a contact problem; `solve` makes it.
 
     Parameters
@@ -97,166 +84,19 @@ class Solution:
     Notes
     -----
     Lengths, stresses and loads are in the units of the scene, loads per unit length of the line of
-    contact. An attribute computes what it needs when it is read, and keeps it. This class is longer
-    than 200 lines because it holds every attribute that a user reads; other modules compute them.
+    contact. An attribute computes what it needs when it is read, and keeps it.
     """
-
-    def __init__(
-        self, scene: Scene, tol: float = 1e-13, economy: Collection[str] = ECONOMY
-    ) -> None:
-        self.scene = scene
-        self.tol = tol
-        self.economy = frozenset(economy)
 
     # -- stages ------------------------------------------------------------------------------------
 
     @cached_property
     def normal(self) -> Normal | SeveralPatches | FullContact:
-        """Edges, load, moment and tilt; verified where the profile may not be convex."""
+        """Edges, load, moment and tilt."""
         if self.scene.bonded:
             return Normal(self.bonded[0], False)
         if self.scene.coupled:
             return Normal(self.coupled[0], not self.scene.tangential_load)
-        if asks_for_patches(self.scene.profile):
-            return self._in_patches()
-        try:
-            may_be_light = self._may_be_in_patches and not self._bent
-            light = light_patches(self.scene) if may_be_light else None
-        except ContactError as error:
-            raise explained(error, self.scene.profile) from None
-        if light is not None and len(light.patches) > 1:
-            return light
-        try:
-            one = self.one_patch()
-            elsewhere = light is not None and not light.meets(one.edges.contact[:2])
-            return light if light is not None and elsewhere else one
-        except (InequalityError, LoadError, ResolutionError) as error:
-            if self._may_be_in_patches:
-                return self._in_patches(error)
-            raise explained(error, self.scene.profile) from None
-        except ContactError as error:
-            raise explained(error, self.scene.profile) from None
-
-    def one_patch(self) -> Normal:
-        """The contact if it is one patch.
-
-        Returns
-        -------
-        Normal
-            Its edges, load, moment and tilt.
-
-        Raises
-        ------
-        ContactError
-            If it is not one patch.
-        """
-        if not (self.scene.profile.convex and "convexity" in self.economy):
-            _ = self.inequalities
-        return self.unverified
-
-    def _in_patches(self, one_patch: ContactError | None = None) -> SeveralPatches | FullContact:
-        """Contact in several patches; `one_patch` is why it is not one."""
-        try:
-            return several_patches(self.scene)
-        except ContactError as error:
-            told = one_patch if isinstance(one_patch, LoadError) and not error.reached else error
-            told = error if self.scene.half_width is not None else told
-            raise explained(told, self.scene.profile) from None
-
-    @property
-    def _may_be_in_patches(self) -> bool:
-        scene = self.scene
-        return not scene.epsilon and not scene.profile.convex
-
-    @property
-    def as_one_patch(self) -> Normal:
-        """The contact, for what is solved on one patch only. Raises ContactError for several."""
-        found = self.normal
-        if isinstance(found, Normal):
-            return found
-        raise ContactError(
-            "a contact that repeats: this is covered for one patch on the line only; give the "
-            "profile without its period"
-            if np.isfinite(self.scene.profile.period)
-            else f"contact in {len(found.patches)} patches: this is covered for one patch only; "
-            "give a load under which the patches have merged"
-        )
-
-    @cached_property
-    def in_patches(self) -> SeveralPatches | FullContact:
-        """The contact as one in several patches, though it may be in one."""
-        return self._several or self.patches_under(self.normal_load, self.tilt)
-
-    def patches_under(self, load: float, tilt: float) -> SeveralPatches | FullContact:
-        """The contact of the same profile under another load and tilt, in several patches.
-
-        Parameters
-        ----------
-        load : float
-            P, a force per unit length.
-        tilt : float
-            The tilt, a pure number.
-
-        Returns
-        -------
-        SeveralPatches or FullContact
-            The contact without shear.
-
-        Raises
-        ------
-        ContactError
-            If no patches are certified.
-        """
-        plain = replace(
-            self.scene,
-            normal_load=load,
-            half_width=None,
-            tilt=tilt,
-            moment=None,
-            friction=0.0,
-            tangential_load=0.0,
-            sliding=0,
-            bulk_stress=0.0,
-        )
-        return several_patches(plain)
-
-    @property
-    def _bent(self) -> bool:
-        """Whether the slope of a function bends within one patch: the load is not light."""
-        try:
-            c = self.unverified.series
-        except ContactError:
-            return False
-        return c is not None and float(np.abs(c[2:]).sum()) > BENT * abs(float(c[1]))
-
-    @property
-    def _several(self) -> SeveralPatches | FullContact | None:
-        """The contact, if it is in several patches or per period."""
-        return self.normal if isinstance(self.normal, (SeveralPatches, FullContact)) else None
-
-    @cached_property
-    def unverified(self) -> Normal:
-        """The contact that carries the load and the moment.
-
-        Bodies may overlap there, or be in tension.
-        """
-        return normal_contact(self.scene, self.tol, self.economy)
-
-    @cached_property
-    def density(self) -> SlopeDensity:
-        """The pressure of this contact."""
-        return pressure(self.unverified, self.scene, self.tol, self.economy)
-
-    @cached_property
-    def inequalities(self) -> bool:
-        """True where p >= 0 and gap >= 0; otherwise InequalityError is raised."""
-        found, density = self.unverified, self.density
-        slope = found.slope(self.scene.profile)
-        series = found.series is not None and slope_rises_far(density.contact, slope)
-        rises = series or slope_rises(density, slope)
-        if not ("convexity" in self.economy and rises):
-            verify_inequalities(density, slope)
-        return True
+        return super().normal
 
     @cached_property
     def bonded(self) -> tuple[Edges, JacobiDensity]:
@@ -277,7 +117,7 @@ class Solution:
         if not scene.profile.convex:
             P, b = scene.normal_load, scene.half_width
             plain = Scene(profile=scene.profile, modulus=scene.Estar, normal_load=P, half_width=b)
-            _ = Solution(plain, self.tol).as_one_patch
+            _ = Frictionless(plain, self.tol).as_one_patch
         return coupled_contact(self.scene, self._frictionless)
 
     @cached_property
@@ -288,7 +128,7 @@ class Solution:
         )
 
     def _frictionless(self, scene: Scene) -> Normal:
-        return normal_contact(scene, self.tol, ECONOMY)
+        return Frictionless(scene, self.tol).unverified
 
     @property
     def normal_and_shear(self) -> JacobiDensity:
@@ -470,88 +310,7 @@ class Solution:
         """The pressure, where it is not that of full stick."""
         return cast(SlopeDensity, self.pressure)
 
-    @property
-    def _slope(self) -> Slope:
-        return self.normal.slope(self.scene.profile)
-
     # -- answers -----------------------------------------------------------------------------------
-
-    @property
-    def edges(self) -> tuple[float, float]:
-        """The edges of the contact, (x1, x2), lengths.
-
-        Returns
-        -------
-        tuple of float
-            The edges rounded to doubles. The solution itself keeps them more exactly.
-        """
-        contact = self.normal.edges.contact
-        return contact.x1, contact.x2
-
-    @property
-    def patches(self) -> tuple[tuple[float, float], ...]:
-        """The patches of contact as (x1, x2), ascending; per period those of one period."""
-        return (self.edges,) if self._several is None else self._several.patches
-
-    @property
-    def patch_loads(self) -> tuple[float, ...]:
-        """∫p over each patch, force per length."""
-        return (self.normal_load,) if self._several is None else self._several.pressure.loads
-
-    @property
-    def contact_length(self) -> float:
-        """The real length of contact, of all patches together; per period that of one period."""
-        return sum(x2 - x1 for x1, x2 in self.patches)
-
-    @property
-    def gap_volume(self) -> float:
-        """∫ of the gap between the patches, or over one period, where there is an indenter.
-
-        A fluid would fill this volume per length of the line of contact.
-        """
-        several = self._several
-        return several.gap_volume if isinstance(several, SeveralPatches) else 0.0
-
-    @property
-    def half_width(self) -> float:
-        """Half-width of the contact, length.
-
-        Of several patches it is half the distance of the outermost two edges; per period half of
-        the shortest interval that has all patches of a period, and half the period in full contact.
-        """
-        return self.normal.edges.contact.r
-
-    @property
-    def centre(self) -> float:
-        """Centre of the contact, length."""
-        return self.normal.edges.contact.m
-
-    @property
-    def normal_load(self) -> float:
-        """Normal load P, force per length."""
-        return self.normal.edges.normal_load
-
-    @property
-    def moment(self) -> float:
-        """Moment of the pressure ∫p x dx about x = 0, force per length times length."""
-        return self.normal.edges.moment
-
-    @property
-    def tilt(self) -> float:
-        """Tilt of the indenter, the angle that is added to the slope of the profile."""
-        return self.normal.edges.tilt
-
-    @property
-    def sharp(self) -> tuple[bool, bool]:
-        """Whether each edge is a corner of the indenter, (left, right).
-
-        Returns
-        -------
-        tuple of bool
-            True where the contact ends at an end of the profile's domain. The pressure is infinite
-            there.
-        """
-        return self.normal.edges.sharp
 
     @property
     def stick(self) -> tuple[tuple[float, float], ...]:
@@ -695,100 +454,6 @@ class Solution:
                 "depends on the states before: drop sliding and give tangential_load = "
                 f"{NEARLY * limit:.6g}, {NEARLY:g} of f P, for the slip next to it"
             )
-
-    # -- in the body -------------------------------------------------------------------------------
-
-    @cached_property
-    def tractions(self) -> Tractions:
-        """The tractions and the constants that the stress in the body depends on."""
-        scene, body = self.scene, self.scene.body
-        if body is None:
-            return Tractions(self.pressure, self.shear, scene.bulk_stress, scene.poisson)
-        if isinstance(body, Elastic):
-            constants = body.poisson, body.plane, body
-            return Tractions(self.pressure, self.shear, scene.bulk_stress, *constants)
-        raise ContactError(
-            "the body is rigid: its stress is not determined; give the elastic one as body and "
-            "the rigid as indenter"
-        )
-
-    def stress(self, x: ArrayLike, y: ArrayLike) -> Stress:
-        """The stress at points of the body.
-
-        Parameters
-        ----------
-        x, y : array_like of float
-            Positions and depths, y >= 0, length. They are broadcast against each other.
-
-        Returns
-        -------
-        Stress
-            Components, invariants and strains, arrays of the broadcast shape, computed as they are
-            read.
-
-        Raises
-        ------
-        ValueError
-            For points above the surface or not finite.
-        ContactError
-            If the body is rigid.
-        """
-        return Stress(self.tractions, x, y)
-
-    def surface_stress(self, x: ArrayLike) -> Stress:
-        """The stress on the surface, in the contact and beside it.
-
-        Parameters
-        ----------
-        x : array_like of float
-            Positions at y = 0, length.
-
-        Returns
-        -------
-        Stress
-            As `stress(x, 0.0)`.
-        """
-        return self.stress(x, 0.0)
-
-    def elastic_limit(self, criterion: Criterion = "mises") -> YieldPoint:
-        """The place where the body yields first, and the load.
-
-        Parameters
-        ----------
-        criterion : {"mises", "tresca"}, optional
-            Yield criterion.
-
-        Returns
-        -------
-        YieldPoint
-            First-yield load, place and stress.
-
-        Raises
-        ------
-        ValueError
-            For an unknown criterion, or if Poisson's ratio is needed and not given.
-
-        Examples
-        --------
-        >>> import sie
-        >>> scene = sie.Scene(profile=sie.Parabola(1.0), modulus=1.0, poisson=0.3, normal_load=1.0)
-        >>> found = sie.solve(scene).elastic_limit()
-        >>> round(found.y / found.half_width, 2)
-        0.7
-        """
-        refuse_unknown_criterion(criterion)
-        refuse_unknown_poisson(self.scene)
-        return elastic_limit(self.tractions, self.normal_load, criterion)
-
-    def peak_tension(self) -> Peak:
-        """The largest tension σ_xx on the surface.
-
-        Returns
-        -------
-        Peak
-            (value, x): stress, and the position where it is reached, in the contact or beside it.
-        """
-        return peak_tension(self.tractions)
 
     def gap(self, x: ArrayLike) -> Array:
         """The gap between the deformed bodies.

@@ -47,7 +47,7 @@ LAYERS = (
     ("patches",),
     ("certificate",),
     ("plan", "kept_stages"),
-    ("solution", "path_contacts"),
+    ("frictionless", "stress_answers", "solution", "path_contacts"),
     ("smoothing_search", "history"),
     ("sweep_work",),
     ("sweep", "charts", "steady_cycle", "teaching"),

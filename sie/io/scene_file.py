@@ -145,8 +145,10 @@ class SceneFile:
 
 def read(path: str | pathlib.Path) -> SceneFile:
     """The scene in a TOML file. Raises SceneFileError if there is none."""
-    path = pathlib.Path(path)
+    name = path
+    path = pathlib.Path(name)
     try:
+        files.named(name)
         if path.is_fifo():
             raise ValueError(
                 f"{path} is a pipe: give a file, or send the scene to standard input and give -"

@@ -30,7 +30,8 @@ import numpy as np
 
 from sie.problem.material import Body, Elastic
 from sie.problem.scene import Scene
-from sie.profiles.base import Mirrored, Profile, Raised, Shifted, Sum, Tilted
+from sie.profiles.base import Profile
+from sie.profiles.derived import Mirrored, Raised, Shifted, Sum, Tilted
 from sie.profiles.expression import Expression
 from sie.profiles.from_function import FromFunction
 from sie.profiles.kinds import KINDS

@@ -12,7 +12,8 @@ from sie.contact.known_contact import Edges
 from sie.errors import ContactError, LoadError
 from sie.numerics.interval import Interval
 from sie.problem.scene import Scene
-from sie.profiles.base import Derived, Profile
+from sie.profiles.base import Profile
+from sie.profiles.derived import Derived
 from sie.profiles.row import Periodic, Row
 from sie.profiles.slope import Slope
 

@@ -57,7 +57,7 @@ def certificate(
     p = np.where(np.isfinite(p), p, 0.0)  # as of a part that is shorter than the doubles are apart
     peak = float(at.max())
     load = float(rule.weight @ p)
-    hull, middle = 0.5 * float(P.b[-1] - P.a[0]), 0.5 * float(P.b[-1] + P.a[0])
+    hull, middle = 0.5 * P.hull, 0.5 * float(P.b[-1] + P.a[0])
     asked = G * given.load
     moment = 0.0
     if given.moment is not None:
@@ -135,7 +135,7 @@ def _rounding(o: Operator, linear: Linear, given: Given, peak: float) -> float:
     pole, _ = P.chord.poles(P.chord.difference(P.c[:, None] - P.edges))
     missed = np.linalg.norm(pole * force, axis=1)
     moment = float(np.linalg.norm(force * P.edges)) * (given.moment is not None)
-    hull = 0.5 * float(P.b[-1] - P.a[0])
+    hull = 0.5 * P.hull
     terms = o.pieces.terms(o.panels.piece, o.panels.points.x[:, 0])
     # the rounding of a function is that of its values from patch to patch
     between = slice(int(o.pieces.locate(P.a[0])), int(o.pieces.locate(P.b[-1])) + 1)

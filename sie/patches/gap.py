@@ -6,11 +6,13 @@ g'/root >= 0 from the edge on, or g >= 0, is verified by bounds and not by sampl
 
 from __future__ import annotations
 
+from operator import itemgetter
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from sie.errors import ResolutionError
 from sie.numerics import chebyshev
 from sie.numerics.interval import EPS
 
@@ -21,11 +23,14 @@ from .state import Overlap
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
+Bool = NDArray[np.bool_]
 
 ROUNDING = 7e-14  # of max|H| on the patches times the distance from an edge
 # of the load over E*/2: where h is rounded to less, a place that its rounding leaves open carries
 # too little to look for it
 NEGLIGIBLE = 1e-9
+# halved at once, in 200 MB; a hundred patches have a thousand: more are values that are none
+MOST = 2**16
 OUT_OF_SIGHT = 1e16  # widths of the whole contact: from there doubles do not tell its edges
 
 
@@ -42,53 +47,119 @@ class Looked(NamedTuple):
 
 
 def overlaps(o: Operator, tilt: float, load: float) -> Looked:
-    """Where the gap is negative by more than the rounding of h, at a tilt and a load over E*/2."""
-    hull = float(o.patches.b[-1] - o.patches.a[0])
-    beyond = min(1.1 * o.pieces.horizon(tilt, o.patches.c) / hull, OUT_OF_SIGHT)
-    farthest = max(FARTHEST, beyond)
-    panels = gap_panels(o.patches, o.pieces, outside=True, farthest=farthest)
+    """Where the gap is negative by more than the rounding of h, at a tilt and a load over E*/2.
+
+    Raises ResolutionError if that is open on more than `MOST` parts.
+    """
+    beyond = min(1.1 * o.pieces.horizon(tilt, o.patches.c) / o.patches.hull, OUT_OF_SIGHT)
+    panels = gap_panels(o.patches, o.pieces, outside=True, farthest=max(FARTHEST, beyond))
     if not len(panels.gap):
         return Looked((), 0.0, 0.0)
     side = sides(o, panels)
-    doubt, place = 0.0, 0.0
-    panel, lo, hi, edge = _parts(o, panels)
+    parts = _parts(o, panels)
     largest = np.zeros(o.patches.number + 1)
     bad: list[tuple[int, float, float, float]] = []
-    H = float(np.abs(o.H).max())
-    g, _ = chebyshev.gauss_legendre(NODES)
+    doubts = [(0.0, 0.0)]
     for depth in range(DEEPEST):
-        t = lo[:, None] + (hi - lo)[:, None] * g
-        value, x, phi = opening(o, side, panel, t)
-        gap = panels.gap[panel] + 1
-        away = np.abs(x - panels.points.anchor[panel])
+        last = depth == DEEPEST - 1
+        seen = _judged(o, (tilt, load), side, parts, last)
+        gap = panels.gap[parts.panel]
         if depth == 0:
-            beside = np.where(np.isfinite(value) & (away <= hull), value, 0.0)
-            np.maximum.at(largest, gap, beside.max(axis=1))
-        rounding = _rounding(o, tilt, panels.points.anchor[panel, 0], x)
-        tolerance = rounding + ROUNDING * H * away.max(axis=1)
-        bound = lower_bound(value)
-        opens = edge & (lower_bound(phi) >= 0.0)
-        matters = (rounding > NEGLIGIBLE * load) & ~opens & (bound < tolerance)
-        enough = (bound >= -tolerance) & ~(matters & (depth < DEEPEST - 1)) | opens
-        negative = (value < -tolerance[:, None]) & ~opens[:, None] & (bound < -tolerance)[:, None]
-        wide = x.max(axis=1) - x.min(axis=1)
-        for j in np.flatnonzero(negative.any(axis=1)):
-            bad += [
-                (int(gap[j]) - 1, float(x[j, m]), float(value[j, m]), float(wide[j]))
-                for m in np.flatnonzero(negative[j])
-            ]
-        unsure = matters & ~negative.any(axis=1) & (value < tolerance[:, None]).any(axis=1)
-        if unsure.any():
-            worst = int(np.argmax(np.where(unsure, rounding, 0.0)))
-            if rounding[worst] > doubt:
-                doubt, place = float(rounding[worst]), float(x[worst, np.argmin(value[worst])])
-        open_ = ~enough & ~negative.any(axis=1) & ~unsure
-        if not open_.any() or depth == DEEPEST - 1:
+            beside = np.where(np.isfinite(seen.value) & seen.near, seen.value, 0.0)
+            np.maximum.at(largest, gap + 1, beside.max(axis=1))
+        bad += seen.places(gap)
+        doubts += seen.doubt()
+        count = int(np.count_nonzero(seen.unknown))
+        if not count or last:
             break
-        panel = np.tile(panel[open_], 2)
-        edge = np.concatenate((edge[open_], np.zeros(np.count_nonzero(open_), dtype=bool)))
-        lo, hi = halves(lo[open_], hi[open_])
+        if count > MOST:
+            raise _undecided(count, seen.x[seen.unknown])
+        parts = parts.halved(seen.unknown)
+    doubt, place = max(doubts, key=itemgetter(0))
     return Looked(_gathered(bad, largest), doubt, place)
+
+
+class Parts(NamedTuple):
+    """Parts of panels, from lo to hi in their parameter; `edge`: whether one begins at the edge."""
+
+    panel: Index
+    lo: Array
+    hi: Array
+    edge: Bool
+
+    def halved(self, kept: Bool) -> Parts:
+        """The halves of those that are kept: all left ones, then all right ones."""
+        lo, hi = halves(self.lo[kept], self.hi[kept])
+        edge = np.concatenate((self.edge[kept], np.zeros(np.count_nonzero(kept), dtype=bool)))
+        return Parts(np.tile(self.panel[kept], 2), lo, hi, edge)
+
+
+class Judged(NamedTuple):
+    """What the gap at points (m, n) of parts (m,) tells.
+
+    value      the gap
+    x          its places
+    near       whether a place is no farther from its edge than the whole contact is wide
+    negative   where the gap is negative for sure
+    rounding   a bound of the rounding of h (m,)
+    unsure     whether that rounding hides what the gap is
+    unknown    whether a part has to be halved
+    """
+
+    value: Array
+    x: Array
+    near: Bool
+    negative: Bool
+    rounding: Array
+    unsure: Bool
+    unknown: Bool
+
+    def places(self, gap: Index) -> list[tuple[int, float, float, float]]:
+        """The places of overlap: (gap, x, the gap there, width of the part)."""
+        wide = self.x.max(axis=1) - self.x.min(axis=1)
+        return [
+            (int(gap[j]), float(self.x[j, m]), float(self.value[j, m]), float(wide[j]))
+            for j, m in zip(*np.nonzero(self.negative), strict=True)
+        ]
+
+    def doubt(self) -> list[tuple[float, float]]:
+        """The largest rounding that hides the gap, and the place; nothing where none does."""
+        if not self.unsure.any():
+            return []
+        worst = int(np.argmax(np.where(self.unsure, self.rounding, 0.0)))
+        return [(float(self.rounding[worst]), float(self.x[worst, np.argmin(self.value[worst])]))]
+
+
+def _judged(
+    o: Operator, given: tuple[float, float], side: Side, parts: Parts, last: bool
+) -> Judged:
+    """What is known on parts at a tilt and a load; on the last ones no rounding is looked into."""
+    tilt, load = given
+    anchor = side.panels.points.anchor[parts.panel]
+    g, _ = chebyshev.gauss_legendre(NODES)
+    t = parts.lo[:, None] + (parts.hi - parts.lo)[:, None] * g
+    value, x, phi = opening(o, side, parts.panel, t)
+    away = np.abs(x - anchor)
+    rounding = _rounding(o, tilt, anchor[:, 0], x)
+    tolerance = rounding + ROUNDING * float(np.abs(o.H).max()) * away.max(axis=1)
+    bound = lower_bound(value)
+    opens = parts.edge & (lower_bound(phi) >= 0.0)
+    matters = (rounding > NEGLIGIBLE * load) & ~opens & (bound < tolerance)
+    enough = (bound >= -tolerance) & ~(matters & (not last)) | opens
+    may_be = ~opens & (bound < -tolerance)
+    negative = (value < -tolerance[:, None]) & may_be[:, None]
+    sure = negative.any(axis=1)
+    unsure = matters & ~sure & (value < tolerance[:, None]).any(axis=1)
+    near = away <= o.patches.hull
+    return Judged(value, x, near, negative, rounding, unsure, ~enough & ~sure & ~unsure)
+
+
+def _undecided(count: int, x: Array) -> ResolutionError:
+    return ResolutionError(
+        f"whether the bodies overlap between x = {x.min():.6g} and {x.max():.6g} is still open on "
+        f"{count} parts of the gap, and {MOST} are the most: raise the load, or give a smoother "
+        "profile"
+    )
 
 
 def _rounding(o: Operator, tilt: float, edge: Array, x: Array) -> Array:
@@ -202,11 +273,8 @@ def _series(c: Array, panel: Index, s: Array) -> Array:
     return np.asarray(total)
 
 
-def _parts(o: Operator, panels: GapPanels) -> tuple[Index, Array, Array, NDArray[np.bool_]]:
-    """Panels cut at the breaks of H: (panel, lo, hi, whether it begins at the edge).
-
-    Voids have none.
-    """
+def _parts(o: Operator, panels: GapPanels) -> Parts:
+    """Panels cut at the breaks of H. Voids have none."""
     pieces = o.pieces
     edge = panels.points.anchor[:, 0]
     sign = np.where(panels.right, -1.0, 1.0)
@@ -225,7 +293,7 @@ def _parts(o: Operator, panels: GapPanels) -> tuple[Index, Array, Array, NDArray
     panel, lo, hi = every[:-1][same], place[:-1][same], place[1:][same]
     middle = edge[panel] + sign[panel] * distance_of(0.5 * (lo + hi), panels.width[panel])[0]
     solid = ~pieces.void[pieces.locate(middle)]
-    return panel[solid], lo[solid], hi[solid], (lo == 0.0)[solid]
+    return Parts(panel[solid], lo[solid], hi[solid], (lo == 0.0)[solid])
 
 
 def gap(o: Operator, x: Array) -> Array:
@@ -245,8 +313,7 @@ def gap(o: Operator, x: Array) -> Array:
     beside = np.flatnonzero(~inside & ~walled & (at >= lo) & (at <= hi))
     if not beside.size:
         return out
-    hull = P.b[-1] - P.a[0]
-    farthest = np.abs(at[beside] - 0.5 * (P.a[0] + P.b[-1])).max() / hull
+    farthest = np.abs(at[beside] - 0.5 * (P.a[0] + P.b[-1])).max() / P.hull
     panels = gap_panels(P, pieces, outside=True, farthest=max(FARTHEST, 1.1 * farthest))
     side = sides(o, panels)
     k = left[beside]

@@ -38,6 +38,7 @@ CLOSE = 4.0  # factor of the load: up to this the patches of one load are a star
 CLOSEST = 1.01  # ... and up to this the only one
 FIRST, MOST = 4.0, 1e4  # the first and the largest factor of the load towards a bracket
 OUTSIDE = 8  # steps one way without a bracket
+LAW_MISSED = 0.1  # of the growth of r since the lowest points touched
 LIGHTEST = 1e-4  # of the first load: from below it no lighter one is tried
 STARTS = 16.0 ** np.array([0, -1, 1, -2, 2, -4, 4, -6, 6])  # at which the first contact is sought
 LOADS = 100
@@ -101,6 +102,16 @@ class Width(NamedTuple):
             return float(np.copysign(np.inf, missed))
         return missed / self.growth
 
+    def lighter(self, r: float) -> float:
+        """The change of ln P to a narrower r, -inf if there is none.
+
+        r grows from the distance of the lowest points as the root of a light load; where that
+        law misses r by little, the load is not light enough for it.
+        """
+        grown = 2.0 * self.growth  # of r since these points touched
+        left = 1.0 + float(np.expm1(np.log(r / self.r))) / grown if 0.0 < grown < np.inf else 0.0
+        return 2.0 * float(np.log(max(left, LAW_MISSED))) if left > -LAW_MISSED else -np.inf
+
 
 @reported("load of the half-width, trial")
 def contact_of_half_width(problem: Problem, ways: Ways) -> tuple[Problem, Found]:
@@ -120,7 +131,8 @@ def contact_of_half_width(problem: Problem, ways: Ways) -> tuple[Problem, Found]
             return changed(problem, load=now.load), now.found
         ends, last = search.bracketed(now), abs(step)
         if ends is None:
-            if outside == OUTSIDE or (step < 0.0 and now.load < lightest):
+            step = now.lighter(search.r) if step < 0.0 else step
+            if outside == OUTSIDE or (step == -np.inf and now.load < lightest):
                 break
             most, outside = np.log(factor), outside + 1
             now = search.outside(now, float(np.clip(step, -most, most)))
@@ -212,7 +224,7 @@ class Search:
         given = self.problem.given._replace(load=load)
         moved = conditions(state, found.operator, given).growth(state, load)
         P, last = state.patches, len(moved) - 1
-        whole = float(P.b[-1] - P.a[0])
+        whole = P.hull
         if P.chord.periodic:
             last = 2 * int(np.argmax(P.gaps)) + 1
             whole = P.chord.period - float(P.gaps.max())

@@ -68,6 +68,11 @@ class Patches:
     def c(self) -> Array:
         return np.asarray(self.a + self.r)
 
+    @property
+    def hull(self) -> float:
+        """The distance of the outermost two edges."""
+        return float(self.b[-1] - self.a[0])
+
     @cached_property
     def gaps(self) -> Array:
         """Widths of the gaps to the right of each patch; inf beside the last one on the line."""
@@ -267,7 +272,7 @@ def gap_panels(
     followed = np.minimum(own + pieces.reach[piece], pieces.plain[piece])
     size = 2.0 * patches.r[k]
     stop = np.where(at_right, edge - pieces.ends[0], pieces.ends[-1] - edge)
-    far = np.sqrt(np.minimum(np.maximum(stop, 0.0), farthest * (b[-1] - a[0])))
+    far = np.sqrt(np.minimum(np.maximum(stop, 0.0), farthest * patches.hull))
     nearest = np.where(inner, 2.0 * np.arcsinh(np.sqrt(size / width)), np.sqrt(size))
     end = np.where(inner, 0.5 * np.pi, far)
 

@@ -140,8 +140,7 @@ def _gradients(system: System, p: Array, stiffness: Array | None) -> tuple[Array
         contact = p > 0.0
         if not contact.any() or not np.isfinite(p).all():
             raise FloatingPointError("no pressure on the grid")
-        gap = system.displaced(p) + h
-        gap -= gap[contact].mean()
+        gap = _levelled(system.displaced(p) + h, contact)
         r = np.where(contact, gap, 0.0)
         z = r if stiffness is None else system.transformed(r, stiffness)
         now = float(r @ z)
@@ -153,8 +152,7 @@ def _gradients(system: System, p: Array, stiffness: Array | None) -> tuple[Array
         before, last = now, r
         if stiffness is not None:
             t[contact] -= t[contact].mean()
-        opened = system.displaced(t)
-        opened -= opened[contact].mean()
+        opened = _levelled(system.displaced(t), contact)
         along = float(opened[contact] @ t[contact])
         if along == 0.0:  # the load is lost in the rounding of h
             return p, True
@@ -165,16 +163,25 @@ def _gradients(system: System, p: Array, stiffness: Array | None) -> tuple[Array
         overlap = (p == 0.0) & (gap < 0.0) & solid & looks
         conjugate = 0.0 if overlap.any() else 1.0
         if overlap.any():
-            deep = np.where(overlap, gap, 0.0)
-            if stiffness is not None:
-                step = float(deep @ deep) / float(deep @ system.displaced(deep))
-            p = np.maximum(p - step * deep, 0.0)
+            p = _pressed_apart(system, p, np.where(overlap, gap, 0.0), step, stiffness is None)
         p *= system.load / (p.sum() * system.dx)
         change = float(np.abs(p - old).sum() / p.sum())
         still = change <= enough
         if still and looks and not overlap.any():
             return p, True
     return p, change <= LAST
+
+
+def _levelled(u: Array, contact: NDArray[np.bool_]) -> Array:
+    """The displacement u less its mean in contact."""
+    return np.asarray(u - u[contact].mean())
+
+
+def _pressed_apart(system: System, p: Array, deep: Array, step: float, plain: bool) -> Array:
+    """The pressure with more where the bodies overlap by -deep; preconditioned, by its own step."""
+    if not plain:
+        step = float(deep @ deep) / float(deep @ system.displaced(deep))
+    return np.asarray(np.maximum(p - step * deep, 0.0))
 
 
 BEYOND = 0.9  # of a cell: an edge is no farther from the middle of the outer cell
@@ -209,10 +216,8 @@ def patches_on(grid: Grid) -> list[Patch]:
         p = np.roll(p, -turn)
     x = grid.lo + grid.dx * (np.arange(n) + 0.5 + turn)
     contact = np.concatenate(([False], p > 0.0, [False]))
-    starts, stops = (
-        np.flatnonzero(contact[1:] & ~contact[:-1]),
-        np.flatnonzero(contact[:-1] & ~contact[1:]),
-    )
+    starts = np.flatnonzero(contact[1:] & ~contact[:-1])
+    stops = np.flatnonzero(contact[:-1] & ~contact[1:])
     found = []
     for i, j in zip(starts.tolist(), stops.tolist(), strict=True):
         q = p[i:j]

@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 from sie.errors import ContactError
 
 from . import fitting
-from .base import Derived, Placed, Profile
+from .base import Profile
+from .derived import Derived, Placed
 from .row import Periodic
 from .sampled import Sampled
 

@@ -20,7 +20,8 @@ from numpy.typing import ArrayLike, NDArray
 from sie import arguments
 from sie.inheritance import override
 
-from .base import Profile, joined, of_any_x
+from .base import Profile, of_any_x
+from .derived import joined
 from .lowest_profile import finite_ends, lowest_of
 from .slope import FunctionTerm, Slope
 

@@ -55,7 +55,7 @@ def read_trace(
     """
     if not isinstance(path, (str, PathLike)):
         raise ValueError(f"path = {path!r} is not the name of a file: give a string or a Path")
-    path = Path(path)
+    path = files.named(path)
     pair = arguments.listed("columns", columns, "those of x and of h")
     if len(pair) != 2 or not all(isinstance(column, (Integral, str)) for column in pair):
         raise ValueError(f"columns = {columns!r} is not a pair: give the columns of x and of h")

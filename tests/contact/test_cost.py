@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import sie
-from sie import solution
+from sie import frictionless
 from sie.certificate import quadrature
 from sie.contact import edges, normal, pressure, widest_contact
 from sie.friction import growth_panels
@@ -83,7 +83,7 @@ def test_a_function_that_rises_is_not_scanned_for_tension_and_overlap():
         sie.FromFunction(np.sinh, domain=(-3.0, 3.0)),
         sie.FromFunction("x + 0.3*sin(6*x)", domain=(-3.0, 3.0)),
     )
-    with counted(solution, "verify_inequalities") as scans:
+    with counted(frictionless, "verify_inequalities") as scans:
         assert sie.solve(scene(convex)).half_width > 0.0
         assert not scans
         assert sie.solve(scene(wavy, normal_load=2.0)).half_width > 0.0
@@ -103,7 +103,7 @@ def test_a_smooth_function_takes_one_transform_a_step_and_no_pieces(profile, giv
 
 
 def test_a_sweep_over_the_tangential_load_solves_the_normal_problem_once():
-    with counted(solution, "normal_contact") as solves:
+    with counted(frictionless, "normal_contact") as solves:
         base = sie.solve(scene(PUNCH, friction=0.5))
         _ = base.pressure
         for Q in (0.02, 0.05, 0.1, 0.14):
@@ -129,7 +129,7 @@ def test_a_cauchy_equation_without_kernel_builds_no_matrix():
 
 
 def test_the_counter_counts():
-    with counted(solution, "normal_contact") as solves:
+    with counted(frictionless, "normal_contact") as solves:
         for load in (0.1, 0.2):
             _ = sie.solve(scene(PUNCH, normal_load=load)).edges
     assert len(solves) == 2

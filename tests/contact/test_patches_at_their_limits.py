@@ -183,3 +183,11 @@ def test_narrow_panels_beside_wide_ones_are_measured_as_exactly(load):
     solution = sie.solve(sie.Scene(profile=trace, modulus=1.0, normal_load=load))
     assert len(solution.patches) > 5
     assert solution.check().residual <= 2e-12
+
+
+def test_a_search_for_overlaps_of_too_many_parts_is_refused(monkeypatch):
+    """It does not take all memory."""
+    monkeypatch.setattr("sie.patches.gap.MOST", 1)
+    row = sie.Row([sie.Parabola(1.0).shifted(x) for x in (-2.0, 0.0, 2.0)])
+    with pytest.raises(sie.ContactError, match="change the load"):
+        _ = sie.solve(sie.Scene(profile=row, modulus=1.0, normal_load=0.1)).edges

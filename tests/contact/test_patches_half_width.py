@@ -133,3 +133,17 @@ def test_a_load_beside_the_one_that_is_sought_ends_no_search():
     search = SimpleNamespace(r=0.475)
     beside = Width(3.1222327, 0.474986, 4.255, None)
     assert not Search.reached(search, beside, 6.7e-6, 7.3e-16)
+
+
+@pytest.mark.parametrize("load", [1e-6, 1e-8, 1e-10])
+def test_a_light_contact_on_equal_valleys_is_found_from_its_half_width(load):
+    row = sie.Row([sie.Parabola(0.5).shifted(-0.92), sie.Parabola(1.0).shifted(0.92)])
+    asked = sie.Scene(profile=row, modulus=1.0, normal_load=load)
+    given = sie.solve(asked)
+    found = sie.solve(
+        sie.Scene(profile=row, modulus=1.0, normal_load=None, half_width=given.half_width)
+    )
+    assert found.check().ok
+    assert found.half_width == pytest.approx(given.half_width, rel=2e-15)
+    # 2e-15 of r against its growth since the valleys touched, 5e-3 sqrt(P), twice for ln P
+    assert found.normal_load == pytest.approx(load, rel=1e-12 / load**0.5)

@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scenes import dissimilar
 
 import sie
 from oracles.spence import oblique_contact
@@ -15,13 +16,7 @@ from sie.friction.coupled.oblique import inclination
 
 
 def scene(profile=None, beta=0.3, friction=0.3, load=1.0):
-    return sie.Scene(
-        profile=profile or sie.Parabola(1.0),
-        modulus=2.0,
-        dundurs=beta,
-        friction=friction,
-        normal_load=load,
-    )
+    return dissimilar(profile, beta, friction, normal_load=load)
 
 
 def solved(profile=None, beta=0.3, friction=0.3, part=0.3, load=1.0):

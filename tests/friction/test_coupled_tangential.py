@@ -10,6 +10,7 @@ from dataclasses import replace
 import mpmath
 import numpy as np
 import pytest
+from scenes import dissimilar
 
 import sie
 from sie.certificate.coupled_check import gradient_of_slip
@@ -45,15 +46,8 @@ PROFILES = {
 
 
 def scene(profile=None, beta=0.3, friction=0.3, part=0.5, load=1.0, **others):
-    return sie.Scene(
-        profile=profile or sie.Parabola(1.0),
-        modulus=2.0,
-        dundurs=beta,
-        friction=friction,
-        normal_load=load,
-        tangential_load=part * friction * load,
-        **others,
-    )
+    loads = {"normal_load": load, "tangential_load": part * friction * load}
+    return dissimilar(profile, beta, friction, **loads, **others)
 
 
 def solved(*args, **kwargs):

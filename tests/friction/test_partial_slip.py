@@ -308,7 +308,7 @@ def full_solves(monkeypatch):
         loads.append(scene.normal_load)
         return normal.normal_contact(scene, *args)
 
-    monkeypatch.setattr(sie.solution, "normal_contact", counted)
+    monkeypatch.setattr(sie.frictionless, "normal_contact", counted)
     return loads
 
 

@@ -469,6 +469,13 @@ BAD = {
     ),
     "no such scene": (["solve", "none.toml"], "does not exist"),
     "directory": (["solve", "."], "is a directory"),
+    "a scene without a name": (["solve", ""], "the name of the scene file is empty"),
+    "a mesh without a name": (
+        ["compare", "scene.toml", ""],
+        "the name of the mesh result is empty",
+    ),
+    "an output without a name": (["solve", "scene.toml", "--csv", ""], "after --csv is empty"),
+    "a folder without a name": (["benchmark-set", ""], "the name of the directory is empty"),
     "unknown option": (["solve", "scene.toml", "--polt", "out.png"], "did you mean --plot?"),
     "unknown want": (["solve", "scene.toml", "--want", "edgse"], 'did you mean "edges"?'),
     "unknown want of a plan": (

@@ -417,6 +417,8 @@ def test_a_file_that_cannot_be_read_is_refused(tmp_path):
         read(tmp_path / "none.toml")
     with pytest.raises(SceneFileError, match="is a directory"):
         read(tmp_path)
+    with pytest.raises(SceneFileError, match="the name of the file is empty"):
+        read("")
 
 
 def test_a_load_path_takes_the_place_of_the_loads():

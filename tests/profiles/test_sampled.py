@@ -376,7 +376,7 @@ def test_a_rough_trace_costs_at_most_one_search_for_one_patch(load, monkeypatch)
     searches, smoothings = [], []
     whole = normal.normal_contact
     counted = lambda *args: searches.append(args) or whole(*args)  # noqa: E731
-    monkeypatch.setattr("sie.solution.normal_contact", counted)
+    monkeypatch.setattr("sie.frictionless.normal_contact", counted)
     monkeypatch.setattr("sie.profiles.sampled.cross_validated", smoothings.append)
     rough = sie.Sampled(X, H + 0.1 * np.cos(40.0 * X))
     assert len(pressed(rough, load).patches) > 1

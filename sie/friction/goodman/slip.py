@@ -80,8 +80,7 @@ class GoodmanShear(PotentialsOfParts):
 
     def _part(self, parity: float, load: float) -> CoupledTraction:
         def values(y: Array) -> Array:
-            part: Array = 0.5 * (self._half(y, 1.0) + parity * self._half(y, -1.0))
-            return part
+            return np.asarray(0.5 * (self._half(y, 1.0) + parity * self._half(y, -1.0)))
 
         def panels() -> Panels:
             right, left = self._halves
@@ -94,9 +93,9 @@ class GoodmanShear(PotentialsOfParts):
 
     @cached_property
     def _halves(self) -> tuple[Panels, Panels]:
-        """Series of q on both sides of the centre.
+        """Series of q on both sides of the centre, relative to the largest values of both.
 
-        They are resolved together, relative to their largest values: the even part may be rounding.
+        The even part may be rounding.
         """
         sides = (1.0,) if self.state.symmetric else (1.0, -1.0)
         power = -0.5 if any(self.state.step.normal.edges.sharp) else 0.5
@@ -313,8 +312,8 @@ class GoodmanSlip(GrownSlip):
     @property
     def _narrow(self) -> float:
         """A part of the contact that is shorter than the stick zone: half of sqrt(1 - Q/(f P))."""
-        step = self.step
-        left = remaining(self.friction, step.normal_load, step.Q) / step.normal_load
+        P = self.step.normal_load
+        left = remaining(self.friction, P, self.step.Q) / P
         return 0.5 * math.sqrt(max(left, 0.0))
 
     def under_tangential_load(self) -> GoodmanSlip:
@@ -345,8 +344,7 @@ class GoodmanSlip(GrownSlip):
                 t = y / self.contact.r
                 values = values + self.table.corner_load * self.flat.slip(t, 1.0 - t)
             g[at] = sign * values
-        scaled: Array = self.sign / self.table.search.half_modulus * g
-        return scaled
+        return np.asarray(self.sign / self.table.search.half_modulus * g)
 
     def _refuse_slip(self) -> None:
         if self.zones is not None:
@@ -375,9 +373,8 @@ class GoodmanSlip(GrownSlip):
         for growth in self.sides:
             for panel in self.table.panels:
                 length = panel.hi - panel.lo
-                rate, _ = panel.at(length * x * x)
-                dissipated = growth.dissipation(panel.lo + length * x * x)
-                total += 2.0 * length * float((w * x * rate) @ dissipated)
+                lost = growth.dissipation(panel.lo + length * x * x)
+                total += 2.0 * length * float((w * x * panel.at(length * x * x)[0]) @ lost)
             if self.table.corner_load:
                 b, P = self.contact.r, self.table.corner_load
                 total += P * float(growth.dissipation(np.array([b]))[0])

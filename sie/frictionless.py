@@ -1,0 +1,269 @@
+"""The contact of a scene under its normal load: the stages of the work, and its edges and loads.
+
+It is one patch, several, or one that repeats with the period of the profile.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+from dataclasses import replace
+
+import numpy as np
+
+from .contact.inequalities import slope_rises, slope_rises_far, verify_inequalities
+from .contact.known_contact import Normal
+from .contact.normal import normal_contact
+from .contact.pressure import pressure
+from .errors import ContactError, InequalityError, LoadError, ResolutionError
+from .patches.answer import SeveralPatches, asks_for_patches, light_patches, several_patches
+from .patches.full import FullContact
+from .problem.request import ECONOMY
+from .problem.scene import Scene
+from .profiles.placed_traces import explained
+from .profiles.slope import Slope
+from .stages import stage as cached_property  # its first reading is logged
+from .traction.of_slope import SlopeDensity
+
+# Of the slope's change over one patch: where that much of it is not linear, the search for overlaps
+# shows other valleys (it misses them where a contact is 1e-5 of their distance).
+BENT = 1e-3
+
+
+class Frictionless:
+    """The contact of a scene without shear, as a lazy view; parameters are those of `solve`."""
+
+    def __init__(
+        self, scene: Scene, tol: float = 1e-13, economy: Collection[str] = ECONOMY
+    ) -> None:
+        self.scene = scene
+        self.tol = tol
+        self.economy = frozenset(economy)
+
+    # -- stages ------------------------------------------------------------------------------------
+
+    @cached_property
+    def normal(self) -> Normal | SeveralPatches | FullContact:
+        """Edges, load, moment and tilt; verified where the profile may not be convex."""
+        if asks_for_patches(self.scene.profile):
+            return self._in_patches()
+        try:
+            may_be_light = self._may_be_in_patches and not self._bent
+            light = light_patches(self.scene) if may_be_light else None
+        except ContactError as error:
+            raise explained(error, self.scene.profile) from None
+        if light is not None and len(light.patches) > 1:
+            return light
+        try:
+            one = self.one_patch()
+            elsewhere = light is not None and not light.meets(one.edges.contact[:2])
+            return light if light is not None and elsewhere else one
+        except (InequalityError, LoadError, ResolutionError) as error:
+            if self._may_be_in_patches:
+                return self._in_patches(error)
+            raise explained(error, self.scene.profile) from None
+        except ContactError as error:
+            raise explained(error, self.scene.profile) from None
+
+    def one_patch(self) -> Normal:
+        """The contact if it is one patch.
+
+        Returns
+        -------
+        Normal
+            Its edges, load, moment and tilt.
+
+        Raises
+        ------
+        ContactError
+            If it is not one patch.
+        """
+        if not (self.scene.profile.convex and "convexity" in self.economy):
+            _ = self.inequalities
+        return self.unverified
+
+    def _in_patches(self, one_patch: ContactError | None = None) -> SeveralPatches | FullContact:
+        """Contact in several patches; `one_patch` is why it is not one."""
+        try:
+            return several_patches(self.scene)
+        except ContactError as error:
+            told = one_patch if isinstance(one_patch, LoadError) and not error.reached else error
+            told = error if self.scene.half_width is not None else told
+            raise explained(told, self.scene.profile) from None
+
+    @property
+    def _may_be_in_patches(self) -> bool:
+        scene = self.scene
+        return not scene.epsilon and not scene.profile.convex
+
+    @property
+    def as_one_patch(self) -> Normal:
+        """The contact, for what is solved on one patch only. Raises ContactError for several."""
+        found = self.normal
+        if isinstance(found, Normal):
+            return found
+        raise ContactError(
+            "a contact that repeats: this is covered for one patch on the line only; give the "
+            "profile without its period"
+            if np.isfinite(self.scene.profile.period)
+            else f"contact in {len(found.patches)} patches: this is covered for one patch only; "
+            "give a load under which the patches have merged"
+        )
+
+    @cached_property
+    def in_patches(self) -> SeveralPatches | FullContact:
+        """The contact as one in several patches, though it may be in one."""
+        return self._several or self.patches_under(self.normal_load, self.tilt)
+
+    def patches_under(self, load: float, tilt: float) -> SeveralPatches | FullContact:
+        """The contact of the same profile under another load and tilt, in several patches.
+
+        Parameters
+        ----------
+        load : float
+            P, a force per unit length.
+        tilt : float
+            The tilt, a pure number.
+
+        Returns
+        -------
+        SeveralPatches or FullContact
+            The contact without shear.
+
+        Raises
+        ------
+        ContactError
+            If no patches are certified.
+        """
+        plain = replace(
+            self.scene,
+            normal_load=load,
+            half_width=None,
+            tilt=tilt,
+            moment=None,
+            friction=0.0,
+            tangential_load=0.0,
+            sliding=0,
+            bulk_stress=0.0,
+        )
+        return several_patches(plain)
+
+    @property
+    def _bent(self) -> bool:
+        """Whether the slope of a function bends within one patch: the load is not light."""
+        try:
+            c = self.unverified.series
+        except ContactError:
+            return False
+        return c is not None and float(np.abs(c[2:]).sum()) > BENT * abs(float(c[1]))
+
+    @property
+    def _several(self) -> SeveralPatches | FullContact | None:
+        """The contact, if it is in several patches or per period."""
+        return self.normal if isinstance(self.normal, (SeveralPatches, FullContact)) else None
+
+    @cached_property
+    def unverified(self) -> Normal:
+        """The contact that carries the load and the moment.
+
+        Bodies may overlap there, or be in tension.
+        """
+        return normal_contact(self.scene, self.tol, self.economy)
+
+    @cached_property
+    def density(self) -> SlopeDensity:
+        """The pressure of this contact."""
+        return pressure(self.unverified, self.scene, self.tol, self.economy)
+
+    @cached_property
+    def inequalities(self) -> bool:
+        """True where p >= 0 and gap >= 0; otherwise InequalityError is raised."""
+        found, density = self.unverified, self.density
+        slope = found.slope(self.scene.profile)
+        series = found.series is not None and slope_rises_far(density.contact, slope)
+        rises = series or slope_rises(density, slope)
+        if not ("convexity" in self.economy and rises):
+            verify_inequalities(density, slope)
+        return True
+
+    @property
+    def _slope(self) -> Slope:
+        return self.normal.slope(self.scene.profile)
+
+    # -- answers -----------------------------------------------------------------------------------
+
+    @property
+    def edges(self) -> tuple[float, float]:
+        """The edges of the contact, (x1, x2), lengths.
+
+        Returns
+        -------
+        tuple of float
+            The edges rounded to doubles. The solution itself keeps them more exactly.
+        """
+        contact = self.normal.edges.contact
+        return contact.x1, contact.x2
+
+    @property
+    def patches(self) -> tuple[tuple[float, float], ...]:
+        """The patches of contact as (x1, x2), ascending; per period those of one period."""
+        return (self.edges,) if self._several is None else self._several.patches
+
+    @property
+    def patch_loads(self) -> tuple[float, ...]:
+        """∫p over each patch, force per length."""
+        return (self.normal_load,) if self._several is None else self._several.pressure.loads
+
+    @property
+    def contact_length(self) -> float:
+        """The real length of contact, of all patches together; per period that of one period."""
+        return sum(x2 - x1 for x1, x2 in self.patches)
+
+    @property
+    def gap_volume(self) -> float:
+        """∫ of the gap between the patches, or over one period, where there is an indenter.
+
+        A fluid would fill this volume per length of the line of contact.
+        """
+        several = self._several
+        return several.gap_volume if isinstance(several, SeveralPatches) else 0.0
+
+    @property
+    def half_width(self) -> float:
+        """Half-width of the contact, length.
+
+        Of several patches it is half the distance of the outermost two edges; per period half of
+        the shortest interval that has all patches of a period, and half the period in full contact.
+        """
+        return self.normal.edges.contact.r
+
+    @property
+    def centre(self) -> float:
+        """Centre of the contact, length."""
+        return self.normal.edges.contact.m
+
+    @property
+    def normal_load(self) -> float:
+        """Normal load P, force per length."""
+        return self.normal.edges.normal_load
+
+    @property
+    def moment(self) -> float:
+        """Moment of the pressure ∫p x dx about x = 0, force per length times length."""
+        return self.normal.edges.moment
+
+    @property
+    def tilt(self) -> float:
+        """Tilt of the indenter, the angle that is added to the slope of the profile."""
+        return self.normal.edges.tilt
+
+    @property
+    def sharp(self) -> tuple[bool, bool]:
+        """Whether each edge is a corner of the indenter, (left, right).
+
+        Returns
+        -------
+        tuple of bool
+            True where the contact ends at an end of the profile's domain. The pressure is infinite
+            there.
+        """
+        return self.normal.edges.sharp
