@@ -26,10 +26,9 @@ from sie.friction.loads import Loads
 from sie.friction.step_conditions import SLACK, TESTED, inside, opens
 from sie.numerics.interval import Interval
 from sie.numerics.root_finding import false_position
-from sie.problem.scene import Scene
 from sie.traction.of_slope import SlopeDensity
 
-from .growing_contact import LoadChange
+from .growing_contact import Contacts, LoadChange
 from .marched_step import Held, MarchedStep
 from .receding_step import Ends, Receded, receded
 from .slip_rates import SlipRates
@@ -54,31 +53,18 @@ Signs = tuple[float, float]
 GoesOn = tuple[bool, bool]
 
 
-class Marchable(Protocol):
+class Marchable(Contacts, Protocol):
     """The contacts of a path that is followed.
 
-    scene           profile, bodies and friction
-    level           Λ of loads
-    shear           S of loads
-    arm             π r₀
-    pressure_at     the pressure under loads, in one patch
-    sheared_by      Q and τ of loads
-    curved          whether the tilt follows from a moment
-    by_moment       whether moments are added along the path, not tilts
+    level    Λ of loads
+    shear    S of loads
+    arm      π r₀
     """
-
-    scene: Scene
 
     def level(self, loads: Loads) -> complex: ...
     def shear(self, loads: Loads) -> complex: ...
     @property
     def arm(self) -> float: ...
-    def pressure_at(self, loads: Loads) -> SlopeDensity: ...
-    def sheared_by(self, loads: Loads) -> tuple[float, float]: ...
-    @property
-    def curved(self) -> bool: ...
-    @property
-    def by_moment(self) -> bool: ...
 
 
 @dataclass(frozen=True, eq=False)
