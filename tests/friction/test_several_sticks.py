@@ -91,3 +91,10 @@ def test_a_gap_opens_inside_the_stick_zone_and_joins_the_slip_beside_it():
         on_the_way = tuple(a + share * (b - a) for a, b in zip(start, turned))
         numbers.append(len(followed([(0.4, 0.0), start, on_the_way])[-1].stick))
     assert numbers == [1, 2, 1]
+
+
+@pytest.mark.parametrize("P", [P0, 1.2 * P0], ids=("constant P", "P grows"))
+def test_bulk_stress_that_leaves_no_stick_zone_on_the_grid_is_refused(P):
+    path = sie.Path([(P0, 0.0, 0.0), (P, 0.5 * F, 30.0 * S)])
+    with pytest.raises(sie.ContactError, match=r"^step 1 of the path"):
+        sie.follow(HERTZ, path)

@@ -26,7 +26,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie.errors import ContactError
-from sie.numerics import chebyshev
 from sie.numerics.interval import Interval
 
 from .advancing_zone import AdvancingZone
@@ -36,12 +35,10 @@ from .marched_step import Held, places
 from .moved_end import MovedEnd
 from .moving_zone import GRADED, Panel
 from .slip_onset import Onset
-from .slip_rates import Ends, SlipRates
 
 Array = NDArray[np.float64]
 
 BOTH = "both ends of the stick zone would advance"
-WORK_NODES = 10  # on each panel
 TOGETHER = 128  # places at a time
 
 
@@ -72,7 +69,8 @@ class EndAdvances(MovedEnd):
     @cached_property
     def stick(self) -> Interval:
         d, contact = self.zone.direction, self.pressure.contact
-        ends = d * self.panels[-1].end, d * self.zone.last(self.panels[-1])
+        last = self.panels[-1]
+        ends = d * last.end, d * float(self.zone.ahead(last, np.array(last.last)))
         return Interval(max(min(ends), contact.x1), min(max(ends), contact.x2))
 
     @property
@@ -88,10 +86,7 @@ class EndAdvances(MovedEnd):
         The end that recedes changes its speed at a mark, which is left where the other one was.
         """
         before, d = super()._places, self.zone.direction
-        left = [
-            d * float(chebyshev.evaluate(self.zone.front(panel), -1.0))
-            for panel in self._at_marks(before)
-        ]
+        left = [d * float(self.zone.ahead(panel, np.zeros(()))) for panel in self._at_marks(before)]
         return *before, d * self.panels[0].start, d * self.zone.first, *left
 
     def in_stick(self, x: Array) -> Array:
@@ -100,11 +95,6 @@ class EndAdvances(MovedEnd):
         old = place < self.zone.first
         total[old] -= self.before.lacking(-bound, x[old])
         return total
-
-    @cached_property
-    def rates(self) -> SlipRates:
-        """The rates of slip, the time as a share of the step."""
-        return SlipRates(self.zone.course.rates, self.friction, self.signs)
 
     @property
     def slip_goes_on(self) -> bool:
@@ -134,35 +124,11 @@ class EndAdvances(MovedEnd):
             low = np.full(len(at), panel.start) if side else np.maximum(panel.start, at)
             length = (high - low)[:, None]
             w = np.sqrt(((low - panel.start)[:, None] + length * rise) / panel.length)
-            ends = self._ends(panel, w, series)
-            u = panel.start + panel.length * w**2
-            a = chebyshev.evaluate(series, 2.0 * w - 1.0)
-            distance = np.maximum(u - at[:, None] if side == 0 else at[:, None] - a, 0.0)
+            end = self.zone.ahead(panel, w) if side else panel.start + panel.length * w**2
+            distance = np.maximum(at[:, None] - end if side else end - at[:, None], 0.0)
             real = side if self.zone.direction > 0.0 else 1 - side
-            rate = self.rates.beside(real, distance, ends) * panel.pace(w)
+            rate = self.rates.beside(real, distance, self._ends(panel, w)) * panel.pace(w)
             total[rows] = length[:, 0] * (rate @ weight)
-        return total
-
-    def _ends(self, panel: Panel, w: Array, series: Array) -> Ends:
-        """The edges of contact and the ends of the stick zone at nodes of a panel."""
-        d, time = self.zone.direction, panel.times(w)
-        u, a = panel.start + panel.length * w**2, chebyshev.evaluate(series, 2.0 * w - 1.0)
-        ends = tuple(d * x for x in (self.zone.far_edge(time), u, a, self.zone.edge(time)))
-        return Ends(*(ends if d > 0.0 else ends[::-1]))
-
-    @cached_property
-    def work(self) -> float:
-        """f ∫∫ p |dΔg| dx."""
-        g, weight = chebyshev.gauss_legendre(WORK_NODES)
-        total = 0.0
-        for panel in self.panels:
-            w = panel.last * g
-            steps = 2.0 * panel.length * w * panel.last * weight * panel.pace(w)
-            ends = self._ends(panel, w, self.zone.front(panel))
-            for time, c1, c2, step in zip(panel.times(w).tolist(), ends.c1, ends.c2, steps):
-                p = self.zone.course.pressure(time)
-                stick = Interval(float(c1), min(float(c2), p.contact.x2))
-                total += float(step) * self.rates.power(p, stick)
         return total
 
 

@@ -145,9 +145,8 @@ class AdvancingZone(MovingZone):
         found = self.at(panel.times(w) + later, u, u + self.width)
         return chebyshev.transform(found.a)
 
-    def last(self, panel: Panel) -> float:
-        """Where the end that advances is at the end of a panel."""
-        return float(chebyshev.evaluate(self.front(panel), 2.0 * panel.last - 1.0))
+    def ahead(self, panel: Panel, w: Array) -> Array:
+        return chebyshev.evaluate(self.front(panel), 2.0 * w - 1.0)
 
     def room(self, panel: Panel, w: Array) -> tuple[Array, ...]:
         """By how much the zone of slip ahead has not vanished, and its end advances."""

@@ -8,8 +8,6 @@ of the Λ^ of its arrival.
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable
 from typing import Protocol
 
 import numpy as np
@@ -22,8 +20,9 @@ from sie.friction.loads import Loads
 from sie.friction.memory import SlippedLayer
 from sie.friction.slip_state import Slip
 from sie.numerics.interval import EPS, Interval
-from sie.problem.scene import Scene
+from sie.numerics.root_finding import false_position
 
+from .growing_contact import Contacts, LoadChange
 from .known_zones import KnownZones
 from .turning_point import TurningPoint
 
@@ -31,17 +30,14 @@ Array = NDArray[np.float64]
 
 # Shares of a step between which it is sought when an edge passes a point.
 SEARCHED = (0.0, 0.25, 0.5, 0.75, 1.0)
-MOST_STEPS = 60
 SETTLED = 4.0 * EPS
 
 
-class Followed(Protocol):
+class Followed(Contacts, Protocol):
     """A path that was followed, and its contacts.
 
     turning_points   the layers after each step
     in_one_patch     whether the contact is one patch under every load
-    curved           whether the tilt follows from a moment, and not in proportion to time
-    by_moment        whether moments are added along the path, not tilts
     arm              π r₀
     level            Λ of loads
     shear            S of loads
@@ -51,15 +47,10 @@ class Followed(Protocol):
     contact_at       the contact under P at a tilt
     """
 
-    scene: Scene
     turning_points: tuple[TurningPoint, ...]
 
     @property
     def in_one_patch(self) -> bool: ...
-    @property
-    def curved(self) -> bool: ...
-    @property
-    def by_moment(self) -> bool: ...
     @property
     def arm(self) -> float: ...
     def level(self, loads: Loads) -> complex: ...
@@ -77,6 +68,7 @@ class ChangingContact:
         self.path, self.index = path, index
         self.state = path.turning_points[index]
         self.start, self.end = path.turning_points[index - 1].loads, self.state.loads
+        self.change = LoadChange(path, self.start, self.end)
         self.rise = path.level(self.end) - path.level(self.start)
         self._states: dict[tuple[Loads, complex], Slip] = {}
         self._edges = KnownZones()
@@ -107,31 +99,19 @@ class ChangingContact:
         return total
 
     def strain(self, contact: Interval) -> float:
-        """E*/2 times the rate of the tilt.
-
-        Where it follows from the moment M, dp = [dP/π - G dθ (x - m)]/w carries dM = m dP - π/2 G
-        r² dθ.
-        """
-        turned, G = self.end.turn - self.start.turn, 0.5 * self.path.scene.Estar
-        if not self.path.curved:
-            return G * (0.0 if self.path.by_moment else turned)
-        moment = turned if self.path.by_moment else 0.0
-        load = self.end.P - self.start.P
-        return 2.0 * (contact.m * load - moment) / (math.pi * contact.r**2)
+        """E*/2 times the rate of the tilt."""
+        return float(self.change.rates.strain(np.array(contact.m), np.array(contact.r)))
 
     def state_at(self, o: SlippedLayer, sign: float, share: float) -> Slip:
         """The first loading to the depth of a front in a layer, at a share of the step."""
-        loads = self._at(share)
+        loads = self.change.loads(share)
         depth = self._below(loads, self._front(o, sign, share))
         return self.path.on_the_way(loads.normal, depth, self.state.turned)
 
     # -- contacts and states on the way ------------------------------------------------------------
 
-    def _at(self, share: float) -> Loads:
-        return self.start.towards(self.end, share)
-
     def _contact(self, share: float) -> Interval:
-        loads = self._at(share)
+        loads = self.change.loads(share)
         return self._zone(self.path.level(loads), share, self._edges)
 
     def _zone(self, level: complex, share: float, near: KnownZones) -> Interval:
@@ -159,7 +139,8 @@ class ChangingContact:
         The gap of one profile does not depend on the contact around it, which may be that before x
         leaves or after it came; where slip has opposite signs, it does.
         """
-        loads = self._at(share) if self.state.turned else self.start if leaves else self.end
+        around = self.start if leaves else self.end
+        loads = self.change.loads(share) if self.state.turned else around
         key = loads, self._below(loads, depth)
         if abs(key[1]) <= SETTLED * abs(self.path.level(loads)):
             return 0.0
@@ -178,7 +159,7 @@ class ChangingContact:
         """The depth of the front in a layer below the level at the end of the step."""
 
         def carried(share: float) -> complex:
-            loads = self._at(share)
+            loads = self.change.loads(share)
             return sign * self.path.shear(loads) - self.path.level(loads)
 
         return o.upper + (carried(share) - carried(self.shares(o)[0])) / o.jump
@@ -199,7 +180,14 @@ class ChangingContact:
             k = next((k for k, (_, room) in enumerate(known) if room < 0.0), len(known) - 1) - 1
         else:
             k = max(k for k, (_, room) in enumerate(known[:-1]) if room < 0.0)
-        return _crossing(inside, known[k], known[k + 1])
+        (low, at_low), (high, at_high) = known[k : k + 2]
+        if at_low * at_high >= 0.0:  # x is at the edge at the start or the end
+            return high if at_low else low
+
+        def settled(a: float, b: float, value: float) -> bool:
+            return b - a <= SETTLED
+
+        return false_position(inside, low, high, (at_low, at_high), settled)
 
     def _refuse_slip(self, x: Array) -> None:
         self.refuse(
@@ -222,23 +210,3 @@ class ChangingContact:
                 f"and slips: {what}",
                 step=self.index,
             )
-
-
-def _crossing(
-    f: Callable[[float], float], below: tuple[float, float], above: tuple[float, float]
-) -> float:
-    """The root of f between two (place, value), by regula falsi with halving (Illinois)."""
-    (a, fa), (b, fb) = below, above
-    for _ in range(MOST_STEPS):
-        if fb == fa or abs(b - a) <= SETTLED:
-            break
-        c = b - fb * (b - a) / (fb - fa)
-        fc = f(c)
-        if fc * fb < 0.0:
-            a, fa = b, fb
-        else:
-            fa *= 0.5
-        b, fb = c, fc
-        if fc == 0.0:
-            break
-    return b

@@ -88,6 +88,8 @@ def stepped(
         sticks = at == 0.0
         moved = np.where(sticks, 0.0, at * bound_at - q)
         m = int(sticks.sum())
+        if not m:
+            raise ContactError("no cell of the grid sticks, and nothing carries what is left of Q")
         K = np.zeros((m + 1, m + 1))
         K[:m, :m], K[:m, m], K[m, :m] = A[np.ix_(sticks, sticks)], -1.0, h[sticks]
         right = np.append(-loads[1] * x[sticks] - A[sticks] @ moved, loads[0] - h @ moved)

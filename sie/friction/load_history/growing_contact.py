@@ -29,7 +29,14 @@ NEWTON = 40
 
 
 class Contacts(Protocol):
-    """What a step needs of a path: `trial_step.Marchable`."""
+    """What a step needs of a path.
+
+    scene           profile, bodies and friction
+    pressure_at     the pressure under loads, in one patch
+    sheared_by      Q and τ of loads
+    curved          whether the tilt follows from a moment, and not in proportion to time
+    by_moment       whether moments are added along the path, not tilts
+    """
 
     scene: Scene
 

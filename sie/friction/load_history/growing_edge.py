@@ -21,27 +21,23 @@ stick zone's layer. `BothStick` has the state where neither edge slips.
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
-from sie.numerics import chebyshev
 from sie.numerics.interval import Interval
 
 from .end_motion import LOST, OVER, SAME, UNSTEADY, EndMotion
 from .growing_contact import Course
-from .marched_step import FrozenEdge, Held, places
+from .marched_step import Held, places
 from .moved_end import MovedEnd
 from .moving_zone import GRADED, PLAIN, rows_of
 from .slip_onset import Onset
 from .sticking_zone import StickingZone
 
 Array = NDArray[np.float64]
-
-WORK_NODES = 10  # on each panel
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,15 +63,6 @@ class EdgeSticks(MovedEnd):
         return Interval(min(d * end, edge), max(d * end, edge))
 
     @property
-    def reach(self) -> tuple[float, float]:
-        return self.stick.x1, self.stick.x2
-
-    @property
-    def kept(self) -> tuple[float, float]:
-        old = self.before.pressure.contact
-        return max(self.stick.x1, old.x1), min(self.stick.x2, old.x2)
-
-    @property
     def _places(self) -> tuple[float, ...]:
         """Where p and q may not be smooth.
 
@@ -93,50 +80,17 @@ class EdgeSticks(MovedEnd):
 
     def slip(self, x: Array) -> Array:
         place, total = self.zone.direction * x, np.zeros(len(x))
+        side = 0 if self.zone.direction > 0.0 else 1
         for panel in self.panels:
             far = panel.start - place > panel.end - panel.start
             for some, rule in rows_of(far, PLAIN) + rows_of(~far & (place < panel.end), GRADED):
                 low = np.maximum(panel.start, place[some])[:, None]
                 length = (panel.end - low) * rule[0]
-                u = low + length
                 w = np.sqrt(((low - panel.start) + length) / panel.length)
-                time = panel.times(w)
-                rho = 0.5 * (self.zone.edge(time) - u)
-                v = (np.maximum(panel.start - place[some], 0.0)[:, None] + length) / rho
-                rate = self._rate(v, rho, time) * panel.pace(w)
+                distance = np.maximum(panel.start - place[some], 0.0)[:, None] + length
+                rate = self.rates.beside(side, distance, self._ends(panel, w)) * panel.pace(w)
                 total[some] += (panel.end - low)[:, 0] * (rate @ rule[2])
-        return total
-
-    def _rate(self, v: Array, rho: Array, time: Array) -> Array:
-        """dΔg/dt beside the end that recedes, v - 1 as the distance over ρ."""
-        root = np.sqrt(v * (v + 2.0))
-        rate = self.zone.load / math.pi * np.log1p(v + root) + self.zone.turn(time) * rho * root
-        s = self.signs[0] or self.signs[1]
-        slip: Array = -s * self.friction * rate / self.pressure.half_modulus
-        return slip
-
-    @cached_property
-    def work(self) -> float:
-        """f ∫∫ p |dΔg| dx."""
-        g, weight = chebyshev.gauss_legendre(WORK_NODES)
-        total = 0.0
-        for panel in self.panels:
-            w = panel.last * g
-            steps = 2.0 * panel.length * w * panel.last * weight * panel.pace(w)
-            for time, at, step in zip(panel.times(w).tolist(), w.tolist(), steps.tolist()):
-                total += step * self._power(time, panel.start + panel.length * at**2)
-        return total
-
-    def _power(self, time: float, u: float) -> float:
-        zone, d = self.zone, self.zone.direction
-        p = zone.course.pressure(time)
-        edge = p.contact.x1 if d > 0.0 else p.contact.x2
-        marks = np.array([*p.breaks])
-        frame = FrozenEdge(edge, -d, 2.0 * p.contact.r, p, marks)
-        slips = frame.zone(u - d * edge)
-        rho = 0.5 * (float(zone.edge(np.array(time))) - u)
-        rate = self._rate(slips.from_stick / rho, np.array(rho), np.array(time))
-        return self.friction * float(slips.force @ np.abs(rate))
+        return total / self.pressure.half_modulus
 
 
 def edge_sticks(

@@ -112,9 +112,9 @@ class MarchedStep(ABC):
         """The stick zone."""
 
     @property
-    @abstractmethod
     def reach(self) -> tuple[float, float]:
         """The inner ends of what slipped in this step, on the left and on the right."""
+        return self.stick.x1, self.stick.x2
 
     @property
     @abstractmethod
@@ -152,7 +152,8 @@ class MarchedStep(ABC):
     @property
     def kept(self) -> tuple[float, float]:
         """What stuck all along the step, from the first such place to the last."""
-        return max(self.reach[0], self.stick.x1), min(self.reach[1], self.stick.x2)
+        (left, right), old = self.reach, self.before.pressure.contact
+        return max(left, self.stick.x1, old.x1), min(right, self.stick.x2, old.x2)
 
     @property
     def kept_zones(self) -> tuple[tuple[float, float], ...]:

@@ -46,7 +46,7 @@ from .trial_step import (
     Signs,
     Trial,
     excess,
-    first_share,
+    narrowed,
 )
 from .turning_point import TurningPoint
 
@@ -203,7 +203,7 @@ def _moving(trial: Trial, edges: Course, share: float, advances: float) -> Moved
         at = share + tested * (part.share - share)
         said = _wrong(part.until(at), part)
         if said:
-            at = first_share(lambda at: bool(_wrong(part.until(at), part)), share, at)
+            _, at = narrowed(lambda at: bool(_wrong(part.until(at), part)), share, at)
             raise trial.refusal(said, (at - share) / (1.0 - share))
     if isinstance(part, MovedEnd) and part.lost:
         raise trial.refusal(part.lost, (part.share - share) / (1.0 - share))

@@ -3,12 +3,22 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
+from numpy.typing import NDArray
+
+from sie.numerics import chebyshev
+from sie.numerics.interval import Interval
 
 from .end_motion import SAME
 from .marched_step import MarchedStep
 from .moving_zone import MovingZone, Panel
+from .slip_rates import Ends, SlipRates
+
+Array = NDArray[np.float64]
+
+WORK_NODES = 10  # on each panel
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,3 +59,33 @@ class MovedEnd(MarchedStep):
         Q, tau = self.zone.course.shear(share)
         p = self.zone.course.pressure(share)
         return replace(self, pressure=p, Q=Q, tau=tau, panels=tuple(panels), share=share)
+
+    # -- slip --------------------------------------------------------------------------------------
+
+    @cached_property
+    def rates(self) -> SlipRates:
+        """The rates of slip, the time as a share of the step."""
+        left, right = self.signs
+        return SlipRates(self.zone.course.rates, self.friction, (left or right, right or left))
+
+    def _ends(self, panel: Panel, w: Array) -> Ends:
+        """The edges of contact and the ends of the stick zone at nodes of a panel."""
+        zone, d, time = self.zone, self.zone.direction, panel.times(w)
+        u = panel.start + panel.length * w**2
+        ends = [d * x for x in (zone.far_edge(time), u, zone.ahead(panel, w), zone.edge(time))]
+        return Ends(*(ends if d > 0.0 else ends[::-1]))
+
+    @cached_property
+    def work(self) -> float:
+        """f ∫∫ p |dΔg| dx."""
+        g, weight = chebyshev.gauss_legendre(WORK_NODES)
+        total = 0.0
+        for panel in self.panels:
+            w = panel.last * g
+            steps = 2.0 * panel.length * w * panel.last * weight * panel.pace(w)
+            ends = self._ends(panel, w)
+            for time, c1, c2, step in zip(panel.times(w).tolist(), ends.c1, ends.c2, steps):
+                p = self.zone.course.pressure(time)
+                stick = Interval(max(float(c1), p.contact.x1), min(float(c2), p.contact.x2))
+                total += float(step) * self.rates.power(p, stick)
+        return total

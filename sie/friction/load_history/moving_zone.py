@@ -152,6 +152,10 @@ class MovingZone(ABC):
         """A length over which what happens at the end changes."""
 
     @abstractmethod
+    def ahead(self, panel: Panel, w: Array) -> Array:
+        """The other end of the stick zone at nodes w of a panel."""
+
+    @abstractmethod
     def own(self, panel: Panel, place: Array, rule: Rule) -> Kernel:
         """What a panel adds at places on it or ahead, which stick from its start on."""
 

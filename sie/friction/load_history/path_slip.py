@@ -19,7 +19,6 @@ from sie.numerics.interval import Interval
 from sie.numerics.zones import left_over, within
 from sie.traction.base import ZERO, Density
 from sie.traction.combination import superposed
-from sie.traction.of_slope import SlopeDensity
 
 from . import changing_contact
 from .changing_contact import ChangingContact
@@ -38,8 +37,6 @@ class Followed(changing_contact.Followed, Protocol):
     plain            the solution under P and a tilt, without shear
     patches          the patches of contact under P and a tilt
     shift_of_step    the shift that slip adds in one step
-    sheared_by       Q and τ of loads
-    pressure_at      the pressure under loads, in one patch
     contact          the contact under loads, in one patch
     """
 
@@ -49,8 +46,6 @@ class Followed(changing_contact.Followed, Protocol):
     def plain(self, P: float, turn: float) -> Any: ...
     def patches(self, P: float, turn: float) -> tuple[tuple[float, float], ...]: ...
     def shift_of_step(self, index: int) -> float: ...
-    def sheared_by(self, loads: Loads) -> tuple[float, float]: ...
-    def pressure_at(self, loads: Loads) -> SlopeDensity: ...
     def contact(self, loads: Loads) -> Interval: ...
 
 

@@ -78,10 +78,6 @@ class Receded(MarchedStep):
     def stick(self) -> Interval:
         return self.found.stick
 
-    @property
-    def reach(self) -> tuple[float, float]:
-        return self.stick.x1, self.stick.x2
-
     @cached_property
     def work(self) -> float:
         return super().work if self.change is None else moving_work(self, self.change)

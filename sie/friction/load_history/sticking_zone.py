@@ -26,6 +26,9 @@ class StickingZone(MovingZone):
     def half(self, u: float, time: float) -> float:
         return 0.5 * (float(self.edge(np.array(time))) - u)
 
+    def ahead(self, panel: Panel, w: Array) -> Array:
+        return self.edge(panel.times(w))
+
     def room(self, panel: Panel, w: Array) -> tuple[Array, ...]:
         """By how much the edge sticks: what it may lose until it slips by s, and by -s."""
         held, grown = self.held(panel, w)

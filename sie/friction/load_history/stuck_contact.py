@@ -53,15 +53,6 @@ class BothStick(MarchedStep):
         return Interval(contact.x1, contact.x2)
 
     @property
-    def reach(self) -> tuple[float, float]:
-        return self.stick.x1, self.stick.x2
-
-    @property
-    def kept(self) -> tuple[float, float]:
-        old = self.before.pressure.contact
-        return old.x1, old.x2
-
-    @property
     def error(self) -> float:
         return 0.0
 

@@ -26,10 +26,9 @@ from sie.friction.loads import Loads
 from sie.friction.step_conditions import SLACK, TESTED, inside, opens
 from sie.numerics.interval import Interval
 from sie.numerics.root_finding import false_position
-from sie.problem.scene import Scene
 from sie.traction.of_slope import SlopeDensity
 
-from .growing_contact import LoadChange
+from .growing_contact import Contacts, LoadChange
 from .marched_step import Held, MarchedStep
 from .receding_step import Ends, Receded, receded
 from .slip_rates import SlipRates
@@ -54,31 +53,18 @@ Signs = tuple[float, float]
 GoesOn = tuple[bool, bool]
 
 
-class Marchable(Protocol):
+class Marchable(Contacts, Protocol):
     """The contacts of a path that is followed.
 
-    scene           profile, bodies and friction
-    level           Λ of loads
-    shear           S of loads
-    arm             π r₀
-    pressure_at     the pressure under loads, in one patch
-    sheared_by      Q and τ of loads
-    curved          whether the tilt follows from a moment
-    by_moment       whether moments are added along the path, not tilts
+    level    Λ of loads
+    shear    S of loads
+    arm      π r₀
     """
-
-    scene: Scene
 
     def level(self, loads: Loads) -> complex: ...
     def shear(self, loads: Loads) -> complex: ...
     @property
     def arm(self) -> float: ...
-    def pressure_at(self, loads: Loads) -> SlopeDensity: ...
-    def sheared_by(self, loads: Loads) -> tuple[float, float]: ...
-    @property
-    def curved(self) -> bool: ...
-    @property
-    def by_moment(self) -> bool: ...
 
 
 @dataclass(frozen=True, eq=False)
@@ -180,18 +166,21 @@ class Trial:
         With it 0 if it is the left one, and 1 if it is the right one; None where none vanishes. The
         zone that is left has slipped in the wrong direction, which is of the second order.
         """
-        low, high, last = 0.0, 1.0, None
-        while high - low > LOCATED:
-            middle = 0.5 * (low + high)
-            try:
-                low, last = middle, self.state(middle)
-            except ContactError:
-                high = middle
-        if last is None:
+        low, _ = narrowed(self._lost, 0.0, 1.0)
+        if low == 0.0:
             return None
+        last = self.state(low)
         stick, contact = last.stick, last.pressure.contact
         left = stick.x1 - contact.x1, contact.x2 - stick.x2
         return (low, left.index(min(left))) if min(left) <= VANISHED * contact.r else None
+
+    def _lost(self, share: float) -> bool:
+        """Whether no state is found after a share of the step."""
+        try:
+            self.state(share)
+        except ContactError:
+            return True
+        return False
 
     # -- tests -------------------------------------------------------------------------------------
 
@@ -255,7 +244,7 @@ class Trial:
         def said(share: float) -> str:
             return self._problem(before, self._solved(share), end, (shares[0], share))
 
-        first = first_share(lambda share: bool(said(share)), *shares)
+        _, first = narrowed(lambda share: bool(said(share)), *shares)
         return self.refusal(said(first), first)
 
     def refusal(self, said: str, share: float) -> ContactError:
@@ -291,12 +280,12 @@ def _bracket(
     return None if at_low is None or at_high is None else ((low, at_low), (high, at_high))
 
 
-def first_share(wrong: Callable[[float], bool], low: float, high: float) -> float:
-    """The share of a step from which on something is wrong, as it is at the higher one."""
+def narrowed(wrong: Callable[[float], bool], low: float, high: float) -> tuple[float, float]:
+    """The shares of a step between which something goes wrong that is wrong at the higher one."""
     while high - low > LOCATED:
         middle = 0.5 * (low + high)
         low, high = (low, middle) if wrong(middle) else (middle, high)
-    return high
+    return low, high
 
 
 def excess(state: MarchedStep, sticks: Interval) -> tuple[float, float]:
