@@ -20,6 +20,8 @@ from sie.friction.coupled.functions import flat_functions
 from sie.friction.coupled.growth import power_law_moment
 from sie.friction.coupled.half_potential import DEGREE, HalfPotential, Panels
 from sie.friction.coupled.panels import graded
+from sie.friction.coupled.profile import GrowthPanel, Superposition
+from sie.friction.coupled.tables import interpolated
 from sie.friction.coupled.traction import on_panels, resolved_panels
 from sie.friction.coupled.zones import NODES, _from_others
 from sie.numerics.gauss_jacobi import gauss_jacobi
@@ -184,6 +186,66 @@ def test_a_narrow_slip_zone_takes_few_large_systems(beta, friction, monkeypatch)
     monkeypatch.setattr(np.linalg, "solve", counted)
     punch = coupled_flat.flat_punch.__wrapped__(beta, friction)
     assert sizes.count(len(punch.weight)) <= 3
+
+
+def counted_places(monkeypatch, name):
+    """The numbers of places at which an integral over P' is computed, as they come."""
+    places = []
+    integral = getattr(Superposition, name)
+
+    def counted(self, x, b):
+        places.append(len(x))
+        return integral(self, x, b)
+
+    monkeypatch.setattr(Superposition, name, counted)
+    return places
+
+
+@pytest.mark.parametrize(("beta", "friction"), [(0.18, 3.0), (0.003, 10.0), (0.1, 10.0)])
+def test_a_thousand_pressures_beside_a_narrow_slip_zone_are_few_integrals(
+    beta, friction, monkeypatch
+):
+    solution = solved(sie.RoundedFlat(0.5, 1.0), beta, friction, normal_load=0.95)
+    places = counted_places(monkeypatch, "pressure")
+    solution.pressure(np.linspace(-1.2, 1.2, 1001))
+    assert sum(places) <= 120
+
+
+@pytest.mark.parametrize("many", [1, 10, 100])
+def test_no_more_integrals_than_places(many, monkeypatch):
+    solution = solved(sie.RoundedFlat(0.5, 1.0))
+    places = counted_places(monkeypatch, "pressure")
+    solution.pressure(np.linspace(0.1, 0.9, many) * solution.half_width)
+    assert sum(places) <= many
+
+
+def test_interpolation_resolves_powers_of_the_distance_from_both_marks():
+    y = np.linspace(0.0, 3.0, 4001)
+    marks = np.array([0.0, 1.0, 3.0])
+
+    def function(y):
+        return np.abs(y - 1.0) ** 0.3 + (3.0 - y) ** 0.7 * np.cos(y) + np.abs(y) ** 1.2
+
+    np.testing.assert_allclose(interpolated(function, marks, y), function(y), atol=3e-13)
+
+
+def test_interpolation_resolves_a_steep_power():
+    y = np.linspace(0.0, 3.0, 4001)
+    values = interpolated(lambda y: (y / 3.0) ** 60.0, np.array([0.0, 3.0]), y, 60.0)
+    np.testing.assert_allclose(values, (y / 3.0) ** 60.0, atol=3e-13)
+
+
+def test_the_half_width_takes_few_loads(monkeypatch):
+    loads = []
+    load = GrowthPanel.load_and_rate
+
+    def counted(self, ahead):
+        loads.append(ahead)
+        return load(self, ahead)
+
+    monkeypatch.setattr(GrowthPanel, "load_and_rate", counted)
+    assert solved(sie.RoundedFlat(0.5, 1.0), normal_load=0.95).half_width > 0.0
+    assert len(loads) <= 8
 
 
 @pytest.mark.parametrize(("beta", "friction"), [(0.05, 0.5), (0.001, 10.0)])
