@@ -171,11 +171,11 @@ def test_stick_zone_takes_few_eigenvalues(beta, friction, monkeypatch):
 
     monkeypatch.setattr(coupled_flat, "_at_ratio", counted)
     coupled_flat.flat_punch.__wrapped__(beta, friction)
-    assert len(calls) <= 8
+    assert len(calls) <= 6
 
 
 @pytest.mark.parametrize(("beta", "friction"), [(0.05, 1.5), (0.1, 4.0), (0.1, 2.0), (0.001, 10.0)])
-def test_a_narrow_slip_zone_takes_few_large_systems(beta, friction, monkeypatch):
+def test_a_narrow_slip_zone_takes_few_systems_of_few_unknowns(beta, friction, monkeypatch):
     sizes = []
     solve = np.linalg.solve
 
@@ -184,8 +184,9 @@ def test_a_narrow_slip_zone_takes_few_large_systems(beta, friction, monkeypatch)
         return solve(matrix, right)
 
     monkeypatch.setattr(np.linalg, "solve", counted)
-    punch = coupled_flat.flat_punch.__wrapped__(beta, friction)
-    assert sizes.count(len(punch.weight)) <= 3
+    coupled_flat.flat_punch.__wrapped__(beta, friction)
+    assert len(sizes) <= 14
+    assert max(sizes) <= 130
 
 
 def counted_places(monkeypatch, name):
