@@ -469,6 +469,29 @@ def test_a_potential_at_many_points_takes_one_rule_for_several_panels(monkeypatc
     assert sum(terms) < 0.3 * 2 * x.size * density.panels.series.size
 
 
+def test_potential_and_derivative_together_take_each_half_once(monkeypatch):
+    density = solved(PROFILES["parabola"]).shear
+    halves = []
+    half = HalfPotential.__call__
+
+    def counted(self, z, derivative):
+        halves.append(derivative)
+        return half(self, z, derivative)
+
+    monkeypatch.setattr(HalfPotential, "__call__", counted)
+    density.potentials(np.array([0.3 + 0.2j, 2.0 + 1.0j]))
+    assert halves == [True, True]
+
+
+@pytest.mark.parametrize("side", [1, -1, 0])
+def test_potential_and_derivative_are_those_that_are_asked_for_alone(side):
+    density = solved(PROFILES["parabola"]).shear
+    z = np.array([[0.3 + 0.2j, -0.4], [2.0, 0.1 - 0.7j], [1e40 + 1j, complex(math.nan, 1.0)]])
+    F, dF = density.potentials(z, side)
+    np.testing.assert_array_equal(F, density.cauchy(z, side))
+    np.testing.assert_array_equal(dF, density.cauchy_derivative(z, side))
+
+
 def test_potential_far_away_is_the_load_over_the_distance():
     half = solved(sie.Parabola(1.0)).tractions.pressure._half
     z = np.array([1e8j, 1e99j, 1e120 + 1e120j])
