@@ -36,12 +36,18 @@ def gauss_jacobi(n: int, a: float, b: float) -> Rule:
     squared[1:] *= (k[1:] + a + b) / (s[1:] - 1.0)
     squared[:1] = 4.0 * (1.0 + a) * (1.0 + b) / ((2.0 + a + b) ** 2 * (3.0 + a + b))
     beside = np.sqrt(squared)
-    t = np.linalg.eigvalsh(np.diag(middle) + np.diag(beside, 1) + np.diag(beside, -1))
-    before, value, total = np.zeros(n), np.ones(n), np.ones(n)
-    for j in range(n - 1):
-        last = beside[j - 1] * before if j else 0.0
-        before, value = value, ((t - middle[j]) * value - last) / beside[j]
-        total += value * value
+    matrix = np.zeros((n, n))
+    matrix.reshape(-1)[:: n + 1] = middle
+    matrix.reshape(-1)[n :: n + 1] = beside  # LAPACK reads the lower triangle
+    t = np.asarray(np.linalg.eigvalsh(matrix), dtype=float)
+    p = np.ones((n, n))
+    rise, last = (t - middle[:, None])[:-1] / beside[:, None], beside[:-1] / beside[1:]
+    if n > 1:
+        p[1] = rise[0]
+    for j, ratio in enumerate(last.tolist(), 2):
+        np.multiply(rise[j - 1], p[j - 1], out=p[j])
+        p[j] -= ratio * p[j - 2]
+    total = np.einsum("ji,ji->i", p, p)
     if a + b < LARGEST:
         mass = math.gamma(a + 1.0) * math.gamma(b + 1.0) / math.gamma(a + b + 2.0)
     else:

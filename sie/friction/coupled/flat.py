@@ -37,8 +37,9 @@ from sie.numerics.gauss_jacobi import gauss_jacobi, with_weight
 
 Array = NDArray[np.float64]
 
-# -ln of the error that a rule may leave: of even functions, and of others
-DIGITS, ACROSS = 38.0, 46.0
+# -ln of the error that a rule may leave: of even functions, of others, and, beside a factor of at
+# most e^-12, of products of the kernel and the pressure
+DIGITS, ACROSS, OF_KERNEL = 38.0, 46.0, 25.0
 NEARER = 0.8  # of K'/K: the nearest singularity of weights and of what is derived from the solution
 SPARE = 4
 LONG = 0.4  # K'/K below it: a rule of all nodes at once would lose digits of its weights
@@ -51,9 +52,7 @@ FULL_STICK = 1e-15
 NARROWEST_RATIO, DOUBTFUL = math.pi / math.log(8.0 / FULL_STICK), 1.05
 # beyond it c = 4 exp(-π K'/2K) is lost even beside a double's smallest lengths
 WIDEST_RATIO = 250.0
-# Of the search for K'/K: where a step ends it, and how fast β² misses its value beside the guess
-SETTLED, STEEPNESS, MOST_STEPS = 1e-13, 0.9, 20
-FEWER, ROUGHLY = 0.5, 1e-7  # part of the digits of a first search, and where it ends
+SETTLED, MOST_STEPS = 1e-13, 20  # of the search for K'/K: where a step ends it
 TOGETHER = 2**13  # entries of a matrix that are computed at once
 ALIKE = 1e-8  # the ratios that bound an eigenvalue, where one more step ends the iteration
 
@@ -91,25 +90,18 @@ class FlatPunch:
         """h = 1/2 - θ, θ = arctan(βf)/π: p ~ (1 - x)^-h."""
         return 0.5 - self.theta
 
-    def interpolated(self, remainder: Array) -> Array:
-        """The pressure at other nodes, up to a factor."""
-        if len(remainder) == len(self.weight):
-            return self.pressure
-        poles = _poles(self.modulus, remainder)
-        return sum_of_poles(*poles, self.remainder, self.weight * self.pressure)
-
     @cached_property
     def kernel_of_one(self) -> Array:
         """K 1 at the nodes."""
         return sum_of_poles(*_poles(self.modulus, self.remainder), self.remainder, self.weight)
 
 
-def nodes_for(ratio: float, digits: float = DIGITS) -> int:
+def nodes_for(ratio: float) -> int:
     """The number of nodes of a Gauss rule that resolves singularities at ±i ratio.
 
     It holds for even functions on (-1, 1).
     """
-    return math.ceil(digits / (4.0 * math.asinh(ratio))) + SPARE
+    return math.ceil(DIGITS / (4.0 * math.asinh(ratio))) + SPARE
 
 
 def long_rule(
@@ -158,13 +150,13 @@ def sum_of_poles(near: Array, rise: Array | float, remainder: Array, masses: Arr
     return total
 
 
-def _quarter(ratio: float, theta: float, digits: float) -> tuple[Array, Array, Array]:
+def _quarter(ratio: float, theta: float) -> tuple[Array, Array, Array]:
     """Parts of the quarter period, what remains of it, and weights; K'/K is about ratio.
 
     The rule is for even functions with the power 2θ at the end.
     """
     if ratio < LONG:
-        return long_rule(2.0 * ratio, 2.0 * theta, 0.0, digits * ACROSS)
+        return long_rule(2.0 * ratio, 2.0 * theta, 0.0, OF_KERNEL)
     square, rest, weight = gauss_jacobi(nodes_for(NEARER * min(ratio, 1.5)), 2.0 * theta, -0.5)
     part = np.sqrt(square)
     return part, rest / (1.0 + part), 0.5 * weight * rest ** (-2.0 * theta)
@@ -178,16 +170,16 @@ class Trial(NamedTuple):
 
 
 def _at_ratio(
-    tau: float, punch: tuple[float, float], near: float, before: FlatPunch | None, digits: float
+    tau: float, punch: tuple[float, float], near: float, before: FlatPunch | None
 ) -> Trial:
-    """The punch of (β, f) at K'/K = τ, by the rule for `near`, from one that is about the same."""
+    """The punch of (β, f) at K'/K = τ, by the rule for `near`, from one by the same rule."""
     (beta, friction), modulus = punch, modulus_of_ratio(tau)
     theta = math.atan(beta * friction) / math.pi
-    part, rest, weight = _quarter(near, theta, digits)
+    part, rest, weight = _quarter(near, theta)
     sn, cn, dn = elliptic_functions(modulus, part, rest)
     W = 2.0 * modulus.K * weight * cn ** (2.0 * theta) * dn ** (2.0 - 2.0 * theta)
     remainder = cn * cn
-    start = 1.0 / dn if before is None else before.interpolated(remainder)
+    start = 1.0 / dn if before is None else before.pressure
     kernel = _kernel(modulus, remainder, remainder)
     kernel *= W
     eigenvalue, v = _largest(kernel, start)
@@ -241,11 +233,11 @@ def flat_punch(beta: float, friction: float) -> FlatPunch:
     phase = _phase(beta, friction)
     guess = min(phase / math.atan(friction), WIDEST_RATIO)
     if guess == WIDEST_RATIO:
-        return _at_ratio(guess, (beta, friction), guess, None, 1.0).punch
+        return _at_ratio(guess, (beta, friction), guess, None).punch
     if guess < DOUBTFUL * NARROWEST_RATIO:
         narrowest = NARROWEST_RATIO
         certain = guess < narrowest / DOUBTFUL
-        if certain or _at_ratio(narrowest, (beta, friction), narrowest, None, FEWER).missed > 0.0:
+        if certain or _at_ratio(narrowest, (beta, friction), narrowest, None).missed > 0.0:
             friction = math.tan(phase / narrowest)
             friction = math.tan(_phase(beta, friction) / narrowest)
             return replace(_root(narrowest, beta, friction), bonded=True)
@@ -259,24 +251,20 @@ def _phase(beta: float, friction: float) -> float:
 
 
 def _root(guess: float, beta: float, friction: float) -> FlatPunch:
-    """The punch that meets the condition -ε (2 + ε) = β², by the secant method in ln K'/K.
-
-    Where a rule has many nodes one of fewer nodes comes first.
-    """
-    place, slope, step, punch = math.log(guess), 0.0, 0.0, None
-    for digits, settled in ((FEWER, ROUGHLY), (1.0, SETTLED))[int(guess >= LONG) :]:
-        missed = math.inf
-        for _ in range(MOST_STEPS):
-            before = missed
-            missed, punch = _at_ratio(math.exp(place), (beta, friction), guess, punch, digits)
-            if missed == before:
-                break
-            if math.isfinite(before):
-                slope = (before - missed) / step
-            step = missed / (slope or 2.0 * (missed + beta * beta) / STEEPNESS)
-            if abs(step) <= settled and (slope or digits == 1.0):
-                break
-            place -= step
-        place -= step if digits < 1.0 else 0.0
+    """The punch that meets the condition -ε (2 + ε) = β², by the secant method in ln K'/K."""
+    place, slope, step, missed, punch = math.log(guess), 0.0, 0.0, math.inf, None
+    # As K'/K is about β/arctan(f), and what is missed is a function of it and of βf, less β²
+    rise = 2.0 / (1.0 + friction / ((1.0 + friction * friction) * math.atan(friction)))
+    for _ in range(MOST_STEPS):
+        before = missed
+        missed, punch = _at_ratio(math.exp(place), (beta, friction), guess, punch)
+        if missed == before:
+            break
+        if math.isfinite(before):
+            slope = (before - missed) / step
+        step = missed / (slope or rise * (missed + beta * beta))
+        if abs(step) <= SETTLED:
+            break
+        place -= step
     assert punch is not None
     return punch

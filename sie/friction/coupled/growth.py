@@ -33,7 +33,7 @@ from sie.numerics.interval import EPS
 
 from .functions import FlatFunctions
 from .panels import LONGEST, NODES, graded, totals
-from .profile import GrowthPanel
+from .profile import GrowthPanel, Stack
 
 Array = NDArray[np.float64]
 
@@ -85,10 +85,10 @@ def solved_growth(flat: FlatFunctions, pieces: list[Piece]) -> tuple[GrowthPanel
     load, origin = 0.0, pieces[0].lo
     for k, piece in enumerate(pieces):
         panels = _panels(flat, origin, piece, _first_power(flat.h, piece, k == 0))
-        todo = [(panel, math.inf) for panel in reversed(panels)]
+        todo = [(*own, math.inf) for own in reversed(_with_matrices(flat, panels))]
         while todo:
-            empty, before = todo.pop()
-            panel = _collocated(flat, solved, piece, empty)
+            empty, matrix, before = todo.pop()
+            panel = _collocated(flat, solved, piece, empty, matrix)
             more, missed = panel.load(math.inf), _missed(panel)
             # From a kink P' grows with its power; elsewhere it falls at most as the root of the
             # distance from a corner grows
@@ -101,7 +101,8 @@ def solved_growth(flat: FlatFunctions, pieces: list[Piece]) -> tuple[GrowthPanel
                 solved.append(panel)
                 load += more
                 continue
-            todo += [(part, missed) for part in reversed(_halves(empty))]
+            parts = _with_matrices(flat, _halves(empty))
+            todo += [(*part, missed) for part in reversed(parts)]
     return tuple(solved)
 
 
@@ -178,9 +179,13 @@ def _halves(panel: GrowthPanel) -> list[GrowthPanel]:
 
 
 def _collocated(
-    flat: FlatFunctions, solved: list[GrowthPanel], piece: Piece, panel: GrowthPanel
+    flat: FlatFunctions,
+    solved: list[GrowthPanel],
+    piece: Piece,
+    panel: GrowthPanel,
+    matrix: Array,
 ) -> GrowthPanel:
-    """The panel with its series."""
+    """The panel with its series, given the matrix of its own integrals."""
     ahead = panel.nodes(0.5 * (1.0 + chebyshev.points(DEGREE)))
     x = panel.lo + ahead  # from the origin
     known = (panel.origin + x) * piece.slope((panel.lo - (piece.lo - panel.origin)) + ahead)
@@ -188,8 +193,7 @@ def _collocated(
     for other in near:
         known -= _beside(flat, other, x, (panel.lo - other.hi) + ahead)
     known -= _far(flat, [other for other in solved if other not in near], x)
-    series = np.asarray(np.linalg.solve(_own(flat, panel, x, ahead), known), dtype=float)
-    return replace(panel, series=series)
+    return replace(panel, series=np.asarray(np.linalg.solve(matrix, known), dtype=float))
 
 
 def _far(flat: FlatFunctions, panels: list[GrowthPanel], x: Array) -> Array:
@@ -237,17 +241,32 @@ def load_slope(
     return total / x
 
 
-def _own(flat: FlatFunctions, panel: GrowthPanel, x: Array, ahead: Array) -> Array:
-    """The matrix that takes the series to ∫P' ρ D(ρ) ds from lo to each x of the panel."""
-    to_c = (panel.origin + x) * (flat.rest / flat.c)
-    kink = np.full(len(x), panel.behind)
-    powers = panel.at_start, -flat.h
-    owner, inside, left, weight = graded(ahead, kink, to_c, powers, longest=SHORTER, near=0.0)
-    at = panel.origin + x[owner][:, None]
-    values = flat.outside((panel.origin + panel.lo + inside) / at, left / at) * weight
-    if panel.power:
-        values *= panel.factor(inside)
-    terms = np.einsum("kij,ij->ik", chebyshev.polynomials(DEGREE, panel.variable(inside)), values)
-    matrix = np.zeros((len(x), DEGREE))
-    np.add.at(matrix, owner, terms)
-    return matrix
+def _with_matrices(
+    flat: FlatFunctions, panels: list[GrowthPanel]
+) -> list[tuple[GrowthPanel, Array]]:
+    """Panels, each with its matrix of `_own`."""
+    first = [panel for panel in panels[:1] if panel.at_start]
+    same = [_own(flat, alike) for alike in (first, panels[len(first) :]) if alike]
+    return list(zip(panels, itertools.chain.from_iterable(same), strict=True))
+
+
+def _own(flat: FlatFunctions, panels: list[GrowthPanel]) -> Array:
+    """Matrices that take series to ∫P' ρ D(ρ) ds from lo to each x of a panel.
+
+    The panels begin with one power.
+    """
+    stack, part = Stack(panels), 0.5 * (1.0 + chebyshev.points(DEGREE))
+    ahead = np.concatenate([panel.nodes(part) for panel in panels])
+    panel = np.repeat(np.arange(len(panels)), DEGREE)
+    at = stack.origin + stack.lo[panel] + ahead
+    powers = panels[0].at_start, -flat.h
+    owner, inside, left, weight = graded(
+        ahead, stack.behind[panel], at * (flat.rest / flat.c), powers, longest=SHORTER, near=0.0
+    )
+    panel, at = panel[owner], at[owner][:, None]
+    s = (stack.origin + stack.lo[panel])[:, None] + inside
+    values = stack.times_power(panel, inside, flat.outside(s / at, left / at) * weight)
+    terms = chebyshev.polynomials(DEGREE, stack.variable(panel, inside))
+    sums = np.einsum("kij,ij->ik", terms, values)
+    rows = np.add.reduceat(sums, np.searchsorted(owner, np.arange(len(ahead))))
+    return rows.reshape(len(panels), DEGREE, DEGREE)

@@ -34,7 +34,8 @@ from .profile import GrowthPanel
 Array = NDArray[np.float64]
 
 WIDER = 1.0 + 64.0 * EPS  # than the frictionless contact: as far as P' is known
-NEARLY, NEWTONS = 1e-6, 2  # of P, and Newton's steps that leave its rounding of that
+NEARLY = 1e-6  # of P: then Newton's steps find the rest
+SETTLED, NEWTONS = 1e-8, 6  # part of the half-width that a step moves the edge at last; most steps
 TINIEST = 1e-30  # of the frictionless contact: no load is so light beside it
 # Points where the symmetry of a profile is measured, and to what part of its largest slope.
 LOOKS, EVEN = 64, 1e-10
@@ -186,6 +187,9 @@ def _root(growth: tuple[GrowthPanel, ...], P: float, farthest: float) -> float:
     missing, hi = P - before, min(panel.hi, farthest)
     if before + whole <= P:
         return hi
+    nearby, close = _newton(panel, missing, hi)
+    if close:
+        return nearby
     lo = panel.lo or 0.5 * hi
     while panel.load(lo) > missing and hi > TINIEST * farthest:
         lo, hi = 0.5 * lo, lo
@@ -197,13 +201,22 @@ def _root(growth: tuple[GrowthPanel, ...], P: float, farthest: float) -> float:
         ends,
         lambda a, b, missed: abs(missed) <= NEARLY,
     )
+    return _newton(panel, missing, root)[0]
+
+
+def _newton(panel: GrowthPanel, missing: float, start: float) -> tuple[float, bool]:
+    """Where the load on a panel is that, by Newton's steps, and whether they ended."""
+    root = start
     for _ in range(NEWTONS):
-        rate = float(panel(np.array([root - panel.lo]))[0])
-        missed = missing - panel.load(root)
-        if not abs(missed) < rate * (hi - lo):
+        load, rate = panel.load_and_rate(root)
+        step = missing - load
+        if not abs(step) < rate * (root - panel.lo):
             break
-        root += missed / rate
-    return root
+        root = min(root + step / rate, panel.hi)
+        # Convergence is quadratic
+        if abs(step) <= SETTLED * rate * root:
+            return root, True
+    return root, False
 
 
 def _refuse_falling(growth: tuple[GrowthPanel, ...], ahead: float, axis: float) -> None:

@@ -15,9 +15,8 @@ Spence (1975), J. Elasticity 5, 297, for the stick zone that no profile changes.
 
 from __future__ import annotations
 
-import itertools
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any, NamedTuple
@@ -112,15 +111,17 @@ class GrowthPanel:
         """
         if ahead <= self.lo:
             return 0.0
-        return self._whole if ahead >= self.hi else self._load(ahead - self.lo)
+        return self._whole if ahead >= self.hi else self.load_and_rate(ahead)[0]
 
     @cached_property
     def _whole(self) -> float:
-        return self._load(self.hi - self.lo)
+        return float(self.places[1].sum())
 
-    def _load(self, length: float) -> float:
-        ahead, weight = self.rule(length, max(len(self.series), NODES))
-        return float(weight @ self(ahead))
+    def load_and_rate(self, ahead: float) -> tuple[float, float]:
+        """∫P' ds from its beginning to origin + ahead on the panel, and P' there."""
+        places, weight = self.rule(ahead - self.lo, max(len(self.series), NODES))
+        values = self(np.append(places, ahead - self.lo))
+        return float(weight @ values[:-1]), float(values[-1])
 
 
 Function = Callable[[Array, Array, Array], Array]
@@ -148,17 +149,17 @@ class Kernel(NamedTuple):
 
 
 class Part(NamedTuple):
-    """Intervals of s for some of the x.
+    """Intervals of s for some of the x, each on one panel of P'.
 
     They are given by their beginnings, beyond x and beyond lo of the panel, their lengths and
     scales.
 
     before, after   distances from either end to the next singularity, inf if there is none
     near            distance from the first one within which P' is smooth, and less than s
-    powers          exponents at both ends
     """
 
     which: NDArray[np.intp]
+    panel: NDArray[np.intp]
     from_x: Array
     from_lo: Array
     length: Array
@@ -166,14 +167,55 @@ class Part(NamedTuple):
     before: Array
     after: Array
     near: Array
-    powers: tuple[float, float]
+
+
+class Stack:
+    """P' on several panels of one origin at once, given the number of the panel of each row."""
+
+    def __init__(self, growth: Sequence[GrowthPanel]) -> None:
+        columns = [(g.origin, g.lo, g.hi, g.behind, g.power, g.at_start) for g in growth]
+        origin, lo, hi, behind, power, at_start = np.array(columns).reshape(-1, 6).T
+        self.origin = float(origin[0]) if growth else 0.0
+        self.lo, self.hi, self.behind, self.power, self.at_start = lo, hi, behind, power, at_start
+        # Distances of lo from the place where P' has its power
+        self.kink = np.where(at_start == 0.0, behind, 0.0)
+        self._straight = np.isinf(behind)
+        self._distance = np.where(self._straight, 0.0, behind)
+        self._slope = 2.0 / np.where(self._straight, hi - lo, np.log1p((hi - lo) / behind))
+        kept = [chopped(panel.series) for panel in growth]
+        self._series = np.zeros((max(map(len, kept), default=1), len(kept), 1))
+        for k, c in enumerate(kept):
+            self._series[: len(c), k, 0] = c
+
+    def __call__(self, panel: NDArray[np.intp], ahead: Array) -> Array:
+        """P' at s = origin + lo + ahead."""
+        values = summed(self._series[:, panel], self.variable(panel, ahead))
+        return self.times_power(panel, ahead, values)
+
+    def variable(self, panel: NDArray[np.intp], ahead: Array) -> Array:
+        """That of the series."""
+        straight = self._straight[panel]
+        place = ahead / self.behind[panel][:, None]
+        np.log1p(place, out=place)
+        if straight.any():
+            place[straight] = ahead[straight]
+        place *= self._slope[panel][:, None]
+        place -= 1.0
+        return place
+
+    def times_power(self, panel: NDArray[np.intp], ahead: Array, values: Array) -> Array:
+        """The values times d^power, which replaces them."""
+        power = self.power[panel]
+        if power.any():
+            values *= (self._distance[panel][:, None] + ahead) ** power[:, None]
+        return values
 
 
 class Superposition:
     """The integrals over s up to origin + b, of P' on its panels."""
 
     def __init__(self, flat: FlatFunctions, growth: tuple[GrowthPanel, ...]) -> None:
-        self.flat, self.growth = flat, growth
+        self.flat, self.growth, self.stack = flat, growth, Stack(growth)
 
     def pressure(self, x: Array, b: Array) -> Array:
         """p at 0 < x <= origin + b, for each x with a contact of its own."""
@@ -235,101 +277,90 @@ class Superposition:
     def _sum(self, kernels: tuple[Kernel, ...], x: Array, b: Array, over_s: bool) -> Array:
         total = np.zeros(len(x))
         for kernel in kernels:
-            alike: dict[tuple[float, float], list[tuple[GrowthPanel, Part]]] = {}
-            for panel in self.growth:
-                for part in self._parts(kernel, panel, x, b):
-                    alike.setdefault(part.powers, []).append((panel, part))
-            for powers, parts in alike.items():
+            for powers, part in self._parts(kernel, x, b):
                 step_done(0)
-                total += self._integral(kernel, powers, parts, x, over_s)
+                total += self._integral(kernel, powers, part, x, over_s)
         return total
 
-    def _parts(self, kernel: Kernel, panel: GrowthPanel, x: Array, b: Array) -> Iterator[Part]:
-        """The intervals of s - origin that lie on the panel and below b.
+    def _parts(
+        self, kernel: Kernel, x: Array, b: Array
+    ) -> Iterator[tuple[tuple[float, float], Part]]:
+        """The intervals of s - origin that lie on a panel and below b, by the powers at both ends.
 
-        They come in groups, by what they begin and end at.
+        They begin or end at the kernel's own places, or the panel's.
         """
-        begin = (x - panel.origin) + x * kernel.above
-        end = x / kernel.lo - panel.origin if kernel.lo else np.full(len(x), np.inf)
-        top = np.minimum(b, panel.hi)
-        lo, hi = np.maximum(begin, panel.lo), np.minimum(end, top)
-        for own_start in (True, False):
-            for own_end in (True, False):
-                # Between two places of its own an interval may be shorter than the doubles are
-                # apart
-                longer = (lo <= hi) if own_start and own_end else (lo < hi)
-                chosen = longer & ((begin >= panel.lo) == own_start) & ((end <= top) == own_end)
-                if chosen.any():
-                    i = np.flatnonzero(chosen)
-                    at = x[i], lo[i], hi[i]
-                    yield self._part(kernel, panel, i, at, (own_start, own_end))
+        all_, origin = self.stack, self.stack.origin
+        begin = (x - origin) + x * kernel.above
+        end = x / kernel.lo - origin if kernel.lo else np.full(len(x), np.inf)
+        top = np.minimum(b, all_.hi[:, None])
+        lo, hi = np.maximum(begin, all_.lo[:, None]), np.minimum(end, top)
+        own = begin >= all_.lo[:, None], end <= top
+        # Between two places of its own an interval may be shorter than the doubles are apart
+        longer = (lo < hi) | ((lo == hi) & own[0] & own[1])
+        first = np.where(own[0], kernel.power, all_.at_start[:, None])
+        last = np.where(own[1], kernel.at_c, 0.0)
+        for at_start in {kernel.power, *all_.at_start.tolist()}:
+            for at_end in {kernel.at_c, 0.0}:
+                k, i = np.nonzero(longer & (first == at_start) & (last == at_end))
+                if k.size:
+                    at = x[i], lo[k, i], hi[k, i]
+                    owned = own[0][k, i], own[1][k, i]
+                    yield (at_start, at_end), self._part(kernel, k, i, at, owned)
 
     def _part(
         self,
         kernel: Kernel,
-        panel: GrowthPanel,
+        panel: NDArray[np.intp],
         which: NDArray[np.intp],
         at: tuple[Array, Array, Array],
-        own: tuple[bool, bool],
+        own: tuple[NDArray[np.bool_], NDArray[np.bool_]],
     ) -> Part:
-        """The intervals (lo, hi) of some x.
-
-        They begin or end at the kernel's own places, or the panel's.
-        """
-        (x, lo, hi), (own_start, own_end) = at, own
-        c, origin = self.flat.c, panel.origin
-        from_lo, nearest = lo - panel.lo, NEAREST * (origin + hi)
-        length = x * kernel.span if own_start and own_end else hi - lo
-        to_kink = from_lo if panel.at_start else from_lo + panel.behind
-        if own_start:
-            from_x = x * kernel.above
-            before = np.minimum(from_x if kernel.above else x, np.maximum(to_kink, nearest))
-        else:
-            from_x = (origin - x) + lo
-            before = np.maximum((origin - x / kernel.pole) + lo, nearest)
-            before = np.minimum(before, panel.behind)
+        """The intervals (lo, hi) of these x on these panels."""
+        (x, lo, hi), (own_start, own_end), all_ = at, own, self.stack
+        c, origin = self.flat.c, all_.origin
+        from_lo, nearest = lo - all_.lo[panel], NEAREST * (origin + hi)
+        length = hi - lo
+        if math.isfinite(kernel.span):
+            length = np.where(own_start & own_end, x * kernel.span, length)
+        to_kink = from_lo + all_.kink[panel]
+        from_x = np.where(own_start, x * kernel.above, (origin - x) + lo)
+        to_pole = np.maximum((origin - x / kernel.pole) + lo, nearest)
+        before = np.where(
+            own_start,
+            np.minimum(from_x if kernel.above else x, np.maximum(to_kink, nearest)),
+            np.minimum(to_pole, all_.behind[panel]),
+        )
         if kernel.hi == c:
-            to_c = np.zeros(len(x)) if own_start else np.maximum((origin - x / c) + lo, 0.0)
+            to_c = np.where(own_start, 0.0, np.maximum((origin - x / c) + lo, 0.0))
         else:
-            to_c = x * kernel.behind if own_end else np.maximum((x / c - origin) - hi, 0.0)
+            to_c = np.where(own_end, x * kernel.behind, np.maximum((x / c - origin) - hi, 0.0))
         after = np.full(len(x), np.inf)
         if kernel.at_c:
-            after = length if own_end else np.maximum(to_c, nearest)
-        powers = kernel.power if own_start else panel.at_start, kernel.at_c if own_end else 0.0
+            after = np.where(own_end, length, np.maximum(to_c, nearest))
         near = np.minimum(to_kink, origin + lo)
-        return Part(which, from_x, from_lo, length, to_c, before, after, near, powers)
+        return Part(which, panel, from_x, from_lo, length, to_c, before, after, near)
 
     def _integral(
-        self,
-        kernel: Kernel,
-        powers: tuple[float, float],
-        parts: list[tuple[GrowthPanel, Part]],
-        x: Array,
-        over_s: bool,
+        self, kernel: Kernel, powers: tuple[float, float], part: Part, x: Array, over_s: bool
     ) -> Array:
         """∫ P' kernel ds, or ds/s, over all intervals with these powers, for each x."""
-        columns = [np.concatenate(c) for c in zip(*(p[:-1] for _, p in parts), strict=True)]
-        first = np.cumsum([0, *(len(part.which) for _, part in parts)])
-        sums = np.empty(first[-1])
-        steepest = max(panel.power for panel, _ in parts)
-        longest = min(LONGEST, STEEPEST / max(steepest, 1.0))
+        sums = np.empty(len(part.which))
+        longest = min(LONGEST, STEEPEST / max(1.0, self.stack.power[part.panel].max()))
         for k in range(0, len(sums), TOGETHER):
-            few = slice(k, k + TOGETHER)
-            which, from_x, from_lo, length, to_c, before, after, near = (c[few] for c in columns)
+            columns: list[Any] = [column[k : k + TOGETHER] for column in part]
+            which, panel, from_x, from_lo, length, to_c, before, after, near = columns
             owner, ahead, left, weight = graded(
                 length, before, after, powers, longest=longest, near=near
             )
             to_c = to_c[owner][:, None] + (ahead if kernel.hi == self.flat.c else left)
-            from_x, from_lo = from_x[owner][:, None] + ahead, from_lo[owner][:, None] + ahead
+            from_x = from_x[owner][:, None] + ahead
             at = x[which[owner]][:, None]
             s = at + from_x
             values = kernel.value(at / s, from_x / s, to_c * (self.flat.c / s)) * weight
-            ends = np.searchsorted(owner, np.clip(first - k, 0, len(which))).tolist()
-            for (panel, _), (lo, hi) in zip(parts, itertools.pairwise(ends), strict=True):
-                if hi > lo:
-                    values[lo:hi] *= panel(from_lo[lo:hi])
+            ahead += from_lo[owner][:, None]
+            values *= self.stack(panel[owner], ahead)
             if over_s:
                 values /= s
-            sums[few] = totals(owner, values, len(which))
-        total: Array = np.bincount(columns[0], sums, minlength=len(x)).astype(float)
+            sums[k : k + TOGETHER] = totals(owner, values, len(which))
+        total: Array = np.bincount(part.which, sums, minlength=len(x)).astype(float)
         return total

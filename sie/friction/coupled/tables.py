@@ -17,9 +17,10 @@ Array = NDArray[np.float64]
 LENGTH, DEGREE = 1.0, 14  # of a panel of v, and of its series: (2 π + 6.4)^-14 is rounding
 STRAIGHT = 0.5  # no longer in v, one panel is straight
 APART = 1e17  # times its length, from an interval: there a singularity is none
-# Of a panel of ln((y - m)/(n - y)), and of its series: (π/1.25 + 2.7)^-20 is rounding
-LOG_LENGTH, LOG_DEGREE = 2.5, 20
-STEEPEST = 10.0  # of the logarithm of a power, on a panel at most
+# Of ln((y - m)/(n - y)): the panel next to the middle ends at MIDDLE and is straight in its inverse
+# hyperbolic sine, times BEND; those beyond have one length; and their series
+MIDDLE, BEND, LOG_LENGTH, LOG_DEGREE = 5.0, 0.3, 3.0, 28
+STEEPEST = 8.0  # a power that such a panel resolves
 NEAREST = 1e-6  # of the last mark: next to marks y has too few digits for a series in v
 CHOP = 2e-17  # of the largest coefficient
 
@@ -49,11 +50,11 @@ def stretched(length: Any, before: Any, after: Any, grown: Array, left: Array) -
     A function that is singular at y = -B and y = C + L, and nowhere else on the line beside the
     interval, is analytic in v for |Im v| < π.
     """
-    ratio, growth = before / (after + length), np.exp(grown)
-    below = 1.0 + ratio * growth
-    ahead = before * np.expm1(grown) / below
-    to_end = after * np.expm1(left) / (1.0 + after / (before + length) * np.exp(left))
-    return ahead, to_end, before * growth * (1.0 + ratio) / (below * below)
+    ratio, rise, back = before / (after + length), np.expm1(grown), np.expm1(left)
+    below = 1.0 + ratio * (1.0 + rise)
+    to_end = after * back / (1.0 + after / (before + length) * (1.0 + back))
+    rate = before * (1.0 + ratio) * (1.0 + rise) / (below * below)
+    return before * rise / below, to_end, rate
 
 
 class Table:
@@ -129,13 +130,14 @@ def chopped(c: Array) -> Array:
 
 
 def summed(c: Array, y: Array) -> Array:
-    """Σ c_n T_n(y) by Clenshaw's recurrence in three arrays.
+    """Σ c_n T_n(y) by Clenshaw's recurrence, for numbers c_n or a column of them.
 
-    For many points it takes half the time.
+    For many points it takes half the time in three arrays.
     """
-    twice, higher, high = 2.0 * y, np.zeros_like(y), np.full_like(y, c[-1] if len(c) > 1 else 0.0)
+    twice, higher, high = 2.0 * y, np.zeros_like(y), np.empty_like(y)
+    high[...] = c[-1] if len(c) > 1 else 0.0
     spare = np.empty_like(y)
-    for a in c[-2:0:-1].tolist():
+    for a in c[-2:0:-1]:
         np.multiply(twice, high, out=spare)
         spare -= higher
         spare += a
@@ -153,25 +155,54 @@ def interpolated(
 
     It varies like such a power. Between two marks m and n, next to which the function may have any
     powers of the distance, it is analytic in v = ln((y - m)/(n - y)) for |Im v| < π: Chebyshev
-    series on panels of v.
+    series on panels of v, which are longer next to the marks, as it varies less there. Where a
+    panel has no more places than its series has nodes, the values are the function's own.
     """
-    length = min(LOG_LENGTH, STEEPEST / power)
-    k = np.clip(np.searchsorted(marks, y) - 1, 0, len(marks) - 2)
-    above, below = y - marks[k], marks[k + 1] - y
-    close = np.minimum(above, below) <= NEAREST * marks[-1]
-    values = np.empty(len(y))
-    if close.any():
-        values[close] = function(y[close])
-    k, place = k[~close], np.log(above[~close] / below[~close]) / length
+    gap = np.clip(np.searchsorted(marks, y) - 1, 0, len(marks) - 2)
+    above, below = y - marks[gap], marks[gap + 1] - y
+    far = np.flatnonzero(np.minimum(above, below) > NEAREST * marks[-1])
+    parts = math.ceil(power / STEEPEST)
+    place = _numbered(np.log(above[far] / below[far]), parts)
     panel = np.floor(place)
-    if not k.size:
-        return values
-    panels, which = np.unique(np.stack((k.astype(float), panel)), axis=1, return_inverse=True)
-    v = length * (panels[1][:, None] + 0.5 * (1.0 + chebyshev.points(LOG_DEGREE)))
-    m, n = (marks[panels[0].astype(np.intp) + j][:, None] for j in (0, 1))
-    ratio = np.exp(-np.abs(v))
-    near = (n - m) * ratio / (1.0 + ratio)
-    nodes = np.where(v < 0.0, m + near, n - near)
-    series = chebyshev.transform(function(nodes.ravel()).reshape(nodes.shape))
-    values[~close] = chebyshev.evaluate(series.T[:, which.ravel()], 2.0 * (place - panel) - 1.0)
+    # No place is so deep between two marks as so many panels
+    most = parts + math.ceil(-math.log(NEAREST) / LOG_LENGTH)
+    codes, which, count = np.unique(
+        2 * most * gap[far] + most + panel.astype(np.intp), return_inverse=True, return_counts=True
+    )
+    often = count > LOG_DEGREE
+    if not often.any():
+        return function(y)
+    served = often[which]
+    own = np.ones(len(y), dtype=np.bool_)
+    own[far[served]] = False
+    k, number = np.divmod(codes[often], 2 * most)
+    nodes = _nodes(number - most, parts, marks[k], marks[k + 1])
+    known = function(np.concatenate((nodes.ravel(), y[own])))
+    series = chebyshev.transform(known[: nodes.size].reshape(nodes.shape)).T
+    column = (np.cumsum(often) - 1)[which[served]]
+    values, at = np.empty(len(y)), 2.0 * (place - panel)[served] - 1.0
+    values[own] = known[nodes.size :]
+    values[far[served]] = chebyshev.evaluate(series[:, column], at)
     return values
+
+
+def _nodes(number: NDArray[np.intp], parts: int, m: Array, n: Array) -> Array:
+    """The Chebyshev points y of panels of these numbers between the marks m and n, as rows."""
+    v = _from_number(number[:, None] + 0.5 * (1.0 + chebyshev.points(LOG_DEGREE)), parts)
+    ratio = np.exp(-np.abs(v))
+    near = (n - m)[:, None] * ratio / (1.0 + ratio)
+    return np.where(v < 0.0, m[:, None] + near, n[:, None] - near)
+
+
+def _numbered(v: Array, parts: int) -> Array:
+    """The place v counted in panels from the middle: so many up to MIDDLE, then equally long."""
+    size = np.abs(v)
+    inner = np.arcsinh(BEND * size) * (parts / math.asinh(BEND * MIDDLE))
+    return np.copysign(np.where(size < MIDDLE, inner, parts + (size - MIDDLE) / LOG_LENGTH), v)
+
+
+def _from_number(place: Array, parts: int) -> Array:
+    """v at such a place."""
+    size = np.abs(place)
+    inner = np.sinh(np.minimum(size, parts) * (math.asinh(BEND * MIDDLE) / parts)) / BEND
+    return np.copysign(np.where(size < parts, inner, MIDDLE + LOG_LENGTH * (size - parts)), place)

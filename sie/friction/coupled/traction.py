@@ -65,31 +65,37 @@ class OnHalves(Density):
         return self._on_line(principal, x)
 
     def cauchy(self, z: ArrayLike, side: int = 1) -> Complex:
-        return self._at(z, side, derivative=False)
+        return self._in_plane(lambda u: self._value(u, self._raised(u, False)[0], side), z, side)
 
     def cauchy_derivative(self, z: ArrayLike, side: int = 1) -> Complex:
-        return self._at(z, side, derivative=True)
+        return self._in_plane(
+            lambda u: _steepness(u, self._raised(u, True)[1], side), z, side, True
+        )
 
     def potentials(self, z: ArrayLike, side: int = 1) -> tuple[Complex, Complex]:
-        return self._at(z, side, derivative=False), self._at(z, side, derivative=True)
+        slopes: list[Complex] = []
 
-    def _at(self, z: ArrayLike, side: int, derivative: bool) -> Complex:
-        def potential(flat: Complex) -> Complex:
-            real = flat.imag == 0.0
-            raised = flat - self.middle
-            raised.imag[real] = shallow(self.contact.r)
-            values: Complex = reflected(
-                lambda u: self._potentials(u, derivative)[int(derivative)], raised
-            )
-            if real.any():
-                if derivative:
-                    values.imag[real] *= side
-                else:
-                    x = flat.real[real]
-                    values[real] = on_surface(values.real[real], self._on_surface(x), side)
-            return values
+        def value(u: Complex) -> Complex:
+            F, dF = self._raised(u, True)
+            slopes.append(dF)
+            return self._value(u, F, side)
 
-        return self._in_plane(potential, z, side, derivative)
+        F = self._in_plane(value, z, side)
+        return F, self._in_plane(lambda u: _steepness(u, slopes[0], side), z, side, True)
+
+    def _raised(self, z: Complex, derivative: bool) -> tuple[Complex, Complex]:
+        """(F, F') at z, for places on the surface a little above it."""
+        raised = z - self.middle
+        raised.imag[z.imag == 0.0] = shallow(self.contact.r)
+        pairs = reflected(lambda u: np.stack(self._potentials(u, derivative), axis=-1), raised)
+        return pairs[:, 0], pairs[:, 1]
+
+    def _value(self, z: Complex, F: Complex, side: int) -> Complex:
+        """F with the values on the surface of that side."""
+        real = z.imag == 0.0
+        if real.any():
+            F[real] = on_surface(F.real[real], self._on_surface(z.real[real]), side)
+        return F
 
     def _on_surface(self, x: Array) -> Array:
         """The traction at x, as the potential has it."""
@@ -100,6 +106,12 @@ class OnHalves(Density):
 
     def _derivative(self, z: Any) -> Complex:
         return self._potentials(z, derivative=True)[1]
+
+
+def _steepness(z: Complex, dF: Complex, side: int) -> Complex:
+    """F' with the values on the surface of that side."""
+    dF.imag[z.imag == 0.0] *= side
+    return dF
 
 
 @dataclass(frozen=True, eq=False)

@@ -352,9 +352,11 @@ class StickProblem:
         at_left = self.rule.left < self.rule.right
         nodes = np.where(at_left, self.rule.left, -self.rule.right)
         widths = np.ptp(nodes.reshape(-1, NODES), axis=1)
-        close = np.abs(apart) < np.repeat(CLOSE * widths, NODES)
-        quotients = (self.of_rule[1] - g[:, None]) / np.where(close, 1.0, apart)
-        for i, j in zip(*np.nonzero(close), strict=True):
+        rows, columns = np.nonzero(np.abs(apart) < np.repeat(CLOSE * widths, NODES))
+        apart[rows, columns] = 1.0
+        quotients = self.of_rule[1] - g[:, None]
+        quotients /= apart
+        for i, j in zip(rows.tolist(), columns.tolist(), strict=True):
             # So close, rounding counts: the value is interpolated from the others of the panel
             panel = slice(j - j % NODES, j - j % NODES + NODES)
             quotients[i, j] = quotients[i, panel] @ _from_others(nodes[panel], j % NODES)
@@ -362,11 +364,13 @@ class StickProblem:
         return values
 
     def _apart(self, x: Array) -> Array:
-        """x - t for all places t of the rule, from the nearer end of the stick zone."""
+        """x - t for all ascending places t of the rule, from the nearer end of the stick zone."""
         zones, rule = self.map.zones, self.rule
-        near = rule.left < rule.right
-        ahead, behind = (x - zones.e1)[:, None] - rule.left, rule.right - (zones.e2 - x)[:, None]
-        return np.where(near, ahead, behind)
+        near = int(np.count_nonzero(rule.left < rule.right))
+        apart = np.empty((len(x), len(rule.left)))
+        np.subtract((x - zones.e1)[:, None], rule.left[:near], out=apart[:, :near])
+        np.subtract(rule.right[near:], (zones.e2 - x)[:, None], out=apart[:, near:])
+        return apart
 
 
 def _from_others(x: Array, j: int) -> Array:
