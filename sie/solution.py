@@ -33,7 +33,8 @@ from .friction.contact_growth import ContactGrowth
 from .friction.coupled.contact import CoupledContact
 from .friction.coupled.energy import tangential_energy
 from .friction.coupled.normal import coupled_contact
-from .friction.coupled.sheared import ShearedContact, sheared_contact
+from .friction.coupled.sheared import ShearedContact
+from .friction.coupled.sheared_contact import sheared_contact
 from .friction.coupled.shift import tangential_shift
 from .friction.coupled.tangential import TangentialSearch, tangential_search
 from .friction.coupled.traction import OnHalves

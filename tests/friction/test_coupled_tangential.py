@@ -18,6 +18,7 @@ from sie.friction.coupled.energy import CERTIFIED, STARTS, Growth, _integral
 from sie.friction.coupled.functions import flat_functions
 from sie.friction.coupled.gradient import SlipGradient
 from sie.friction.coupled.sheared import ShearedContact
+from sie.friction.coupled.sheared_contact import keeps_friction_law
 from sie.friction.coupled.slip_rate import SlipRate
 from sie.friction.coupled.tangential import TangentialSearch
 from sie.friction.coupled.zones import Map, Zones
@@ -615,10 +616,33 @@ def test_certificate_holds_next_to_corners_and_kinks(profile, beta, friction, pa
     assert solved(profile, beta, friction, part, load).check().ok
 
 
-def test_slip_against_the_load_where_an_edge_passes_a_corner_is_refused():
-    state = solved(CORNERS, 0.04441, 4.967, 0.1854, 0.1361)
-    with pytest.raises(sie.ContactError, match="would have slipped against Q"):
-        _ = state.edges
+@pytest.mark.parametrize(
+    ("beta", "friction", "part", "load"),
+    [
+        # The stick zone is to end next to a corner, which larger loads have passed
+        (0.06213, 0.2169, 0.668, 0.2881),
+        # The last place to stick in sliding is far from a corner next to which slip turns
+        (0.4872, 0.1839, -0.99, 0.1985),
+    ],
+)
+def test_zones_are_found_on_both_sides_of_the_loads_under_which_an_edge_passes_a_corner(
+    beta, friction, part, load
+):
+    solution = solved(CORNERS, beta, friction, part, load)
+    assert solution.check().ok
+    assert keeps_friction_law(solution.coupled[1])
+
+
+def test_a_corner_that_sticks_while_slip_begins_beside_it_is_refused():
+    assert "two stick zones" in refused(CORNERS, 0.06213, 0.2169, 0.845, 0.2881)
+
+
+def test_zones_that_pass_a_corner_under_a_falling_load_exceed_friction_beside_it():
+    right = solved(CORNERS, 0.06213, 0.2169, 0.86, 0.2881)
+    search, Q = right.tangential_search, 0.865 * right.tangential_load / 0.86
+    # Four edges that meet the same conditions as those of the load, with e1 beside the corner
+    other = search.next_to(0.4 * np.array([-1.020514, -0.9945276, 0.1317205, 1.0177226]), Q)
+    assert not keeps_friction_law(ShearedContact(search, other.trial, Q, 1.0, 1.0))
 
 
 @pytest.mark.parametrize(("beta", "friction"), [(0.36, 0.57), (0.3, 0.3)])

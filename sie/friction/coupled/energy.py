@@ -29,6 +29,7 @@ from numpy.typing import NDArray
 from sie.errors import ContactError
 from sie.numerics import chebyshev
 from sie.numerics.root_finding import false_position
+from sie.problem.coverage import refused_slip
 from sie.progress_bar import reported, step_done
 
 from .integral import RATIO, integral
@@ -100,6 +101,8 @@ class Growth:
         Q, edges, state = self.load(u), self.edges(u), self.state
         trial = self.search.trial(edges, Q, RATIO**-LEVELS * (edges[2] - edges[1]))
         passed = PassedState(self.search, trial, Q, state.sign, state.flip)
+        if self.search.corners and passed.least_deficit < -CERTIFIED:
+            raise refused_slip(state.search.beta * state.friction, Q / self.search.limit)
         angle = 0.5 * math.pi * (1.0 - (1.0 - u) ** 3)
         grown = 1.5 * math.pi * self.search.limit * (1.0 - u) ** 2 * math.sin(2.0 * angle)
         return grown * _power(passed)
