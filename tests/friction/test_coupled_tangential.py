@@ -6,6 +6,7 @@ import itertools
 import math
 import re
 from dataclasses import replace
+from functools import partial
 
 import mpmath
 import numpy as np
@@ -18,7 +19,7 @@ from sie.friction.coupled.energy import CERTIFIED, STARTS, Growth, _integral
 from sie.friction.coupled.functions import flat_functions
 from sie.friction.coupled.gradient import SlipGradient
 from sie.friction.coupled.sheared import ShearedContact
-from sie.friction.coupled.sheared_contact import keeps_friction_law
+from sie.friction.coupled.sheared_contact import found_state, keeps_friction_law
 from sie.friction.coupled.slip_rate import SlipRate
 from sie.friction.coupled.tangential import TangentialSearch
 from sie.friction.coupled.zones import Map, Zones
@@ -365,11 +366,15 @@ def trials_of(monkeypatch, function):
     return len(counted)
 
 
+def growth(solution):
+    return Growth(solution.coupled[1], partial(found_state, solution.tangential_search))
+
+
 def test_energy_finds_each_state_from_those_next_to_it(monkeypatch):
     profile = sie.RoundedFlat(1.0, 50.0)
     punch = solved(profile, beta=0.06, friction=0.1, part=0.5, load=0.01)
     alone = trials_of(monkeypatch, lambda: solved(profile, 0.06, 0.1, 0.4, 0.01).coupled)
-    states = Growth(punch.coupled[1])
+    states = growth(punch)
     assert trials_of(monkeypatch, lambda: _integral(states, STARTS[0])) < states.states * alone / 2
 
 
@@ -380,7 +385,7 @@ def test_energy_finds_each_state_from_those_next_to_it(monkeypatch):
 def test_energy_is_certified_where_the_edges_pass_kinks_and_next_to_sliding(
     profile, beta, friction
 ):
-    states = Growth(solved(profile, beta, friction, part=0.999).coupled[1])
+    states = growth(solved(profile, beta, friction, part=0.999))
     assert states.passed
     ends = np.unique([states.end, *states.passed, 0.02 * states.passed[-1]])
     nodes, weights = np.polynomial.legendre.leggauss(12)

@@ -10,6 +10,7 @@ they are found from incipient sliding, and below it from a small Q upwards.
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 from sie.contact.inequalities import TOLERATED
 from sie.contact.known_contact import Edges
@@ -31,17 +32,17 @@ def sheared_contact(scene: Scene, search: TangentialSearch) -> tuple[Edges, Shea
     """
     sign = math.copysign(1.0, scene.beta)
     flip = math.copysign(1.0, sign * scene.tangential_load)
-    state = found_state(search, abs(scene.tangential_load), sign, flip)
+    state = replace(found_state(search, abs(scene.tangential_load)), sign=sign, flip=flip)
     P = search.normal.load
     moment = state.axis * P + flip * state.moment
     edges = Edges(state.contact, P, moment, 0.0, (False, False), 0.0, 0.0, 0.0, 0)
     return edges, state
 
 
-def found_state(search: TangentialSearch, Q: float, sign: float, flip: float) -> ShearedContact:
-    """The state under Q in the frame of the search."""
+def found_state(search: TangentialSearch, Q: float) -> ShearedContact:
+    """The state under Q > 0 with β > 0."""
     try:
-        state = ShearedContact(search, search.found(Q), Q, sign, flip)
+        state = ShearedContact(search, search.found(Q), Q, 1.0, 1.0)
         if not search.corners or keeps_friction_law(state):
             return state
         refusal = refused_slip(search.beta * search.friction, Q / search.limit)
@@ -54,7 +55,7 @@ def found_state(search: TangentialSearch, Q: float, sign: float, flip: float) ->
         if root is None or search.least_slip(root.trial) < 0.0:
             continue
         trial, end, _ = LoadPath(search).followed(root.trial, load, Q)
-        state = ShearedContact(search, trial, end, sign, flip)
+        state = ShearedContact(search, trial, end, 1.0, 1.0)
         if end == Q and keeps_friction_law(state):
             return state
         break
