@@ -592,6 +592,11 @@ def test_certificate_holds_next_to_both_ends_of_the_loads(profile, beta, frictio
     assert solved(profile, beta, friction, part, load).check().ok
 
 
+@pytest.mark.parametrize("part", [0.0, 0.5])
+def test_certificate_holds_where_hardly_anything_sticks_under_the_normal_load(part):
+    assert solved(sie.RoundedFlat(0.5, 1.0), 0.3, 1e-3, part).check().ok
+
+
 CORNERS = sie.Piecewise((-9.0, -0.4, 0.4, 9.0), ((-0.8, 1.0), (0.0, 0.5), (0.8, 1.0)))
 
 

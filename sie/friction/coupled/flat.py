@@ -49,8 +49,8 @@ FULL_STICK = 1e-15
 # K'/K where 1 - c = c'²/2 is that, as c' = 4 exp(-π K/2K'); nearer than DOUBTFUL the guess cannot
 # tell
 NARROWEST_RATIO, DOUBTFUL = math.pi / math.log(8.0 / FULL_STICK), 1.05
-# beyond it c = 4 exp(-π K'/2K) is lost even beside a double's smallest lengths
-WIDEST_RATIO = 250.0
+# beyond it c = 4 exp(-π K'/2K) is lost even beside a double's smallest lengths; c² is a double
+WIDEST_RATIO = 200.0
 # Of the search for K'/K: where a step ends it, and how fast β² misses its value beside the guess
 SETTLED, STEEPNESS, MOST_STEPS = 1e-13, 0.9, 20
 FEWER, ROUGHLY = 0.5, 1e-7  # part of the digits of a first search, and where it ends
