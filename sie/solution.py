@@ -33,7 +33,8 @@ from .friction.contact_growth import ContactGrowth
 from .friction.coupled.contact import CoupledContact
 from .friction.coupled.energy import tangential_energy
 from .friction.coupled.normal import coupled_contact
-from .friction.coupled.sheared import ShearedContact, sheared_contact
+from .friction.coupled.sheared import ShearedContact
+from .friction.coupled.sheared_contact import found_state, sheared_contact
 from .friction.coupled.shift import tangential_shift
 from .friction.coupled.tangential import TangentialSearch, tangential_search
 from .friction.coupled.traction import OnHalves
@@ -266,8 +267,9 @@ class Solution(Frictionless, StressAnswers):
         if not self.scene.coupled:
             return dissipated(self.tangential)
         state, pressed = self.coupled[1], self.pressed[1].energy
-        more = tangential_energy(state) if isinstance(state, ShearedContact) else 0.0
-        return pressed + more
+        if not isinstance(state, ShearedContact):
+            return pressed
+        return pressed + tangential_energy(state, partial(found_state, self.tangential_search))
 
     @cached_property
     def certificate(self) -> Certificate | PatchCertificate:

@@ -90,14 +90,14 @@ def refused_load(kappa: float, loads: tuple[float, float, float], spreads: bool)
     )
 
 
-def refused_slip(kappa: float, part: float, least: float) -> ContactError:
-    """The ContactError: under Q, a part of f P, what slips has slipped against Q since P."""
+def refused_slip(kappa: float, part: float) -> ContactError:
+    """The ContactError: under Q, a part of f P, an end of the stick zone passes a corner."""
     return ContactError(
-        f"dissimilar bodies with β f = {kappa:.3g} under |Q| = {part:.3g} f P: since the normal "
-        f"load a place would have slipped against Q, by {-least:.2g} of the largest slip, as an "
-        "edge of contact passes a corner of the profile. The zones then depend on every state "
-        "before, and are not solved; give a larger |Q| up to f P, round the corner, lower the "
-        "friction, or give dundurs = 0 to neglect β"
+        f"dissimilar bodies with β f = {kappa:.3g} under |Q| = {part:.3g} f P: an edge of contact "
+        "or of the stick zone passes a corner of the profile, where pressure is infinite. The "
+        "corner still sticks while what is beside it slips, and two stick zones are not solved; "
+        "give a |Q| nearer to f P, or a small one, round the corner, or give dundurs = 0 to "
+        "neglect β"
     )
 
 

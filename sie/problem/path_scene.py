@@ -38,8 +38,9 @@ def refuse_uncovered(scene: Scene) -> None:
             f"a path of dissimilar bodies (β = {scene.beta:.4g}) with friction is solved where P "
             "and Q grow in proportion from (0, 0, 0) only: what sticks under another Q/P, or again "
             "after unloading of P or a reversal of Q, keeps a slip gradient that depends on the "
-            "states before; solve P, then a Q that grows, as scenes, or give dundurs = 0 to "
-            "neglect β"
+            "states before: as P falls slip goes on beside a zone that sticks again, and as Q "
+            "turns the contact gains what sticks at first. Solve P, then a Q that grows, as "
+            "scenes, or give dundurs = 0 to neglect β"
         )
 
 

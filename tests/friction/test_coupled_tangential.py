@@ -6,6 +6,7 @@ import itertools
 import math
 import re
 from dataclasses import replace
+from functools import partial
 
 import mpmath
 import numpy as np
@@ -19,6 +20,7 @@ from sie.friction.coupled.energy import CERTIFIED, STARTS, Growth, _integral
 from sie.friction.coupled.functions import flat_functions
 from sie.friction.coupled.gradient import SlipGradient
 from sie.friction.coupled.sheared import ShearedContact
+from sie.friction.coupled.sheared_contact import found_state, keeps_friction_law
 from sie.friction.coupled.slip_rate import SlipRate
 from sie.friction.coupled.tangential import TangentialSearch
 from sie.friction.coupled.zones import Map, Zones
@@ -358,11 +360,15 @@ def trials_of(monkeypatch, function):
     return len(counted)
 
 
+def growth(solution):
+    return Growth(solution.coupled[1], partial(found_state, solution.tangential_search))
+
+
 def test_energy_finds_each_state_from_those_next_to_it(monkeypatch):
     profile = sie.RoundedFlat(1.0, 50.0)
     punch = solved(profile, beta=0.06, friction=0.1, part=0.5, load=0.01)
     alone = trials_of(monkeypatch, lambda: solved(profile, 0.06, 0.1, 0.4, 0.01).coupled)
-    states = Growth(punch.coupled[1])
+    states = growth(punch)
     assert trials_of(monkeypatch, lambda: _integral(states, STARTS[0])) < states.states * alone / 2
 
 
@@ -373,7 +379,7 @@ def test_energy_finds_each_state_from_those_next_to_it(monkeypatch):
 def test_energy_is_certified_where_the_edges_pass_kinks_and_next_to_sliding(
     profile, beta, friction
 ):
-    states = Growth(solved(profile, beta, friction, part=0.999).coupled[1])
+    states = growth(solved(profile, beta, friction, part=0.999))
     assert states.passed
     ends = np.unique([states.end, *states.passed, 0.02 * states.passed[-1]])
     nodes, weights = np.polynomial.legendre.leggauss(12)
@@ -580,6 +586,11 @@ def test_certificate_holds_next_to_both_ends_of_the_loads(profile, beta, frictio
     assert solved(profile, beta, friction, part, load).check().ok
 
 
+@pytest.mark.parametrize("part", [0.0, 0.5])
+def test_certificate_holds_where_hardly_anything_sticks_under_the_normal_load(part):
+    assert solved(sie.RoundedFlat(0.5, 1.0), 0.3, 1e-3, part).check().ok
+
+
 CORNERS = sie.Piecewise((-9.0, -0.4, 0.4, 9.0), ((-0.8, 1.0), (0.0, 0.5), (0.8, 1.0)))
 
 
@@ -609,10 +620,33 @@ def test_certificate_holds_next_to_corners_and_kinks(profile, beta, friction, pa
     assert solved(profile, beta, friction, part, load).check().ok
 
 
-def test_slip_against_the_load_where_an_edge_passes_a_corner_is_refused():
-    state = solved(CORNERS, 0.04441, 4.967, 0.1854, 0.1361)
-    with pytest.raises(sie.ContactError, match="would have slipped against Q"):
-        _ = state.edges
+@pytest.mark.parametrize(
+    ("beta", "friction", "part", "load"),
+    [
+        # The stick zone is to end next to a corner, which larger loads have passed
+        (0.06213, 0.2169, 0.668, 0.2881),
+        # The last place to stick in sliding is far from a corner next to which slip turns
+        (0.4872, 0.1839, -0.99, 0.1985),
+    ],
+)
+def test_zones_are_found_on_both_sides_of_the_loads_under_which_an_edge_passes_a_corner(
+    beta, friction, part, load
+):
+    solution = solved(CORNERS, beta, friction, part, load)
+    assert solution.check().ok
+    assert keeps_friction_law(solution.coupled[1])
+
+
+def test_a_corner_that_sticks_while_slip_begins_beside_it_is_refused():
+    assert "two stick zones" in refused(CORNERS, 0.06213, 0.2169, 0.845, 0.2881)
+
+
+def test_zones_that_pass_a_corner_under_a_falling_load_exceed_friction_beside_it():
+    right = solved(CORNERS, 0.06213, 0.2169, 0.86, 0.2881)
+    search, Q = right.tangential_search, 0.865 * right.tangential_load / 0.86
+    # Four edges that meet the same conditions as those of the load, with e1 beside the corner
+    other = search.next_to(0.4 * np.array([-1.020514, -0.9945276, 0.1317205, 1.0177226]), Q)
+    assert not keeps_friction_law(ShearedContact(search, other.trial, Q, 1.0, 1.0))
 
 
 @pytest.mark.parametrize(("beta", "friction"), [(0.36, 0.57), (0.3, 0.3)])

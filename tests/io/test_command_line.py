@@ -156,7 +156,9 @@ def test_the_energy_of_dissimilar_bodies_under_q_is_answered_only_if_asked_for(
 ):
     path, costs = tmp_path / "sheared.toml", []
     path.write_text(SHEARED_DISSIMILAR)
-    monkeypatch.setattr(solution, "tangential_energy", lambda state: costs.append(state) or state.Q)
+    monkeypatch.setattr(
+        solution, "tangential_energy", lambda state, _: costs.append(state) or state.Q
+    )
     more = ["--want", "shear", "energy"] if asked else []
     assert main(["solve", str(path), *more]) == 0
     assert len(costs) == asked == ("energy lost" in capsys.readouterr().out)

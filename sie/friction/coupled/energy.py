@@ -29,6 +29,7 @@ from numpy.typing import NDArray
 from sie.errors import ContactError
 from sie.numerics import chebyshev
 from sie.numerics.root_finding import false_position
+from sie.problem.coverage import refused_slip
 from sie.progress_bar import reported, step_done
 
 from .integral import RATIO, integral
@@ -44,6 +45,7 @@ PARTS, LEAST = (3, 6, 12, 24), 12  # of a panel, and of the last one
 TRUSTED = 0.02  # how much closer a sum may be taken to be than the one with half as many parts
 MOST = 200  # states
 SETTLED = 1e-7  # of the conditions on the edges, before a last step
+SMALL = 1e-2  # of the room of an edge: a last step
 NEIGHBOURS = 5  # known states: edges are those of the polynomial through these
 FEW = 6  # kinks passed by an edge that are found
 # Of the way of an edge: kinks passed earlier cost more panels than they save; how well others are
@@ -61,10 +63,13 @@ class PassedState(ShearedContact):
 
 
 class Growth:
-    """The states while Q grows from 0 to that of a given state."""
+    """The states while Q grows from 0 to that of a given state.
 
-    def __init__(self, state: ShearedContact) -> None:
-        self.state, self.search = state, state.search
+    `found` finds that under a Q, in the frame, where none is known next to it.
+    """
+
+    def __init__(self, state: ShearedContact, found: Callable[[float], ShearedContact]) -> None:
+        self.state, self.search, self.found = state, state.search, found
         angle = math.asin(min(math.sqrt(state.Q / self.search.limit), 1.0))
         self.end = 1.0 - math.cbrt(1.0 - angle / (0.5 * math.pi))
         self.first, self.last = self.search.first_edges, state.trial
@@ -90,9 +95,11 @@ class Growth:
                 root = root or self.search.next_to(guess, Q, slopes, SETTLED)
             if root and root.slopes is not None:
                 step = np.linalg.solve(root.slopes, root.trial.missed)
-                self._known[u] = root.trial.edges - step, root.slopes
-            else:
-                self._known[u] = self.search.found(Q).edges, None
+                # Next to a corner of the profile derivatives may belong to other edges
+                if (np.abs(step) < SMALL * self.search.room(root.trial.edges)).all():
+                    self._known[u] = root.trial.edges - step, root.slopes
+            if u not in self._known:
+                self._known[u] = self.found(Q).trial.edges, None
         return self._known[u][0]
 
     def rate(self, u: float) -> float:
@@ -100,6 +107,8 @@ class Growth:
         Q, edges, state = self.load(u), self.edges(u), self.state
         trial = self.search.trial(edges, Q, RATIO**-LEVELS * (edges[2] - edges[1]))
         passed = PassedState(self.search, trial, Q, state.sign, state.flip)
+        if self.search.corners and passed.least_deficit < -CERTIFIED:
+            raise refused_slip(state.search.beta * state.friction, Q / self.search.limit)
         angle = 0.5 * math.pi * (1.0 - (1.0 - u) ** 3)
         grown = 1.5 * math.pi * self.search.limit * (1.0 - u) ** 2 * math.sin(2.0 * angle)
         return grown * _power(passed)
@@ -168,12 +177,12 @@ def _power_of_zone(
 
 
 @reported("dissipated energy, state")
-def tangential_energy(state: ShearedContact) -> float:
-    """The energy dissipated while Q grew at constant P.
+def tangential_energy(state: ShearedContact, found: Callable[[float], ShearedContact]) -> float:
+    """The energy dissipated while Q grew at constant P; `found` gives the state under another Q.
 
     Raises ContactError where that is not found to a part CERTIFIED.
     """
-    growth, reason = Growth(state), ""
+    growth, reason = Growth(state, found), ""
     for part in STARTS:
         try:
             total, error = _integral(growth, part)

@@ -50,8 +50,8 @@ FULL_STICK = 1e-15
 # K'/K where 1 - c = c'²/2 is that, as c' = 4 exp(-π K/2K'); nearer than DOUBTFUL the guess cannot
 # tell
 NARROWEST_RATIO, DOUBTFUL = math.pi / math.log(8.0 / FULL_STICK), 1.05
-# beyond it c = 4 exp(-π K'/2K) is lost even beside a double's smallest lengths
-WIDEST_RATIO = 250.0
+# beyond it c = 4 exp(-π K'/2K) is lost even beside a double's smallest lengths; c² is a double
+WIDEST_RATIO = 200.0
 SETTLED, MOST_STEPS = 1e-13, 20  # of the search for K'/K: where a step ends it
 TOGETHER = 2**13  # entries of a matrix that are computed at once
 ALIKE = 1e-8  # the ratios that bound an eigenvalue, where one more step ends the iteration

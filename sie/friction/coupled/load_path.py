@@ -19,7 +19,7 @@ from .iteration import SETTLED, Missing, Root
 
 Array = NDArray[np.float64]
 
-# Steps: the first one down, the shortest and the longest one, and how much longer the next one is
+# Steps: the first one, the shortest and the longest one, and how much longer the next one is
 STRIDE, SHORTEST, LONGEST, LONGER = 0.7, 1e-2, 2.0, 1.5
 ROUGHLY = 1e-6  # of the conditions, on the way
 NAMED = 3e-3  # of ln tan φ, or of the slip: the error of the least load that is named
@@ -63,7 +63,8 @@ class LoadPath(Generic[T]):
         and whether slip would oppose Q below it.
         """
         place, end, before = self._place(load), self._place(Q), None
-        stride = max(end - place, -STRIDE)
+        way = math.copysign(1.0, end - place)
+        stride = way * min(abs(end - place), STRIDE)
         while abs(stride) > SHORTEST:
             last = abs(end - place) <= abs(stride)
             to = end if last else place + stride
@@ -76,7 +77,7 @@ class LoadPath(Generic[T]):
             if self.search.least_slip(root.trial) < 0.0:
                 return now, self._least_load((to, root.trial), (place, now)), True
             before, place, now, load = (place, now), to, root.trial, aim
-            stride = max(stride * LONGER, -LONGEST)
+            stride = way * min(abs(stride) * LONGER, LONGEST)
             if last:
                 break
         return now, load, False

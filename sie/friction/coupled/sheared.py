@@ -14,6 +14,7 @@ slip, and a Q against the sign of β is the mirror image.
 
 from __future__ import annotations
 
+import itertools
 import math
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -21,12 +22,9 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from sie.contact.inequalities import TOLERATED
-from sie.contact.known_contact import Edges
 from sie.numerics import chebyshev
 from sie.numerics.interval import Interval
-from sie.problem.coverage import old_slip_width, refused_slip
-from sie.problem.scene import Scene
+from sie.problem.coverage import old_slip_width
 from sie.profiles.base import Profile
 from sie.traction.base import on_line, zero_or_nan
 from sie.traction.on_panels import SlidingDensity
@@ -40,6 +38,8 @@ from .two_sided import Known, TwoSidedTraction, both_tractions
 Array = NDArray[np.float64]
 
 BESIDE = 1e-9  # half-widths from a corner of the profile, where values infinite there are evaluated
+# Parts of the way between two places next to which f p - q is small, or p infinite
+LOOKED_AT = 0.5 + 0.5 * np.tanh(np.linspace(-8.0, 8.0, 49))
 EDGE_DEGREE = 24  # of S on the outer half of a slip zone
 # Panels of the gap: the first, in half-widths, where H has a power of the distance; growth
 NEAR_EDGE, FARTHER = 1e-9, 4.0
@@ -263,6 +263,17 @@ class ShearedContact:
         least = least / float(np.abs(gained).max()) if least < -rounding else 0.0
         return min(least, self.search.least_slip(self.trial))
 
+    @property
+    def least_deficit(self) -> float:
+        """The least f p - q in stick, over its size, by which friction is exceeded if negative.
+
+        It is looked for towards the ends of the stick zone and corners of the profile in it.
+        """
+        (_, e1, e2, _), stress = self.trial.zones, self.search.stress
+        ends = [e1, *(corner.place for corner in self._stuck_corners), e2]
+        u = np.concatenate([lo + (hi - lo) * LOOKED_AT for lo, hi in itertools.pairwise(ends)])
+        return float(self.deficit(u).min()) / stress
+
     def _gain(self, u: Array) -> Array:
         """γ - that under P alone, in slip."""
         f, beta, search = self.friction, self.search.beta, self.search
@@ -376,21 +387,3 @@ class ShearedContact:
         places = {*ends, *(self.axis + s * y for y in of_normal for s in (-1.0, 1.0)), self.axis}
         kept = [x for x in places if lo < x < hi]
         return (lo, *sorted(kept), hi)
-
-
-def sheared_contact(scene: Scene, search: TangentialSearch) -> tuple[Edges, ShearedContact]:
-    """The edges and the state under the scene's Q.
-
-    Raises ContactError where none is found, or slip since P would oppose Q.
-    """
-    sign = math.copysign(1.0, scene.beta)
-    flip = math.copysign(1.0, sign * scene.tangential_load)
-    Q = abs(scene.tangential_load)
-    state = ShearedContact(search, search.found(Q), Q, sign, flip)
-    # Where an edge passes a corner the zones next to Q = 0 do not lead to these without slip back
-    if search.corners and state.least_slip < -TOLERATED:
-        raise refused_slip(search.beta * search.friction, Q / search.limit, state.least_slip)
-    P = search.normal.load
-    moment = state.axis * P + flip * state.moment
-    edges = Edges(state.contact, P, moment, 0.0, (False, False), 0.0, 0.0, 0.0, 0)
-    return edges, state

@@ -296,7 +296,7 @@ class TangentialSearch:
         sliding = sliding_pressure(self.resolved_slope, contact, G, -self.theta, P)
         x = self._looked_at
         slips = f * self.H(x) + beta * (1.0 + f * f) * sliding(x) - self.gamma(x)
-        k = int(np.argmin(np.cumsum(slips[1:] + slips[:-1]))) + 1
+        k = int(np.argmin(np.cumsum((slips[1:] + slips[:-1]) * np.diff(x)))) + 1
         if slips[:2].sum() > 0.0 and k == 1:
             return float(x[0]), b
         k = k if slips[k] > 0.0 else min(k + 1, len(x) - 1)
