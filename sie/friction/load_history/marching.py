@@ -31,6 +31,7 @@ from sie.progress_bar import reported
 from .advancing_end import EndAdvances, end_advances
 from .growing_contact import Course, LoadChange, SmoothEdges, course
 from .growing_edge import EdgeSticks, edge_sticks
+from .joined_zones import Joined, joined
 from .marched_step import Held, MarchedStep
 from .moved_end import MovedEnd
 from .receding_step import Receded
@@ -39,6 +40,7 @@ from .slip_onset import Onset, onsets
 from .stuck_contact import BothStick, both_stick
 from .trial_step import (
     EXCEEDED,
+    LOCATED,
     ISLAND,
     TURNS,
     GoesOn,
@@ -50,11 +52,13 @@ from .trial_step import (
 )
 from .turning_point import TurningPoint
 
-MovedStep = EdgeSticks | BothStick | EndAdvances
+MovedStep = EdgeSticks | BothStick | EndAdvances | Joined
 
 MEETS = "slip stops at one edge of the contact, and the stick zone would meet a second one there"
 MOST_PARTS = 200  # of a step
 SETTLED = 1e-13  # of the half-width: so well the end of a zone that stops is known
+# of a step: how soon a second zone of slip may have joined the first one, and how well that is known
+SOON, WELL_KNOWN = tuple(2e-7 * 2.0**k for k in range(20)), 1e-9
 AT_ONCE = 1e-9  # of a step: slip that begins so soon has begun before
 STOPPED = 1e-9  # of it: an end so near to where it would stop does
 
@@ -157,7 +161,10 @@ def _passed(
         try:
             if all(way.signs) and not way.advances:
                 return _receding(now, edges, share)
-            part = _moving(now, edges.at(share), share, way.advances)
+            if way.joins:
+                part = _joined(now, edges.at(share), share)
+            else:
+                part = _moving(now, edges.at(share), share, way.advances)
             return part, part.share, part.then
         except ContactError as problem:
             told = "share" in problem.reached
@@ -204,10 +211,38 @@ def _moving(trial: Trial, edges: Course, share: float, advances: float) -> Moved
         said = _wrong(part.until(at), part)
         if said:
             at = first_share(lambda at: bool(_wrong(part.until(at), part)), share, at)
+            if isinstance(part, EdgeSticks) and said.startswith(ISLAND):
+                stopped = part.until(max(at - LOCATED, share))
+                return replace(stopped, joins=True)
             raise trial.refusal(said, (at - share) / (1.0 - share))
+    if isinstance(part, EdgeSticks) and part.lost and part.share > share:
+        return replace(part, joins=True)
     if isinstance(part, MovedEnd) and part.lost:
         raise trial.refusal(part.lost, (part.share - share) / (1.0 - share))
     return part
+
+
+def _joined(trial: Trial, edges: Course, share: float) -> Joined:
+    """The part of a step in which a second zone of slip joins the first one.
+
+    It goes on to the end where it is known well up to there.
+    """
+
+    def passed(until: float) -> Joined | None:
+        with suppress(ContactError):
+            part = joined(trial.held, edges, trial.signs, (share, until))
+            if excess(part, part.stick)[1] <= EXCEEDED and part.slips_on:
+                return part
+        return None
+
+    soon = (share + length for length in SOON if share + length < edges.hi)
+    first = next(filter(None, map(passed, soon)), None) or passed(edges.hi)
+    if first is None or first.error > WELL_KNOWN:
+        raise trial.refusal(f"{ISLAND} while an edge sticks and grows", 0.0)
+    later = [passed(first.share + part * (edges.hi - first.share)) for part in (0.5, 1.0)]
+    if all(part is not None and part.error <= WELL_KNOWN for part in later):
+        return later[-1]
+    return first
 
 
 def _wrong(state: MarchedStep, end: MarchedStep) -> str:
