@@ -9,7 +9,8 @@ constant pressure they do so with slip s to the left and right where
 An end whose slip has another sign now begins anew at the edge of contact. An end at which the sum
 comes to 0 on the way, as ρ shrinks, advances from there on (`advancing_end`), and so does one that
 stops while the pressure changes. Then all signs are tried. Where a second zone of slip opens inside
-the stick zone, several zones stick (`several_sticks`). `trial_step` tests what this rests on;
+the stick zone, several zones stick (`several_sticks`); where an edge grows and sticks meanwhile, it
+has to join the first one soon (`joined_zones`). `trial_step` tests what this rests on;
 docs/derivations/marching.md has the equations.
 """
 
@@ -40,8 +41,8 @@ from .slip_onset import Onset, onsets
 from .stuck_contact import BothStick, both_stick
 from .trial_step import (
     EXCEEDED,
-    LOCATED,
     ISLAND,
+    LOCATED,
     TURNS,
     GoesOn,
     Marchable,
@@ -57,8 +58,9 @@ MovedStep = EdgeSticks | BothStick | EndAdvances | Joined
 MEETS = "slip stops at one edge of the contact, and the stick zone would meet a second one there"
 MOST_PARTS = 200  # of a step
 SETTLED = 1e-13  # of the half-width: so well the end of a zone that stops is known
-# of a step: how soon a second zone of slip may have joined the first one, and how well that is known
-SOON, WELL_KNOWN = tuple(2e-7 * 2.0**k for k in range(20)), 1e-9
+# Parts of a step in which a second zone of slip may have joined the first one, how well that has to
+# be known, and how well for a part that is longer than it takes.
+SOON, KNOWN, WELL_KNOWN = tuple(5e-7 * 1.25**k for k in range(32)), 1e-8, 1e-9
 AT_ONCE = 1e-9  # of a step: slip that begins so soon has begun before
 STOPPED = 1e-9  # of it: an end so near to where it would stop does
 
@@ -161,10 +163,11 @@ def _passed(
         try:
             if all(way.signs) and not way.advances:
                 return _receding(now, edges, share)
-            if way.joins:
-                part = _joined(now, edges.at(share), share)
-            else:
-                part = _moving(now, edges.at(share), share, way.advances)
+            part = (
+                _joined(now, edges.at(share), way.joins)
+                if way.joins
+                else _moving(now, edges.at(share), share, way.advances)
+            )
             return part, part.share, part.then
         except ContactError as problem:
             told = "share" in problem.reached
@@ -212,36 +215,38 @@ def _moving(trial: Trial, edges: Course, share: float, advances: float) -> Moved
         if said:
             at = first_share(lambda at: bool(_wrong(part.until(at), part)), share, at)
             if isinstance(part, EdgeSticks) and said.startswith(ISLAND):
-                stopped = part.until(max(at - LOCATED, share))
-                return replace(stopped, joins=True)
+                return replace(part, joins=said).until(max(at - LOCATED, 0.5 * (share + at)))
             raise trial.refusal(said, (at - share) / (1.0 - share))
     if isinstance(part, EdgeSticks) and part.lost and part.share > share:
-        return replace(part, joins=True)
+        return replace(part, joins=part.lost)
     if isinstance(part, MovedEnd) and part.lost:
         raise trial.refusal(part.lost, (part.share - share) / (1.0 - share))
     return part
 
 
-def _joined(trial: Trial, edges: Course, share: float) -> Joined:
+def _joined(trial: Trial, edges: Course, problem: str) -> MovedStep:
     """The part of a step in which a second zone of slip joins the first one.
 
-    It goes on to the end where it is known well up to there.
+    It goes on to the end of the step where that is soon. `problem` is what is told if it does not.
     """
+    begun = trial.begun
+    left = edges.hi - begun
 
-    def passed(until: float) -> Joined | None:
+    def passed(length: float) -> Joined | None:
         with suppress(ContactError):
-            part = joined(trial.held, edges, trial.signs, (share, until))
+            part = joined(trial.held, edges, trial.signs, (begun, begun + length))
             if excess(part, part.stick)[1] <= EXCEEDED and part.slips_on:
                 return part
         return None
 
-    soon = (share + length for length in SOON if share + length < edges.hi)
-    first = next(filter(None, map(passed, soon)), None) or passed(edges.hi)
-    if first is None or first.error > WELL_KNOWN:
-        raise trial.refusal(f"{ISLAND} while an edge sticks and grows", 0.0)
-    later = [passed(first.share + part * (edges.hi - first.share)) for part in (0.5, 1.0)]
-    if all(part is not None and part.error <= WELL_KNOWN for part in later):
-        return later[-1]
+    lengths = *(length for length in SOON if length < left), min(left, SOON[-1])
+    first = next(filter(None, map(passed, lengths)), None)
+    if first is None or first.error > KNOWN:
+        raise trial.refusal(problem, 0.0)
+    if left <= SOON[-1]:
+        middle, end = passed(0.5 * (first.share - begun + left)), passed(left)
+        if middle and end and end.error <= WELL_KNOWN:
+            return end
     return first
 
 
