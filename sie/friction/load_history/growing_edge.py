@@ -45,16 +45,20 @@ class EdgeSticks(MovedEnd):
     """The state after one end of the stick zone receded while the other, an edge, grew and stuck.
 
     slips    the sign of the slip that begins at the edge at the end, 0 if none does
+    joins    what is told of a second zone of slip at the end if it does not join the first one soon
     """
 
     zone: StickingZone
     slips: float = 0.0
+    joins: str = ""
 
     @property
     def then(self) -> Onset:
         """What goes on after its end."""
         left, right = self.signs
-        return Onset((left or self.slips, right or self.slips), (left != 0.0, right != 0.0))
+        return Onset(
+            (left or self.slips, right or self.slips), (left != 0.0, right != 0.0), joins=self.joins
+        )
 
     @cached_property
     def stick(self) -> Interval:

@@ -9,7 +9,8 @@ constant pressure they do so with slip s to the left and right where
 An end whose slip has another sign now begins anew at the edge of contact. An end at which the sum
 comes to 0 on the way, as ρ shrinks, advances from there on (`advancing_end`), and so does one that
 stops while the pressure changes. Then all signs are tried. Where a second zone of slip opens inside
-the stick zone, several zones stick (`several_sticks`). `trial_step` tests what this rests on;
+the stick zone, several zones stick (`several_sticks`); where an edge grows and sticks meanwhile, it
+has to join the first one soon (`joined_zones`). `trial_step` tests what this rests on;
 docs/derivations/marching.md has the equations.
 """
 
@@ -31,6 +32,7 @@ from sie.progress_bar import reported
 from .advancing_end import EndAdvances, end_advances
 from .growing_contact import Course, LoadChange, SmoothEdges, course
 from .growing_edge import EdgeSticks, edge_sticks
+from .joined_zones import Joined, joined
 from .marched_step import Held, MarchedStep
 from .moved_end import MovedEnd
 from .receding_step import Receded
@@ -40,6 +42,7 @@ from .stuck_contact import BothStick, both_stick
 from .trial_step import (
     EXCEEDED,
     ISLAND,
+    LOCATED,
     TURNS,
     GoesOn,
     Marchable,
@@ -50,11 +53,14 @@ from .trial_step import (
 )
 from .turning_point import TurningPoint
 
-MovedStep = EdgeSticks | BothStick | EndAdvances
+MovedStep = EdgeSticks | BothStick | EndAdvances | Joined
 
 MEETS = "slip stops at one edge of the contact, and the stick zone would meet a second one there"
 MOST_PARTS = 200  # of a step
 SETTLED = 1e-13  # of the half-width: so well the end of a zone that stops is known
+# Parts of a step in which a second zone of slip may have joined the first one, how well that has to
+# be known, and how well for a part that is longer than it takes.
+SOON, KNOWN, WELL_KNOWN = tuple(5e-7 * 1.25**k for k in range(32)), 1e-8, 1e-9
 AT_ONCE = 1e-9  # of a step: slip that begins so soon has begun before
 STOPPED = 1e-9  # of it: an end so near to where it would stop does
 
@@ -157,7 +163,11 @@ def _passed(
         try:
             if all(way.signs) and not way.advances:
                 return _receding(now, edges, share)
-            part = _moving(now, edges.at(share), share, way.advances)
+            part = (
+                _joined(now, edges.at(share), way.joins)
+                if way.joins
+                else _moving(now, edges.at(share), share, way.advances)
+            )
             return part, part.share, part.then
         except ContactError as problem:
             told = "share" in problem.reached
@@ -204,10 +214,40 @@ def _moving(trial: Trial, edges: Course, share: float, advances: float) -> Moved
         said = _wrong(part.until(at), part)
         if said:
             _, at = narrowed(lambda at: bool(_wrong(part.until(at), part)), share, at)
+            if isinstance(part, EdgeSticks) and said.startswith(ISLAND):
+                return replace(part, joins=said).until(max(at - LOCATED, 0.5 * (share + at)))
             raise trial.refusal(said, (at - share) / (1.0 - share))
+    if isinstance(part, EdgeSticks) and part.lost and part.share > share:
+        return replace(part, joins=part.lost)
     if isinstance(part, MovedEnd) and part.lost:
         raise trial.refusal(part.lost, (part.share - share) / (1.0 - share))
     return part
+
+
+def _joined(trial: Trial, edges: Course, problem: str) -> MovedStep:
+    """The part of a step in which a second zone of slip joins the first one.
+
+    It goes on to the end of the step where that is soon. `problem` is what is told if it does not.
+    """
+    begun = trial.begun
+    left = edges.hi - begun
+
+    def passed(length: float) -> Joined | None:
+        with suppress(ContactError):
+            part = joined(trial.held, edges, trial.signs, (begun, begun + length))
+            if excess(part, part.stick)[1] <= EXCEEDED and part.slips_on:
+                return part
+        return None
+
+    lengths = *(length for length in SOON if length < left), min(left, SOON[-1])
+    first = next(filter(None, map(passed, lengths)), None)
+    if first is None or first.error > KNOWN:
+        raise trial.refusal(problem, 0.0)
+    if left <= SOON[-1]:
+        middle, end = passed(0.5 * (first.share - begun + left)), passed(left)
+        if middle and end and end.error <= WELL_KNOWN:
+            return end
+    return first
 
 
 def _wrong(state: MarchedStep, end: MarchedStep) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -51,7 +52,7 @@ class MovedEnd(MarchedStep):
     def span(self) -> tuple[float, float]:
         return self.panels[0].time, self.share
 
-    def until(self, share: float) -> MovedEnd:
+    def until(self, share: float) -> Self:
         panels = [panel for panel in self.panels if panel.time < share]
         last = panels[-1]
         if last.until > share:

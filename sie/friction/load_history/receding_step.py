@@ -180,8 +180,8 @@ def receded(
 # -- energy while the pressure changes -------------------------------------------------------------
 
 # How well it is known when an end of the stick zone passes a mark, of a step and of a half-width,
-# and the share of a step before which it does not matter.
-SURE, EARLY = 1e-7, 1e-2
+# and the shares of a step before and after which it does not matter.
+SURE, EARLY, LATE = 1e-7, 1e-2, 1e-6
 
 
 def moving_work(part: Receded, change: LoadChange) -> float:
@@ -219,12 +219,12 @@ def moving_work(part: Receded, change: LoadChange) -> float:
 
 def _passages(part: Receded, state: Callable[[float], Receded]) -> list[float]:
     """The shares of the step at which an end of the stick zone passes a mark."""
-    end = part.share
-    begun = part.begun + EARLY * (end - part.begun)
-    first = state(begun).stick
+    whole = part.share - part.begun
+    begun, end = part.begun + EARLY * whole, part.share - LATE * whole
+    first, last = state(begun).stick, state(end).stick
     shares = []
     for k in (0, 1):
-        lo, hi = sorted((first[k], part.stick[k]))
+        lo, hi = sorted((first[k], last[k]))
         for mark in {m for m in places(part.before, part.pressure) if lo < m < hi}:
 
             def ahead(share: float, k: int = k, mark: float = mark) -> float:

@@ -28,11 +28,14 @@ class Onset(NamedTuple):
 
     goes_on    whether each end of the stick zone goes on from where it was
     advances   1 if the right end advances, -1 if the left one does, 0 if none does
+    joins      what is told of a second zone of slip that does not join the first one soon, "" if
+               there is none
     """
 
     signs: tuple[float, float]
     goes_on: tuple[bool, bool]
     advances: float = 0.0
+    joins: str = ""
 
 
 def onsets(held: Held, change: LoadChange, friction: float) -> tuple[Onset, ...]:
