@@ -37,6 +37,7 @@ from .friction.coupled.sheared import ShearedContact, sheared_contact
 from .friction.coupled.shift import tangential_shift
 from .friction.coupled.tangential import TangentialSearch, tangential_search
 from .friction.coupled.traction import OnHalves
+from .friction.coupled.uneven_contact import UnevenContact
 from .friction.dissipation import dissipated
 from .friction.full_stick import Component, full_stick_contact
 from .friction.goodman.departure import departure
@@ -49,7 +50,7 @@ from .patches.answer import SeveralPatches, asks_for_patches, light_patches, sev
 from .patches.friction import PatchesUnder, PatchSlip
 from .patches.full import FullContact
 from .patches.result import PatchCertificate, worst_of
-from .problem.coverage import refuse_uncovered
+from .problem.coverage import refuse_uncovered, uneven_under_shear
 from .problem.material import Elastic
 from .problem.request import ECONOMY, refuse_unknown_poisson, sheared
 from .problem.scene import Scene
@@ -264,27 +265,37 @@ class Solution:
         return full_stick_contact(self.scene, self.tol)
 
     @cached_property
-    def coupled(self) -> tuple[Edges, CoupledContact | ShearedContact]:
+    def coupled(self) -> tuple[Edges, CoupledContact | UnevenContact | ShearedContact]:
         """The edges and the state of dissimilar bodies in partial slip."""
         if self.scene.tangential_load:
             return sheared_contact(self.scene, self.tangential_search)
         return self.pressed
 
     @cached_property
-    def pressed(self) -> tuple[Edges, CoupledContact]:
+    def pressed(self) -> tuple[Edges, CoupledContact | UnevenContact]:
         """The same under the normal load alone."""
-        scene = self.scene
+        scene = self._upright
         if not scene.profile.convex:
             P, b = scene.normal_load, scene.half_width
             plain = Scene(profile=scene.profile, modulus=scene.Estar, normal_load=P, half_width=b)
             _ = Solution(plain, self.tol).as_one_patch
-        return coupled_contact(self.scene, self._frictionless)
+        edges, state = coupled_contact(scene, self._frictionless)
+        return replace(edges, tilt=self.scene.tilt), state
+
+    @property
+    def _upright(self) -> Scene:
+        """The scene with its tilt in the profile."""
+        scene = self.scene
+        return replace(scene, profile=scene.profile.tilted(scene.tilt), tilt=0.0)
 
     @cached_property
     def tangential_search(self) -> TangentialSearch:
         """The search for the zones of dissimilar bodies under any tangential load after that."""
+        pressed = self.pressed[1]
+        if isinstance(pressed, UnevenContact):
+            raise uneven_under_shear(self.scene)
         return tangential_search(
-            self.scene, self.pressed[1], lambda scene: self._frictionless(scene).edges
+            self.scene, pressed, lambda scene: self._frictionless(scene).edges
         )
 
     def _frictionless(self, scene: Scene) -> Normal:
@@ -438,9 +449,9 @@ class Solution:
             )
         if self.scene.coupled:
             state = self.coupled[1]
-            if isinstance(state, ShearedContact):
-                return sheared_certificate(state, self.scene, self.tol)
-            return coupled_certificate(state, self.scene, self.tol)
+            if isinstance(state, CoupledContact):
+                return coupled_certificate(state, self._upright, self.tol)
+            return sheared_certificate(state, self._upright, self.tol)
         others = self.tangential.contacts if self.sheared else ()
         if others or self._several is not None:
             each = [c.certificate(self.tol) for c in (self.in_patches, *others)]
@@ -810,7 +821,7 @@ class Solution:
                 (x < self.edges[0]) | (x > self.edges[1]), np.inf, np.where(np.isnan(x), x, 0.0)
             )
         if self.scene.coupled:
-            return self.coupled[1].gap(x, self.scene.profile)
+            return self.coupled[1].gap(x, self._upright.profile)
         if self._several is not None:
             return self._several.gap(x.ravel()).reshape(x.shape)
         return gap(x.ravel(), self.slope_density, self._slope).reshape(x.shape)

@@ -1,0 +1,327 @@
+"""The contact of dissimilar bodies under a profile that is not symmetric, pressed with friction.
+
+Zones, tractions, slip, gap and dissipated energy follow from P' and the middle of the contact, as
+functions of its half-width (`uneven_growth`). β < 0 only turns the sign of the shear and the slip.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from sie.contact.known_contact import Edges, Normal
+from sie.errors import ContactError
+from sie.numerics import chebyshev
+from sie.numerics.gauss_jacobi import with_weight
+from sie.numerics.interval import Interval
+from sie.problem.scene import Scene
+from sie.profiles.base import Profile
+from sie.traction.base import on_line, zero_or_nan
+
+from .functions import FlatFunctions, flat_functions
+from .integral import outwards
+from .two_sided import Known, TwoSidedTraction, both_tractions
+from .uneven_growth import History, UnevenPanel
+from .uneven_march import March, first_touch, refuse_turning
+from .uneven_sums import UnevenSums
+
+Array = NDArray[np.float64]
+
+APART = 1e-13  # of the half-width: marks that are nearer are one
+ENERGY_NODES = 12  # of a panel
+LIGHTER = 0.9  # of the growth: the load under which what sticks stuck already
+FARTHEST = 64.0  # times the frictionless half-width: where the search ends
+NEARLY = 1e-14  # of the load
+
+
+@dataclass(frozen=True, eq=False)
+class UnevenContact:
+    """The state under the load P.
+
+    flat            functions of the flat punch; |β| and f
+    panels          P' and the middle, up to the present half-width
+    first           the flat base, or the place, that touched first
+    kinks           half-widths at which an edge passed a place where the profile is not smooth
+    load            P
+    sign            of β
+    half_modulus    E*/2
+    """
+
+    flat: FlatFunctions
+    panels: tuple[UnevenPanel, ...]
+    first: tuple[float, float]
+    kinks: tuple[float, ...]
+    load: float
+    sign: float
+    half_modulus: float
+
+    @cached_property
+    def sums(self) -> UnevenSums:
+        return UnevenSums(self.flat, self.panels, self.first)
+
+    @property
+    def b(self) -> float:
+        """Half the width of the contact."""
+        return self.panels[-1].hi
+
+    @property
+    def middle(self) -> float:
+        last = self.panels[-1]
+        return last.middle + last.whole_shift
+
+    @property
+    def friction(self) -> float:
+        return self.flat.friction
+
+    @cached_property
+    def contact(self) -> Interval:
+        return Interval(*self._edges_at(self.b))
+
+    def _edges_at(self, s: float, part: float = 1.0) -> tuple[float, float]:
+        """m(s) ∓ part s."""
+        k = int(np.searchsorted([panel.hi for panel in self.panels], s))
+        panel = self.panels[min(k, len(self.panels) - 1)]
+        by = np.array([s - panel.lo])
+        m = panel.middle + float(panel.moved(np.zeros(1), by)[0])
+        return m - part * s, m + part * s
+
+    @property
+    def full_stick(self) -> bool:
+        """Whether the slip zones are narrower than a part FULL_STICK of the contact."""
+        return self.flat.punch.bonded
+
+    @property
+    def stick(self) -> tuple[tuple[float, float], ...]:
+        return (self._edges_at(self.b, 1.0 if self.full_stick else self.flat.c),)
+
+    @property
+    def slip_zones(self) -> tuple[tuple[float, float, float], ...]:
+        """(lo, hi, sign of q)."""
+        if self.full_stick:
+            return ()
+        ((lo, hi),) = self.stick
+        return (self.contact.x1, lo, -self.sign), (hi, self.contact.x2, self.sign)
+
+    @cached_property
+    def marks(self) -> tuple[float, ...]:
+        """Places in the contact where p or q is not smooth, with its edges, ascending."""
+        lo, hi = self.contact[:2]
+        places = {*self.first, self.panels[0].middle}
+        for s in (self.panels[0].lo, *self.kinks, self.b):
+            places |= {*self._edges_at(s), *self._edges_at(s, self.flat.c)}
+        apart = APART * self.b
+        kept = [lo]
+        for x in sorted(places):
+            if x - kept[-1] > apart and hi - x > apart:
+                kept.append(x)
+        return (*kept, hi)
+
+    # -- tractions ---------------------------------------------------------------------------------
+
+    def pressure(self, x: Array) -> Array:
+        """p in contact."""
+        return self.sums.pressure(x, np.full(len(x), self.b))
+
+    def shear(self, x: Array) -> Array:
+        """q in contact; at a corner of the profile, where both are infinite, 0."""
+        q: Array = self.pressure_and_shear(x)[1]
+        return q
+
+    def pressure_and_shear(self, x: Array) -> Array:
+        """Rows of p and q."""
+        p, end = self.pressure(x), np.full(len(x), self.b)
+        deficit = self.sums.shear_deficit(x, end)
+        q, finite = np.zeros(len(x)), np.isfinite(p)
+        q[finite] = (self.friction * p - deficit)[finite]
+        return np.stack((p, self.sign * self.sums.sides(x) * q))
+
+    @cached_property
+    def tractions(self) -> tuple[TwoSidedTraction, TwoSidedTraction]:
+        """p and q with their potentials, which share their panels."""
+        power, ((lo, hi),) = 1.0 - self.flat.h, self.stick
+        known = Known(0.5 * (lo + hi), self.marks, (power, power), (self.load, 0.0), self.moment)
+        return both_tractions((self.pressure, self.shear), self.pressure_and_shear, known)
+
+    @cached_property
+    def moment(self) -> float:
+        """∫p x dx."""
+        total = 0.0
+        for panel in self.panels:
+            ahead, mass = panel.places
+            total += float(mass @ (panel.middle + panel.moved(np.zeros(1), ahead)))
+        return total
+
+    # -- slip --------------------------------------------------------------------------------------
+
+    def relative_slip(self, x: ArrayLike) -> Array:
+        """The slip at x since it came into contact, same shape: 0 outside the contact."""
+
+        def value(flat: Array) -> Array:
+            g = np.zeros(flat.shape)
+            inside = (flat >= self.contact.x1) & (flat <= self.contact.x2)
+            x = flat[inside]
+            slip = self.sums.slip(x, np.full(len(x), self.b))
+            g[inside] = self.sign * self.sums.sides(x) * slip / self.half_modulus
+            return g
+
+        return on_line(value, x)
+
+    @cached_property
+    def least_slip(self) -> float:
+        """The least slip outwards in a slip zone, over the largest."""
+        if self.full_stick:
+            return 0.0
+        part = (np.arange(8) + 0.5) / 8.0
+        x = np.concatenate([lo + (hi - lo) * part for lo, hi, _ in self.slip_zones])
+        slip = self.sums.slip(x, np.full(len(x), self.b))
+        return min(0.0, float(slip.min() / np.abs(slip).max()))
+
+    @cached_property
+    def lighter(self) -> UnevenContact:
+        """The state under a lighter load."""
+        base = self.panels[0].lo
+        return self.at_half_width(base + LIGHTER * (self.b - base))
+
+    def at_half_width(self, s: float) -> UnevenContact:
+        """The state when the contact was so wide."""
+        panels = truncated(self.panels, s)
+        load = sum(panel.load(math.inf) for panel in panels)
+        kinks = tuple(k for k in self.kinks if k < s)
+        return replace(self, panels=panels, load=load, kinks=kinks)
+
+    @cached_property
+    def energy(self) -> float:
+        """The dissipated energy: ∫ f p |dg| over both slip zones, while P grew."""
+        total = 0.0
+        for panel in self.panels:
+            x, _, w = with_weight(ENERGY_NODES, 0.0, panel.power)
+            ahead = panel.length * x
+            total += float((panel.length * w * panel(ahead)) @ self._rate(panel, ahead))
+        return total / self.half_modulus
+
+    def _rate(self, panel: UnevenPanel, ahead: Array) -> Array:
+        """∫ f p ĝ dx over the slip zones of contacts of the half-widths lo + ahead."""
+        t, e, from_c, weight = self.flat.slip_places
+        g = weight * self.flat.slip(t, e, from_c)
+        s, m = panel.lo + ahead, panel.middle + panel.moved(np.zeros(1), ahead)
+        total = np.zeros(len(s))
+        for side in (1.0, -1.0):
+            x = m[:, None] + side * s[:, None] * t
+            p = self.sums.pressure(x.ravel(), np.repeat(s, len(t))).reshape(x.shape)
+            total += s * self.friction * (p @ g)
+        return total
+
+    # -- beside the contact ------------------------------------------------------------------------
+
+    def hilbert_outside(self, rise: Array, side: float) -> Array:
+        """|1/π ∫p/(x - t) dt| at a distance from the right (side 1) or left edge."""
+        history = History(self.flat)
+        history.panels = list(self.panels)
+        return history.slope(side, 0.5 * rise, rise)[0]
+
+    def gap(self, x: Array, profile: Profile) -> Array:
+        """The gap between the deformed bodies: 0 in contact."""
+        flat = np.asarray(x, dtype=float).ravel()
+        lo, hi = profile.domain
+        out: Array = zero_or_nan(flat)
+        out[(flat < lo) | (flat > hi) | np.isinf(flat)] = np.inf
+        known = np.isfinite(flat) & (out == 0.0)
+        for edge, side in ((self.contact.x1, -1.0), (self.contact.x2, 1.0)):
+            beside = known & (side * (flat - edge) > 0.0)
+            if beside.any():
+                rise = profile.height(flat[beside]) - profile.height(np.array(edge))
+                raised = outwards(
+                    lambda d, side=side: self.hilbert_outside(d, side),
+                    np.abs(flat[beside] - edge),
+                    self.b,
+                )
+                out[beside] = rise - raised / self.half_modulus
+        return out.reshape(np.shape(x))
+
+
+def truncated(panels: tuple[UnevenPanel, ...], s: float) -> tuple[UnevenPanel, ...]:
+    """The panels up to a half-width."""
+    kept = [panel for panel in panels if panel.hi <= s]
+    if len(kept) < len(panels) and panels[len(kept)].lo < s:
+        panel = panels[len(kept)]
+        ahead = 0.5 * (s - panel.lo) * (1.0 + chebyshev.points(len(panel.rates)))
+        y = panel.variable(ahead)
+        series, rates = (
+            chebyshev.transform(chebyshev.evaluate(c, y)) for c in (panel.series, panel.rates)
+        )
+        kept.append(replace(panel, hi=s, series=series, rates=rates))
+    return tuple(kept)
+
+
+def uneven_contact(scene: Scene, bound: Normal) -> tuple[Edges, UnevenContact]:
+    """The edges and the state; ContactError where none is known.
+
+    `bound` is the contact without friction; the scene has no tilt but that of its profile.
+    """
+    flat = flat_functions(abs(scene.beta), scene.friction)
+    half_modulus = 0.5 * scene.Estar
+    lo, hi = bound.edges.contact[:2]
+    slope = bound.slope(scene.profile)
+    march = March(flat, slope, half_modulus, first_touch(slope, lo, hi))
+    width, P = bound.edges.contact.r, scene.normal_load
+    if width <= march.base:
+        raise ContactError("flat")
+    goal, before = width, 0.0
+    while True:
+        panel = march.advance(goal)
+        end = panel.length
+        if P is not None and march.load >= P:
+            end = _at_load(panel, P - before)
+        refuse_turning(panel, end, before, flat)
+        if P is not None and march.load >= P or P is None and panel.hi >= goal:
+            break
+        if march.ended is not None:
+            raise ContactError(_at_end(march))
+        before = march.load
+        if panel.hi >= goal:
+            goal *= 1.1
+    panels = truncated(tuple(march.history.panels), panel.lo + end)
+    load = P if P is not None else march.load
+    kinks = tuple(k for _, _, k in march.kinks if k < panel.lo + end)
+    state = UnevenContact(
+        flat,
+        panels,
+        (march.touch.lo, march.touch.hi),
+        kinks,
+        load,
+        math.copysign(1.0, scene.beta),
+        half_modulus,
+    )
+    edges = Edges(state.contact, load, state.moment, 0.0, (False, False), 0.0, 0.0, 0.0, 0)
+    return edges, state
+
+
+def _at_load(panel: UnevenPanel, missing: float) -> float:
+    """How far along the panel it carries that load."""
+    lo, hi = 0.0, panel.length
+    d = hi * missing / panel.load(hi)
+    for _ in range(60):
+        missed = panel.load(d) - missing
+        lo, hi = (lo, d) if missed > 0.0 else (d, hi)
+        if abs(missed) <= NEARLY * missing:
+            break
+        d -= missed / float(panel(np.array([d]))[0])
+        if not lo < d < hi:
+            d = 0.5 * (lo + hi)
+    return d
+
+
+def _at_end(march: March) -> str:
+    edge = march.ended
+    assert edge is not None
+    return (
+        f"under P = {march.load:.6g} the contact reaches the end of the indenter at x = "
+        f"{edge.place:.6g}: beyond, one of its edges stays there while the other one moves, and "
+        "how the stick zone between dissimilar bodies moves then is not solved; lower the load, "
+        "round the corner, set friction = 0, or give dundurs = 0 to neglect β"
+    )
