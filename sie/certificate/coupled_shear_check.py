@@ -95,10 +95,9 @@ def _kept_gradient(state: State, x: Array, beta: float) -> Array:
     if isinstance(state, ProportionalContact):
         return state.kept_gradient(x)
     if isinstance(state, UnevenContact):
-        lighter = state.lighter
-        p, q = lighter.tractions
-        at_q = q(x)
-        gradient: Array = _principal(_values(lighter), _values(lighter).q, x, at_q) + beta * p(x)
+        p, q = state.lighter.pressure_and_shear(x)
+        values = _values(state.lighter)
+        gradient: Array = _principal(values, values.q, x, q) + beta * p
         return gradient
     return gradient_of_slip(state.search.normal, np.abs(x - state.axis), beta)
 
@@ -110,6 +109,9 @@ def _values(state: State) -> Values:
     # Next to a mark that counts as another one a node may be that mark, where p may be infinite
     apart = ~np.isin(nodes, state.marks)
     nodes, weight = nodes[apart], weight[apart]
+    if isinstance(state, UnevenContact):
+        rows = state.pressure_and_shear(nodes)
+        return Values((marks[0], marks[-1]), nodes, weight, rows[0], rows[1])
     return Values((marks[0], marks[-1]), nodes, weight, p(nodes), q(nodes))
 
 

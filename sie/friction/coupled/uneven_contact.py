@@ -6,6 +6,7 @@ functions of its half-width (`uneven_growth`). β < 0 only turns the sign of the
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -19,10 +20,12 @@ from sie.errors import ContactError
 from sie.numerics import chebyshev
 from sie.numerics.gauss_jacobi import with_weight
 from sie.numerics.interval import Interval
+from sie.numerics.root_finding import false_position
 from sie.problem.scene import Scene
 from sie.profiles.base import Profile
 from sie.traction.base import on_line, zero_or_nan
 
+from .flat import double_exponential
 from .functions import FlatFunctions, flat_functions
 from .integral import outwards
 from .two_sided import Known, TwoSidedTraction, both_tractions
@@ -33,7 +36,9 @@ from .uneven_sums import UnevenSums
 Array = NDArray[np.float64]
 
 APART = 1e-13  # of the half-width: marks that are nearer are one
-ENERGY_NODES = 12  # of a panel
+# Places of s between two kinks at which the power of friction is summed, and the root of the
+# distance from a kink in which it is smooth
+ENERGY_NODES, FOLD = 14, 3.0
 LIGHTER = 0.9  # of the growth: the load under which what sticks stuck already
 FARTHEST = 64.0  # times the frictionless half-width: where the search ends
 NEARLY = 1e-14  # of the load
@@ -134,8 +139,7 @@ class UnevenContact:
 
     def pressure_and_shear(self, x: Array) -> Array:
         """Rows of p and q."""
-        p, end = self.pressure(x), np.full(len(x), self.b)
-        deficit = self.sums.shear_deficit(x, end)
+        p, deficit = self.sums.pressure_and_deficit(x, np.full(len(x), self.b))
         q, finite = np.zeros(len(x)), np.isfinite(p)
         q[finite] = (self.friction * p - deficit)[finite]
         return np.stack((p, self.sign * self.sums.sides(x) * q))
@@ -197,23 +201,52 @@ class UnevenContact:
     @cached_property
     def energy(self) -> float:
         """The dissipated energy: ∫ f p |dg| over both slip zones, while P grew."""
-        total = 0.0
-        for panel in self.panels:
-            x, _, w = with_weight(ENERGY_NODES, 0.0, panel.power)
-            ahead = panel.length * x
-            total += float((panel.length * w * panel(ahead)) @ self._rate(panel, ahead))
+        total, base = 0.0, self.panels[0].lo
+        for lo, hi in itertools.pairwise(sorted({base, *self.kinks, *self._passings, self.b})):
+            # A broken power of the distance from a kink is smooth in the root of its FOLD
+            power = self.panels[0].power if lo == base else 0.0
+            x, _, w = with_weight(ENERGY_NODES, 0.0, FOLD * (power + 1.0) - 1.0)
+            ahead, part = (hi - lo) * x**FOLD, FOLD * (hi - lo) * w * x ** (FOLD - 1.0)
+            s, loads = lo + ahead, np.empty(len(x))
+            for panel in self.panels:
+                own = (s > panel.lo) & (s <= panel.hi)
+                loads[own] = panel(s[own] - panel.lo)
+            total += float((part * loads) @ self._rate(s))
         return total / self.half_modulus
 
-    def _rate(self, panel: UnevenPanel, ahead: Array) -> Array:
-        """∫ f p ĝ dx over the slip zones of contacts of the half-widths lo + ahead."""
-        t, e, from_c, weight = self.flat.slip_places
-        g = weight * self.flat.slip(t, e, from_c)
-        s, m = panel.lo + ahead, panel.middle + panel.moved(np.zeros(1), ahead)
+    @property
+    def _passings(self) -> tuple[float, ...]:
+        """The half-widths at which an end of the stick zone passes where an edge met a kink."""
+        found = []
+        for s, k in itertools.product((self.panels[0].lo, *self.kinks), (0, 1)):
+            place, side = self._edges_at(s)[k], 2 * k - 1
+
+            def ahead(
+                width: float, place: float = place, k: int = k, side: int = side
+            ) -> float:
+                return side * (self._edges_at(width, self.flat.c)[k] - place)
+
+            if s > 0.0 and ahead(self.b) > 0.0:
+                ends = ahead(s), ahead(self.b)
+                root = false_position(ahead, s, self.b, ends, lambda a, b, missed: False)
+                found.append(root)
+        return tuple(found)
+
+    def _rate(self, s: Array) -> Array:
+        """∫ f p ĝ dx over the slip zones of contacts of the half-widths s."""
+        flat, (part, rest, dx) = self.flat, double_exponential()
         total = np.zeros(len(s))
-        for side in (1.0, -1.0):
-            x = m[:, None] + side * s[:, None] * t
-            p = self.sums.pressure(x.ravel(), np.repeat(s, len(t))).reshape(x.shape)
-            total += s * self.friction * (p @ g)
+        for k, side in itertools.product(range(len(s)), (1.0, -1.0)):
+            edge = self._edges_at(s[k])[int(side > 0.0)]
+            # In parts of s, the distances from the edge at which p is not smooth
+            inside = [side * (edge - mark) / s[k] for mark in self.marks]
+            cuts = np.array([0.0, *sorted(e for e in inside if 0.0 < e < flat.rest), flat.rest])
+            lo, length = cuts[:-1, None], np.diff(cuts)[:, None]
+            e = (lo + length * part).ravel()
+            from_c = ((flat.rest - cuts[1:, None]) + length * rest).ravel()
+            p = self.sums.pressure(edge - side * s[k] * e, np.full(len(e), s[k]))
+            g = flat.slip(1.0 - e, e, from_c)
+            total[k] += self.friction * s[k] * float((length * dx).ravel() @ (p * g))
         return total
 
     # -- beside the contact ------------------------------------------------------------------------

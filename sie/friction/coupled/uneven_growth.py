@@ -38,6 +38,7 @@ Array = NDArray[np.float64]
 
 DEGREE = 18
 NEWTONS = 14
+CHOP = 1e-17  # of a panel's length: terms of the middle
 SETTLED = 1e-12  # of P' and m': a step of Newton's method that small is the last but one
 SHORT_STEP, ROUGH = 1e-3, 1e-7  # of a step: the matrix is kept below it; a longer one may follow
 SHIFTED = 1e-4  # of the distance from the edge: steps of differences, in the matrix alone
@@ -86,14 +87,27 @@ class UnevenPanel:
     def moved(self, place: Array, by: Array) -> Array:
         """m(lo + place + by) - m(lo + place), to relative accuracy however small `by` is."""
         y, z = self.variable(place), self.variable(place + by)
-        c = self.shifts
-        b, b_next = np.zeros_like(y), np.zeros_like(y)
-        quotient, next_one = np.zeros_like(z), np.zeros_like(z)
+        c = self._chopped
+        twice, b, b_next = 2.0 * z, np.zeros_like(y), np.zeros_like(y)
+        quotient, before, spare = np.zeros_like(z), np.zeros_like(z), np.empty_like(z)
         for a in c[:0:-1].tolist():
-            quotient, next_one = 2.0 * b + 2.0 * z * quotient - next_one, quotient
+            np.multiply(twice, quotient, out=spare)
+            spare -= before
+            spare += 2.0 * b
+            quotient, before, spare = spare, quotient, before
             b, b_next = a + 2.0 * y * b - b_next, b
-        values: Array = 2.0 / self.length * by * (b + z * quotient - next_one)
-        return values
+        quotient *= z
+        quotient -= before
+        quotient += b
+        quotient *= 2.0 / self.length * by
+        return quotient
+
+    @cached_property
+    def _chopped(self) -> Array:
+        # Constants do not count
+        size = np.abs(self.shifts[1:])
+        kept = np.flatnonzero(size > CHOP * (0.5 * self.length + size.max()))
+        return self.shifts[: kept[-1] + 2] if kept.size else self.shifts[:2]
 
     @cached_property
     def whole_shift(self) -> float:
@@ -110,6 +124,11 @@ class UnevenPanel:
         x, _, w = with_weight(DEGREE, 0.0, self.power)
         ahead = self.length * x
         return ahead, self.length * w * self(ahead)
+
+    @cached_property
+    def moved_at_places(self) -> Array:
+        """m there less m at lo."""
+        return self.moved(np.zeros(1), self.places[0])
 
     def load(self, ahead: float) -> float:
         """∫P' ds from lo on."""
@@ -160,7 +179,7 @@ class History:
                 near.append((owner, E, panel.lo + inside + E, panel(inside) * weight))
             else:
                 inside, mass = panel.places
-                E = between + (end - inside) - side * panel.moved(end, inside - end)
+                E = between + panel.spread(side) - (inside + side * panel.moved_at_places)
                 far.append((E, panel.lo + inside, mass))
             between += panel.spread(side)
             beyond += panel.length

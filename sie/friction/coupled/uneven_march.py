@@ -27,6 +27,7 @@ Array = NDArray[np.float64]
 
 DECAYED = 1e-13  # of a series, its last coefficients
 NEGLIGIBLE = 1e-12  # of the load, or of the half-width: what a short panel may miss
+UNRESOLVED = 1e-9  # of the same: what is refused
 NO_LESS = 0.5  # of what a panel missed before it was cut
 CUT, GROWN = 0.4, 2.5  # of a panel that is cut, and of the next one over it, or over its kink
 # What a panel misses that begins at a kink: its power of the length, and the shortest cut
@@ -232,6 +233,8 @@ class March:
                 before, landing = missed, 0
                 length *= CUT if not at_kink else max((NEGLIGIBLE / missed) ** STEEPLY, LEAST_CUT)
                 continue
+            if missed > UNRESOLVED:
+                raise ContactError(self._unresolved())
             break
         self._next = GROWN * length if before < math.inf and not at_kink else math.inf
         self._accept(panel)

@@ -27,7 +27,8 @@ Array = NDArray[np.float64]
 
 BEFORE, EDGE, NEAR_C, STICK = range(4)
 NEWTONS = 7
-TOGETHER = 256  # intervals that are integrated at once: larger arrays cost more
+NEAR = 0.7  # of a panel's length: nearer to a singularity it is integrated on panels that shrink
+TOGETHER = 512  # intervals that are integrated at once: larger arrays cost more
 NEAREST = 1e-17  # of the half-width, to a singularity
 
 
@@ -48,6 +49,11 @@ class Stretch(NamedTuple):
     length: Array
     E: Array
     ends: NDArray[np.bool_]
+
+    def of(self, k: NDArray[np.intp]) -> Stretch:
+        """Some of them."""
+        start, length, E = self.start[k], self.length[k], self.E[k]
+        return Stretch(self.panel, self.zone, self.which[k], start, length, E, self.ends[k])
 
 
 class Nodes(NamedTuple):
@@ -79,42 +85,41 @@ class UnevenSums:
 
     def pressure(self, x: Array, end: Array) -> Array:
         """p under the contact of half-width `end`, of each x."""
-        f = self.flat
-        chi = f.weight
         p = np.zeros(len(x))
         for stretch in self._stretches(x, end):
-            if stretch.zone == EDGE:
-                self._add(
-                    p, stretch, x, lambda n: f.sine * chi(*n[:3]) * f.Psi(n.t, n.e), -f.h
-                )
-                continue
-            self._add(p, stretch, x, lambda n: f.A(n.t, n.e))
-            if stretch.zone == NEAR_C:
-                self._add(
-                    p,
-                    stretch,
-                    x,
-                    lambda n: -f.sine * chi(*n[:3]) * f.S_beside_c(n.t, n.e),
-                    at_c=f.h,
-                )
+            self._add_pressure(p, stretch, x)
         return p
 
-    def shear_deficit(self, x: Array, end: Array) -> Array:
-        """f p - q on the side that came first, 0 in slip."""
-        f, deficit = self.flat, np.zeros(len(x))
+    def pressure_and_deficit(self, x: Array, end: Array) -> tuple[Array, Array]:
+        """p, and f p - q on the side that came first, 0 in slip."""
+        f, p, deficit = self.flat, np.zeros(len(x)), np.zeros(len(x))
 
         def value(n: Nodes) -> Array:
             values: Array = f.weight(*n[:3]) * f.S(n.t, n.e) / f.beta
-            if n.back.any():
-                values[n.back] = (
-                    2.0 * f.friction * f.A(n.t[n.back], n.e[n.back]) - values[n.back]
-                )
+            back = n.back
+            if back.any():
+                values[back] = 2.0 * f.friction * f.A(n.t[back], n.e[back]) - values[back]
             return values
 
         for stretch in self._stretches(x, end):
+            self._add_pressure(p, stretch, x)
             if stretch.zone == STICK:
                 self._add(deficit, stretch, x, value, at_c=f.h)
-        return deficit
+        return p, deficit
+
+    def _add_pressure(self, p: Array, stretch: Stretch, x: Array) -> None:
+        f, chi = self.flat, self.flat.weight
+        if stretch.zone == EDGE:
+            self._add(p, stretch, x, lambda n: f.sine * chi(*n[:3]) * f.Psi(n.t, n.e), -f.h)
+            return
+        self._add(p, stretch, x, lambda n: f.A(n.t, n.e))
+        if stretch.zone == NEAR_C:
+
+            def beside_c(n: Nodes) -> Array:
+                values: Array = -f.sine * chi(*n[:3]) * f.S_beside_c(n.t, n.e)
+                return values
+
+            self._add(p, stretch, x, beside_c, at_c=f.h)
 
     def slip(self, x: Array, end: Array) -> Array:
         """E*/2 times the slip outwards since x came into contact."""
@@ -185,11 +190,11 @@ class UnevenSums:
     ) -> tuple[Array, Array, NDArray[np.bool_]]:
         """How far s goes until E = part s, or as far as there is room; how E grows; and which."""
 
-        def grown(d: Array) -> Array:
-            values: Array = d + side * panel.moved(start, d)
-            return values
-
-        rise = grown(room)
+        rise = panel.spread(1.0) - panel.length  # of whole panels
+        rise = panel.length + side * rise
+        less = (start > 0.0) | (room < panel.length)
+        if less.any():
+            rise[less] = room[less] + side[less] * panel.moved(start[less], room[less])
         if part < 0.0:
             return room, rise, np.zeros(len(room), dtype=bool)
         s = panel.lo + start
@@ -224,33 +229,63 @@ class UnevenSums:
         `at_edge` and `at_c` are the function's exponents at t = 1 and t = c.
         """
         panel, zone = stretch.panel, stretch.zone
-        own = stretch.E <= 0.0 if zone == EDGE else self._from_c(stretch) <= 0.0
-        for starts in (True, False):
-            for begins in (True, False):
-                for ends in (True, False):
-                    chosen = (own == starts) & ((stretch.start == 0.0) == begins)
-                    chosen &= stretch.ends == ends
-                    k = np.flatnonzero(chosen & (stretch.length > 0.0))
-                    for few in (k[j : j + TOGETHER] for j in range(0, len(k), TOGETHER)):
-                        first = panel.power if begins else 0.0
-                        if over_s and begins and panel.lo == 0.0:
-                            first -= 1.0
-                        if starts and zone == EDGE:
-                            first += at_edge
-                        if starts and zone == STICK and panel.lo + stretch.start[0] > 0.0:
-                            first += at_c
-                        if first <= -1.0:
-                            total[stretch.which[few]] = np.inf
-                            continue
-                        last = at_c if ends and zone == NEAR_C else 0.0
-                        part = stretch._replace(
-                            which=stretch.which[few],
-                            start=stretch.start[few],
-                            length=stretch.length[few],
-                            E=stretch.E[few],
-                            ends=stretch.ends[few],
-                        )
-                        self._integrate(total, part, x, function, (first, last), at_c, over_s)
+        left = stretch.length > 0.0
+        if zone == STICK:
+            gap = self._from_c(stretch) if at_c else stretch.E
+            far = (stretch.length == panel.length) & (gap >= NEAR * panel.length)
+            far &= (1.0 + self.flat.c) * panel.hi - stretch.E >= 3.0 * panel.length
+            far &= left & (panel.lo > 0.0)
+            if far.any():
+                self._add_far(total, stretch, np.flatnonzero(far), x, function, over_s)
+                left &= ~far
+        own = np.zeros(len(left), dtype=bool)
+        if zone == EDGE and at_edge:
+            own = stretch.E <= 0.0
+        elif zone == STICK and at_c:
+            own = self._from_c(stretch) <= 0.0
+        begins = (stretch.start == 0.0) & (panel.power != 0.0 or panel.lo == 0.0)
+        ends = stretch.ends & (zone == NEAR_C) & (at_c != 0.0)
+        kinds = 4 * own + 2 * begins + ends
+        for kind in np.unique(kinds[left]).tolist():
+            k = np.flatnonzero(left & (kinds == kind))
+            first = 0.0
+            if kind & 2:
+                first = panel.power - (1.0 if over_s and panel.lo == 0.0 else 0.0)
+            if kind & 4 and not (kind & 2 and panel.lo == 0.0):
+                first += at_edge if zone == EDGE else at_c
+            if first <= -1.0:
+                total[stretch.which[k]] = np.inf
+                continue
+            powers = first, at_c if kind & 1 else 0.0
+            for few in (k[j : j + TOGETHER] for j in range(0, len(k), TOGETHER)):
+                self._integrate(total, stretch.of(few), x, function, powers, at_c, over_s)
+
+    def _add_far(
+        self,
+        total: Array,
+        stretch: Stretch,
+        k: NDArray[np.intp],
+        x: Array,
+        function: Function,
+        over_s: bool,
+    ) -> None:
+        """Adds the integrals over whole panels that are far from all singularities."""
+        panel, (inside, mass) = stretch.panel, stretch.panel.places
+        s = panel.lo + inside
+        part = mass / s if over_s else mass
+        side = self.sides(x[stretch.which[k]])[:, None]
+        e = (stretch.E[k][:, None] + (inside + side * panel.moved_at_places)) / s
+        values = function(self._nodes(e, np.abs(self.flat.rest - e))).reshape(e.shape)
+        total[stretch.which[k]] += values @ part
+
+    def _nodes(self, e: Array, from_c: Array) -> Nodes:
+        """Places of the flat, given 1 - t and |t - c|."""
+        t = 1.0 - e
+        back = t < 0.0
+        if back.any():
+            t, from_c = np.abs(t), np.where(back, self.flat.c - np.abs(t), from_c)
+            e = np.where(back, 1.0 - t, e)
+        return Nodes(t.ravel(), e.ravel(), from_c.ravel(), back.ravel())
 
     def _from_c(self, stretch: Stretch) -> Array:
         """s (c - t) at the start of intervals in stick."""
@@ -305,13 +340,7 @@ class UnevenSums:
         if part.zone == STICK:
             more = self._from_c(part)[owner][:, None]
             from_c = (np.maximum(more, 0.0) + ((1.0 - f.rest) * ahead + moved)) / s
-        t = 1.0 - e
-        back_side = t < 0.0
-        if back_side.any():
-            t, from_c = np.abs(t), np.where(back_side, f.c - np.abs(t), from_c)
-            e = np.where(back_side, 1.0 - t, e)
-        nodes = Nodes(*(a.ravel() for a in (t, e, from_c, back_side)))
-        values = function(nodes).reshape(s.shape) * panel(start + ahead) * weight
+        values = function(self._nodes(e, from_c)).reshape(s.shape) * panel(start + ahead) * weight
         if over_s:
             values /= s
         np.add.at(total, part.which, totals(owner, values, len(s0)))
