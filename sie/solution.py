@@ -268,7 +268,8 @@ class Solution:
     def coupled(self) -> tuple[Edges, CoupledContact | UnevenContact | ShearedContact]:
         """The edges and the state of dissimilar bodies in partial slip."""
         if self.scene.tangential_load:
-            return sheared_contact(self.scene, self.tangential_search)
+            edges, state = sheared_contact(self._upright, self.tangential_search)
+            return replace(edges, tilt=self.scene.tilt), state
         return self.pressed
 
     @cached_property
@@ -295,7 +296,7 @@ class Solution:
         if isinstance(pressed, UnevenContact):
             raise uneven_under_shear(self.scene)
         return tangential_search(
-            self.scene, pressed, lambda scene: self._frictionless(scene).edges
+            self._upright, pressed, lambda scene: self._frictionless(scene).edges
         )
 
     def _frictionless(self, scene: Scene) -> Normal:

@@ -50,13 +50,6 @@ def _refuse_dissimilar(scene: Scene) -> None:
             "solved; give a tilt, which is held while the load grows, set moment = 0, set friction "
             f"= 0, or {NEGLECTED}"
         )
-    if scene.tilt and scene.tangential_load:
-        turned = f"give profile.tilted({scene.tilt:g}) if that is symmetric, as a parabola is"
-        raise ContactError(
-            f"{pair} under tangential_load = {scene.tangential_load:g} with tilt = {scene.tilt:g}: "
-            "how their stick zone moves under Q is solved for symmetric profiles; "
-            f"{turned}, set tilt = 0, set friction = 0, or {NEGLECTED}"
-        )
     if scene.tangential_load and scene.half_width is not None:
         raise ContactError(
             f"{pair} under tangential_load = {scene.tangential_load:g} with half_width = "

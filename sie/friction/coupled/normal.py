@@ -52,7 +52,9 @@ def _axis(scene: Scene, bound: Edges) -> float | None:
     profile, contact = scene.profile, bound.contact
     if profile.axis is not None:
         return profile.axis
-    y = contact.r * (np.arange(LOOKS) + 0.5) / LOOKS
+    # Next to the edges too, as a light load only reaches the beginning of rounded edges
+    part = np.append((np.arange(LOOKS) + 0.5) / LOOKS, 1.0 - 0.5 ** np.arange(2.0, 40.0))
+    y = contact.r * part
     right, left = profile.slope(contact.m + y), profile.slope(contact.m - y)
     if float(np.abs(right + left).max()) > EVEN * float(np.abs(right).max()):
         return None

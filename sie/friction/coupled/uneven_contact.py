@@ -30,7 +30,7 @@ from .functions import FlatFunctions, flat_functions
 from .integral import outwards
 from .two_sided import Known, TwoSidedTraction, both_tractions
 from .uneven_growth import History, UnevenPanel
-from .uneven_march import March, first_touch, refuse_turning
+from .uneven_march import NEGLECT, March, first_touch, refuse_turning
 from .uneven_sums import UnevenSums
 
 Array = NDArray[np.float64]
@@ -302,8 +302,6 @@ def uneven_contact(scene: Scene, bound: Normal) -> tuple[Edges, UnevenContact]:
     slope = bound.slope(scene.profile)
     march = March(flat, slope, half_modulus, first_touch(slope, lo, hi))
     width, P = bound.edges.contact.r, scene.normal_load
-    if width <= march.base:
-        raise ContactError("flat")
     goal, before = width, 0.0
     while True:
         panel = march.advance(goal)
@@ -313,14 +311,14 @@ def uneven_contact(scene: Scene, bound: Normal) -> tuple[Edges, UnevenContact]:
         refuse_turning(panel, end, before, flat)
         if P is not None and march.load >= P or P is None and panel.hi >= goal:
             break
-        if march.ended is not None:
+        if march.stopped is not None:
             raise ContactError(_at_end(march))
         before = march.load
         if panel.hi >= goal:
             goal *= 1.1
     panels = truncated(tuple(march.history.panels), panel.lo + end)
     load = P if P is not None else march.load
-    kinks = tuple(k for _, _, k in march.kinks if k < panel.lo + end)
+    kinks = tuple(k for k in march.kinks if k < panel.lo + end)
     state = UnevenContact(
         flat,
         panels,
@@ -350,11 +348,11 @@ def _at_load(panel: UnevenPanel, missing: float) -> float:
 
 
 def _at_end(march: March) -> str:
-    edge = march.ended
+    edge = march.stopped
     assert edge is not None
     return (
-        f"under P = {march.load:.6g} the contact reaches the end of the indenter at x = "
-        f"{edge.place:.6g}: beyond, one of its edges stays there while the other one moves, and "
-        "how the stick zone between dissimilar bodies moves then is not solved; lower the load, "
-        "round the corner, set friction = 0, or give dundurs = 0 to neglect β"
+        f"under P = {march.load:.6g} the contact reaches a corner of the indenter at x = "
+        f"{edge.place:.6g}: there one of its edges stays while the other one moves, and how the "
+        "stick zone between dissimilar bodies moves then is not solved; lower the load, round the "
+        f"corner, {NEGLECT}"
     )

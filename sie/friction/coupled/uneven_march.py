@@ -34,10 +34,11 @@ CUT, GROWN = 0.4, 2.5  # of a panel that is cut, and of the next one over it, or
 STEEPLY, LEAST_CUT = 0.7, 1e-4
 SHORTEST = 1e-13  # of the half-width, a panel
 MOST = 400  # panels
+BEYOND = 1.01  # of the length at which an edge seems to reach a kink, a panel
 LANDED, LANDINGS = 1e-14, 12  # of the half-width: an edge at a kink; and trials
 CLOSE = 1e-12  # of the half-width: kinks so near the place of first contact are that place
-FIRST = 1e-5  # of the half-width from first contact: where the power of the slope is measured
-WHOLE = 1e-3  # of a power, from a whole number
+FIRST = 1e-8  # of the half-width from first contact: where the power of the slope is measured
+WHOLE = 1e-3  # of twice a power, from a whole number
 LOOKS = 200  # places of a panel at which the middle is looked at
 NEGLECT = "set friction = 0, or give dundurs = 0 to neglect β"
 
@@ -77,9 +78,12 @@ class Edge:
         return self.sign * (float(self.slope.breaks[ahead]) - self.entered) - self.since
 
     @property
-    def last(self) -> bool:
-        """Whether the indenter ends there."""
-        return self.piece == (len(self.slope.origins) - 1 if self.sign > 0.0 else 0)
+    def stays(self) -> bool:
+        """Whether the edge would stay there: at the indenter's end, or where its slope jumps."""
+        if self.piece == (len(self.slope.origins) - 1 if self.sign > 0.0 else 0):
+            return True
+        ahead = self.piece + (1 if self.sign > 0.0 else 0)
+        return self.slope.corner(float(self.slope.breaks[ahead]))[0] != 0.0
 
     def values(self, rise: Array) -> Array:
         """E*/2 h' ahead, as it rises outwards."""
@@ -146,8 +150,8 @@ def _beside(slope: Slope, place: float, sign: float, r: float) -> tuple[float, f
     if one <= 0.0 or two <= 0.0:
         return 0.0, 0.0
     power = math.log2(two / one)
-    if abs(power - round(power)) < WHOLE:
-        power = float(round(power))
+    if abs(2.0 * power - round(2.0 * power)) < WHOLE:
+        power = 0.5 * round(2.0 * power)
     return power, one / d**power
 
 
@@ -180,7 +184,9 @@ class March:
         self.load = 0.0
         # Where the last panel began that P' begins with a broken power of the distance from
         self.kinked = self.base if self.power % 1.0 else None
-        self.kinks: list[tuple[int, float, float]] = []
+        self.kinks: list[float] = []
+        # How long the next panel may be, and the largest load that any carried
+        self._next, self._scale = math.inf, 0.0
 
     def _start(self, ends: bool) -> tuple[float, float]:
         """The power of P' and m' at first touch."""
@@ -213,7 +219,10 @@ class March:
             length = min(length, self._next)
         if self.kinked is not None and lo > self.kinked:
             length = min(length, GROWN * (lo - self.kinked))
-        before, landing, scale = math.inf, 0, 0.0
+        rate = float(panels[-1].rates.sum()) if panels else self.rate
+        for edge in self.edges:
+            length = min(length, BEYOND * edge.end / (1.0 + edge.sign * rate))
+        before, landing = math.inf, 0
         at_kink = lo == self.kinked
         while True:
             step_done(0)
@@ -227,8 +236,8 @@ class March:
             if reached < length and landing < LANDINGS:
                 length, landing = reached, landing + 1
                 continue
-            scale = max(scale, self.load + panel.load(math.inf))
-            missed = self._missed(panel, scale)
+            self._scale = max(self._scale, self.load + panel.load(math.inf))
+            missed = self._missed(panel)
             if missed > NEGLIGIBLE and missed <= NO_LESS * before:
                 before, landing = missed, 0
                 length *= CUT if not at_kink else max((NEGLIGIBLE / missed) ** STEEPLY, LEAST_CUT)
@@ -240,8 +249,6 @@ class March:
         self._accept(panel)
         return panel
 
-    _next = math.inf
-
     def _solved(self, lo: float, length: float) -> UnevenPanel | None:
         panels = self.history.panels
         last = panels[-1] if panels else None
@@ -252,14 +259,14 @@ class March:
         sides = Side(self.edges[0].values, 1.0), Side(self.edges[1].values, -1.0)
         return collocated(self.history, empty, sides)
 
-    def _missed(self, panel: UnevenPanel, scale: float) -> float:
+    def _missed(self, panel: UnevenPanel) -> float:
         """What the last coefficients of both series carry, in parts of the load and of s."""
         size, length = np.abs(panel.series), panel.length
         tail = float(size[-3:].max())
         load = tail * length ** (1.0 + panel.power) if tail > DECAYED * size.max() else 0.0
         turned = float(np.abs(panel.rates[-3:]).max())
         turned = turned * length / panel.hi if turned > DECAYED else 0.0
-        return max(load / scale, turned)
+        return max(load / self._scale, turned)
 
     def _crossing(self, panel: UnevenPanel) -> float:
         """How far ahead an edge meets its next kink, the length of the panel if none does."""
@@ -284,17 +291,17 @@ class March:
         history.panels.append(panel)
         for edge in self.edges:
             edge.moved(panel.spread(edge.sign))
-            if not edge.last and abs(edge.end) <= 10.0 * LANDED * panel.hi:
+            if not edge.stays and abs(edge.end) <= 10.0 * LANDED * panel.hi:
                 edge.passed()
                 self.kinked = panel.hi
-                self.kinks.append((int(edge.sign), edge.entered, panel.hi))
+                self.kinks.append(panel.hi)
 
     @property
-    def ended(self) -> Edge | None:
-        """The edge that is at the indenter's end."""
+    def stopped(self) -> Edge | None:
+        """The edge that reached a corner of the indenter."""
         hi = self.s
         for edge in self.edges:
-            if edge.last and edge.end <= 10.0 * LANDED * hi:
+            if edge.stays and edge.end <= 10.0 * LANDED * hi:
                 return edge
         return None
 
@@ -315,14 +322,14 @@ def refuse_turning(panel: UnevenPanel, ahead: float, before: float, flat: FlatFu
     turned = np.flatnonzero(np.abs(rate) >= flat.c)
     if turned.size:
         first = float(places[turned[0]])
-        P = before + panel.load(first)
-        side = "right" if rate[turned[0]] > 0.0 else "left"
+        P, turn = before + panel.load(first), float(rate[turned[0]])
+        start = f"from P = {P:.6g} on, at the half-width {panel.lo + first:.6g}," if P else "at once"
         raise ContactError(
-            f"from P = {P:.6g} on, where the contact has the half-width {panel.lo + first:.6g}, "
-            f"its {side} edge moves so much faster than the other one that the other end of the "
-            f"stick zone would move back (by {float(np.abs(rate[turned[0]])):.3g} of the rate of "
-            f"half the width, where {flat.c:.3g} is allowed): what stuck slips again, and how is "
-            f"not solved between dissimilar bodies; lower the load, change the tilt, {NEGLECT}"
+            f"{start} the middle of the contact moves to the {'right' if turn > 0.0 else 'left'} "
+            f"{abs(turn):.3g} times as fast as its half-width grows. Both ends of the stick zone of "
+            f"dissimilar bodies move outwards only below {flat.c:.3g}; beyond, what stuck slips "
+            f"again, and how is not solved; {'lower the load, ' if P else ''}change the tilt, "
+            f"{NEGLECT}"
         )
     if (load < -1e-9 * np.abs(load).max()).any():
         raise ContactError(
