@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 import math
 from dataclasses import replace
 
@@ -20,12 +19,7 @@ UNEVEN = {
     "polynomial": (SKEW, 0.5),
     "tilted wedge": (sie.Wedge(0.3).tilted(0.1), 0.5),
     "wedge and parabola": (sie.Wedge(0.2).tilted(0.02) + sie.Parabola(1.0), 0.5),
-    "flat base": (
-        sie.Piecewise((-2.0, -0.5, 0.4, 2.0), ((0.0, -1.0), (0.0,), (0.0, 0.5)))
-        if hasattr(sie, "Piecewise")
-        else None,
-        0.2,
-    ),
+    "flat base": (sie.Piecewise((-0.5, 0.4), ((0.5, 1.0), (0.0,), (-0.2, 0.5))), 0.2),
     "function": (sie.FromFunction("exp(x) - 1"), 0.5),
     "broken power": (sie.Power(1.5, 1.0) + SKEW, 0.2),
 }
@@ -161,10 +155,11 @@ def test_moment_and_shear_balance_by_a_plain_quadrature():
         assert np.abs(traction.cauchy(z) - plain).max() < 1e-6
 
 
-def test_the_stress_in_the_body_is_had():
+def test_the_body_yields_first_where_no_other_place_is_stressed_more():
     solution = solved()
     yielding = solution.elastic_limit()
-    assert yielding.y > 0.0 and np.isfinite(solution.peak_tension().value)
+    x, y = np.linspace(-0.6, 0.6, 13), np.geomspace(1e-3, 1.0, 8)[:, None]
+    assert (solution.stress(x, y).j2 <= yielding.j2).all()
 
 
 # -- an independent witness ------------------------------------------------------------------------
@@ -176,8 +171,7 @@ def on_a_grid(state, n):
     edges = np.array([state._edges_at(one) for one in s])
     last = 2.0 * edges[-1] - edges[-2]  # of the outermost cells, where p is 0
     ends = (last[0], *edges[::-1, 0], state.first[0], *edges[:, 1], last[1])
-    height = lambda x: state.half_modulus * SKEW.height(x)  # noqa: E731
-    return spence.followed_contact(height, np.array(ends), (0.3, 0.3))
+    return spence.followed_contact(SKEW.height, np.array(ends), (0.3, 0.3))  # E*/2 = 1
 
 
 def test_a_grid_with_the_same_edges_finds_the_load_and_no_shear_load():
@@ -220,7 +214,7 @@ def test_a_smooth_profile_takes_one_panel_and_few_searches(monkeypatch):
     ("profile", "changes", "words"),
     [
         (sie.Wedge(0.3), {"tilt": 0.25}, "at once the middle of the contact moves to the left"),
-        (SKEW, {"beta": 0.3, "friction": 0.1}, "from P = 0.0145"),
+        (SKEW, {"friction": 0.1}, "from P = 0.0139"),
         (sie.RoundedFlat(0.5, 1.0), {"tilt": 0.05}, "to the right 0.646 times as fast"),
         (sie.Flat(1.0), {"tilt": 0.05}, "touches first at x = -1"),
         (sie.Flat(0.5) + SKEW, {}, "reaches a corner of the indenter at x = -0.5"),
@@ -244,8 +238,3 @@ def test_a_contact_is_solved_up_to_the_load_that_a_refusal_names():
 def test_a_light_load_on_a_wide_base_is_told_from_one_on_a_symmetric_profile():
     sides = sie.RoundedFlat(0.5, 1.0) + sie.RoundedFlat(0.5, 2.0).shifted(0.1)
     assert solved(sides, load=1e-4).check().ok
-
-
-def test_cases_are_apart():
-    assert all(profile is not None for profile, _ in UNEVEN.values())
-    assert len(list(itertools.chain(UNEVEN))) == len(UNEVEN)

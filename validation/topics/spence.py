@@ -141,7 +141,9 @@ def equations(shares: tuple[float, ...]) -> Iterator[Record]:
             solution = solved(profile, beta, f)
             scene = replace(solution.scene, dundurs=beta * (1.0 + OFF))
             found = solution.check()
-            other = coupled_certificate(solution.pressed[1], scene, 1e-13)
+            state = solution.pressed[1]
+            assert isinstance(state, CoupledContact)
+            other = coupled_certificate(state, scene, 1e-13)
             ones.append(found.residual)
             twelves.append(of_shear(found))
             wrong_ones.append(other.residual)

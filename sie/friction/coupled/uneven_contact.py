@@ -8,9 +8,8 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, partial
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -221,9 +220,7 @@ class UnevenContact:
         for s, k in itertools.product((self.panels[0].lo, *self.kinks), (0, 1)):
             place, side = self._edges_at(s)[k], 2 * k - 1
 
-            def ahead(
-                width: float, place: float = place, k: int = k, side: int = side
-            ) -> float:
+            def ahead(width: float, place: float = place, k: int = k, side: int = side) -> float:
                 return side * (self._edges_at(width, self.flat.c)[k] - place)
 
             if s > 0.0 and ahead(self.b) > 0.0:
@@ -268,11 +265,8 @@ class UnevenContact:
             beside = known & (side * (flat - edge) > 0.0)
             if beside.any():
                 rise = profile.height(flat[beside]) - profile.height(np.array(edge))
-                raised = outwards(
-                    lambda d, side=side: self.hilbert_outside(d, side),
-                    np.abs(flat[beside] - edge),
-                    self.b,
-                )
+                H = partial(self.hilbert_outside, side=side)
+                raised = outwards(H, np.abs(flat[beside] - edge), self.b)
                 out[beside] = rise - raised / self.half_modulus
         return out.reshape(np.shape(x))
 
@@ -309,7 +303,7 @@ def uneven_contact(scene: Scene, bound: Normal) -> tuple[Edges, UnevenContact]:
         if P is not None and march.load >= P:
             end = _at_load(panel, P - before)
         refuse_turning(panel, end, before, flat)
-        if P is not None and march.load >= P or P is None and panel.hi >= goal:
+        if panel.hi >= goal if P is None else march.load >= P:
             break
         if march.stopped is not None:
             raise ContactError(_at_end(march))

@@ -157,9 +157,7 @@ class History:
         self.flat = flat
         self.panels: list[UnevenPanel] = []
 
-    def slope(
-        self, side: float, ahead: Array, rise: Array
-    ) -> tuple[Array, Callable[[], Array]]:
+    def slope(self, side: float, ahead: Array, rise: Array) -> tuple[Array, Callable[[], Array]]:
         """∫P' D over all panels, and its derivative, for edges that rose so far beyond them.
 
         `ahead` is how far s is beyond them.

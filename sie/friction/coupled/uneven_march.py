@@ -8,14 +8,14 @@ which it happens.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from sie.errors import ContactError
-from sie.numerics.interval import EPS
 from sie.numerics.root_finding import false_position
 from sie.profiles.slope import Slope
 from sie.progress_bar import step_done
@@ -39,8 +39,14 @@ LANDED, LANDINGS = 1e-14, 12  # of the half-width: an edge at a kink; and trials
 CLOSE = 1e-12  # of the half-width: kinks so near the place of first contact are that place
 FIRST = 1e-8  # of the half-width from first contact: where the power of the slope is measured
 WHOLE = 1e-3  # of twice a power, from a whole number
+FALLING = 1e-9  # of the largest P': below it a negative one is not rounding
 LOOKS = 200  # places of a panel at which the middle is looked at
 NEGLECT = "set friction = 0, or give dundurs = 0 to neglect β"
+
+
+def never(a: float, b: float, missed: float) -> bool:
+    """False: a root is sought to rounding."""
+    return False
 
 
 class Touch(NamedTuple):
@@ -124,19 +130,17 @@ def first_touch(slope: Slope, lo: float, hi: float) -> Touch:
 def _minimum(slope: Slope, pieces: list[int], within: tuple[float, float]) -> float:
     """The place where h' changes sign."""
 
-    def value(k: int, x: float) -> float:
+    def value(x: float, k: int) -> float:
         at = np.array([x])
         return float(slope.local(np.array([k]), at, np.zeros(1), np.zeros((1, 1)))[0, 0])
 
     for k in pieces:
         lo, hi = max(within[0], float(slope.breaks[k])), min(within[1], float(slope.breaks[k + 1]))
-        ends = value(k, lo), value(k, hi)
+        ends = value(lo, k), value(hi, k)
         if ends[0] >= 0.0:
             return lo
         if ends[1] > 0.0:
-            return false_position(
-                lambda x, k=k: value(k, x), lo, hi, ends, lambda a, b, missed: False
-            )
+            return false_position(partial(value, k=k), lo, hi, ends, never)
     return within[1]
 
 
@@ -168,7 +172,9 @@ def edge_at(slope: Slope, place: float, sign: float, half_modulus: float) -> Edg
 class March:
     """The panels from first touch on."""
 
-    def __init__(self, flat: FlatFunctions, slope: Slope, half_modulus: float, touch: Touch) -> None:
+    def __init__(
+        self, flat: FlatFunctions, slope: Slope, half_modulus: float, touch: Touch
+    ) -> None:
         self.flat, self.touch = flat, touch
         self.history = History(flat)
         self.base = 0.5 * (touch.hi - touch.lo)
@@ -193,9 +199,7 @@ class March:
         (q, other), (left, right) = self.touch.powers, self.touch.strengths
         uneven = abs(q - other) > WHOLE or min(left, right) <= 0.0
         if ends or uneven or math.inf in (left, right):
-            where = f"x = {self.touch.lo:.6g}" + (
-                f" ... {self.touch.hi:.6g}" if self.base else ""
-            )
+            where = f"x = {self.touch.lo:.6g}" + (f" ... {self.touch.hi:.6g}" if self.base else "")
             raise ContactError(
                 f"the profile touches first at {where}, and rises so unlike on both sides, as at a "
                 "corner, that one edge of contact stays there while the other one moves: behind an "
@@ -281,7 +285,7 @@ class March:
                 return d + edge.sign * moved - far
 
             ends = -far, beyond(panel.length)
-            found = false_position(beyond, 0.0, panel.length, ends, lambda a, b, missed: False)
+            found = false_position(beyond, 0.0, panel.length, ends, never)
             ahead = min(ahead, found)
         return ahead
 
@@ -318,22 +322,36 @@ def refuse_turning(panel: UnevenPanel, ahead: float, before: float, flat: FlatFu
     places = ahead * (np.arange(LOOKS) + 1.0) / LOOKS
     if panel.power == 0.0:
         places = np.append(0.0, places)
-    rate, load = panel.rate(places), panel(places)
-    turned = np.flatnonzero(np.abs(rate) >= flat.c)
+    excess, load = np.abs(panel.rate(places)) - flat.c, panel(places)
+    turned = np.flatnonzero(excess >= 0.0)
     if turned.size:
-        first = float(places[turned[0]])
-        P, turn = before + panel.load(first), float(rate[turned[0]])
-        start = f"from P = {P:.6g} on, at the half-width {panel.lo + first:.6g}," if P else "at once"
-        raise ContactError(
-            f"{start} the middle of the contact moves to the {'right' if turn > 0.0 else 'left'} "
-            f"{abs(turn):.3g} times as fast as its half-width grows. Both ends of the stick zone of "
-            f"dissimilar bodies move outwards only below {flat.c:.3g}; beyond, what stuck slips "
-            f"again, and how is not solved; {'lower the load, ' if P else ''}change the tilt, "
-            f"{NEGLECT}"
-        )
-    if (load < -1e-9 * np.abs(load).max()).any():
+        k = int(turned[0])
+        first = float(places[k])
+        if k:
+            ends = float(excess[k - 1]), float(excess[k])
+            first = false_position(
+                lambda d: abs(float(panel.rate(np.array([d]))[0])) - flat.c,
+                float(places[k - 1]),
+                first,
+                ends,
+                never,
+            )
+        turn = float(panel.rate(np.array([first]))[0])
+        raise ContactError(_turning(panel.lo + first, before + panel.load(first), turn, flat.c))
+    if (load < -FALLING * np.abs(load).max()).any():
         raise ContactError(
             "the contact of dissimilar bodies with friction would not grow steadily under P = "
             f"{before:.6g}: coupled slip is solved for convex profiles; smooth the profile, or "
             "give dundurs = 0 to neglect β"
         )
+
+
+def _turning(s: float, P: float, turn: float, c: float) -> str:
+    """Why there is no answer beyond the half-width s and the load P."""
+    start = f"from P = {P:.6g} on, at the half-width {s:.6g}," if P > 0.0 else "at once"
+    return (
+        f"{start} the middle of the contact moves to the {'right' if turn > 0.0 else 'left'} "
+        f"{abs(turn):.3g} times as fast as its half-width grows. Both ends of the stick zone of "
+        f"dissimilar bodies move outwards only below {c:.3g}; beyond, what stuck slips again, and "
+        f"how is not solved; {'lower the load, ' if P > 0.0 else ''}change the tilt, {NEGLECT}"
+    )
