@@ -21,6 +21,7 @@ from oracles import spence
 from sie.certificate.coupled_check import coupled_certificate
 from sie.certificate.coupled_shear_check import sheared_certificate
 from sie.certificate.shear_check import goodman_certificate
+from sie.friction.coupled.contact import CoupledContact
 from sie.friction.coupled.flat import flat_punch
 from sie.friction.coupled.sheared import ShearedContact
 from sie.friction.goodman.slip import GoodmanSlip

@@ -31,12 +31,12 @@ from sie.numerics import chebyshev
 from sie.numerics.gauss_jacobi import with_weight
 
 from .functions import FlatFunctions
-from .growth import SHORTER
-from .panels import graded, totals
+from .panels import LONGEST, graded, totals
 
 Array = NDArray[np.float64]
 
 DEGREE = 18
+SHORTER = 0.5 * LONGEST  # of a panel of v: beside the kernel its integrand has all of the series
 NEWTONS = 14
 CHOP = 1e-17  # of a panel's length: terms of the middle
 SETTLED = 1e-12  # of P' and m': a step of Newton's method that small is the last but one

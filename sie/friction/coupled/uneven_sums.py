@@ -55,7 +55,9 @@ class Stretch(NamedTuple):
 
     def of(self, k: NDArray[np.intp]) -> Stretch:
         """Some of them."""
-        return Stretch(self.panel, self.zone, *(column[k] for column in self[2:]))
+        start, length, E = self.start[k], self.length[k], self.E[k]
+        which, side, ends = self.which[k], self.side[k], self.ends[k]
+        return Stretch(self.panel, self.zone, which, side, start, length, E, ends)
 
     @property
     def s(self) -> Array:
