@@ -77,6 +77,12 @@ def _growth(
     return solved_growth(flat, pieces) if pieces else (), kinks
 
 
+def _without_friction(scene: Scene) -> Scene:
+    """The scene whose contact bounds the search."""
+    P, b = scene.normal_load, scene.half_width
+    return Scene(profile=scene.profile, modulus=scene.Estar, normal_load=P, half_width=b)
+
+
 @reported("contact of dissimilar bodies")
 def coupled_contact(
     scene: Scene, frictionless: Callable[[Scene], Normal]
@@ -88,14 +94,7 @@ def coupled_contact(
     beta = scene.beta
     flat = flat_functions(abs(beta), scene.friction)
     half_modulus = 0.5 * scene.Estar
-    bound = frictionless(
-        Scene(
-            profile=scene.profile,
-            modulus=scene.Estar,
-            normal_load=scene.normal_load,
-            half_width=scene.half_width,
-        )
-    )
+    bound = frictionless(_without_friction(scene))
     widest, sharp = bound.edges.contact.r, bound.edges.sharp[0]
     axis = _axis(scene, bound.edges)
     if axis is None:

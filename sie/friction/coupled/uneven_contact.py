@@ -38,9 +38,10 @@ APART = 1e-13  # of the half-width: marks that are nearer are one
 # Places of s between two kinks at which the power of friction is summed, and the root of the
 # distance from a kink in which it is smooth
 ENERGY_NODES, FOLD = 14, 3.0
+FEW, MANY_NODES = 4, 32  # kinks; and places where there are more
 LIGHTER = 0.9  # of the growth: the load under which what sticks stuck already
-FARTHEST = 64.0  # times the frictionless half-width: where the search ends
-NEARLY = 1e-14  # of the load
+WIDER = 1.1  # where a load asks for more than the frictionless half-width
+NEARLY, BISECTIONS = 1e-14, 60  # of the load; and steps to it
 
 
 @dataclass(frozen=True, eq=False)
@@ -199,12 +200,20 @@ class UnevenContact:
 
     @cached_property
     def energy(self) -> float:
-        """The dissipated energy: ∫ f p |dg| over both slip zones, while P grew."""
+        """The dissipated energy: ∫ f p |dg| over both slip zones, while P grew.
+
+        The kinks of traces are many and faint: they only cost.
+        """
+        if len(self.kinks) > FEW:
+            return replace(self, kinks=())._energy(MANY_NODES)
+        return self._energy(ENERGY_NODES)
+
+    def _energy(self, nodes: int) -> float:
         total, base = 0.0, self.panels[0].lo
         for lo, hi in itertools.pairwise(sorted({base, *self.kinks, *self._passings, self.b})):
             # A broken power of the distance from a kink is smooth in the root of its FOLD
             power = self.panels[0].power if lo == base else 0.0
-            x, _, w = with_weight(ENERGY_NODES, 0.0, FOLD * (power + 1.0) - 1.0)
+            x, _, w = with_weight(nodes, 0.0, FOLD * (power + 1.0) - 1.0)
             ahead, part = (hi - lo) * x**FOLD, FOLD * (hi - lo) * w * x ** (FOLD - 1.0)
             s, loads = lo + ahead, np.empty(len(x))
             for panel in self.panels:
@@ -291,46 +300,45 @@ def uneven_contact(scene: Scene, bound: Normal) -> tuple[Edges, UnevenContact]:
     `bound` is the contact without friction; the scene has no tilt but that of its profile.
     """
     flat = flat_functions(abs(scene.beta), scene.friction)
-    half_modulus = 0.5 * scene.Estar
-    lo, hi = bound.edges.contact[:2]
+    half_modulus, contact = 0.5 * scene.Estar, bound.edges.contact
     slope = bound.slope(scene.profile)
-    march = March(flat, slope, half_modulus, first_touch(slope, lo, hi))
-    width, P = bound.edges.contact.r, scene.normal_load
-    goal, before = width, 0.0
+    march = March(flat, slope, half_modulus, first_touch(slope, *contact[:2]))
+    s = _marched(march, scene.normal_load, contact.r)
+    state = UnevenContact(
+        flat,
+        truncated(tuple(march.history.panels), s),
+        (march.touch.lo, march.touch.hi),
+        tuple(k for k in march.kinks if k < s),
+        march.load if scene.normal_load is None else scene.normal_load,
+        math.copysign(1.0, scene.beta),
+        half_modulus,
+    )
+    P = state.load
+    return Edges(state.contact, P, state.moment, 0.0, (False, False), 0.0, 0.0, 0.0, 0), state
+
+
+def _marched(march: March, P: float | None, goal: float) -> float:
+    """The half-width under the load, or as far as the goal without one."""
     while True:
+        before = march.load
         panel = march.advance(goal)
         end = panel.length
         if P is not None and march.load >= P:
             end = _at_load(panel, P - before)
-        refuse_turning(panel, end, before, flat)
+        refuse_turning(panel, end, before, march.flat)
         if panel.hi >= goal if P is None else march.load >= P:
-            break
+            return panel.lo + end
         if march.stopped is not None:
-            raise ContactError(_at_end(march))
-        before = march.load
+            raise ContactError(_at_corner(march))
         if panel.hi >= goal:
-            goal *= 1.1
-    panels = truncated(tuple(march.history.panels), panel.lo + end)
-    load = P if P is not None else march.load
-    kinks = tuple(k for k in march.kinks if k < panel.lo + end)
-    state = UnevenContact(
-        flat,
-        panels,
-        (march.touch.lo, march.touch.hi),
-        kinks,
-        load,
-        math.copysign(1.0, scene.beta),
-        half_modulus,
-    )
-    edges = Edges(state.contact, load, state.moment, 0.0, (False, False), 0.0, 0.0, 0.0, 0)
-    return edges, state
+            goal *= WIDER
 
 
 def _at_load(panel: UnevenPanel, missing: float) -> float:
     """How far along the panel it carries that load."""
     lo, hi = 0.0, panel.length
     d = hi * missing / panel.load(hi)
-    for _ in range(60):
+    for _ in range(BISECTIONS):
         missed = panel.load(d) - missing
         lo, hi = (lo, d) if missed > 0.0 else (d, hi)
         if abs(missed) <= NEARLY * missing:
@@ -341,7 +349,8 @@ def _at_load(panel: UnevenPanel, missing: float) -> float:
     return d
 
 
-def _at_end(march: March) -> str:
+def _at_corner(march: March) -> str:
+    """Why there is no answer beyond a corner that an edge has reached."""
     edge = march.stopped
     assert edge is not None
     return (
