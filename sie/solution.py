@@ -50,7 +50,7 @@ from .patches.answer import SeveralPatches, asks_for_patches, light_patches, sev
 from .patches.friction import PatchesUnder, PatchSlip
 from .patches.full import FullContact
 from .patches.result import PatchCertificate, worst_of
-from .problem.coverage import refuse_uncovered, uneven_under_shear
+from .problem.coverage import held_moment, refuse_uncovered, uneven_under_shear
 from .problem.material import Elastic
 from .problem.request import ECONOMY, refuse_unknown_poisson, sheared
 from .problem.scene import Scene
@@ -73,6 +73,7 @@ from .traction.of_slope import SlopeDensity
 Array = NDArray[np.float64]
 
 NEARLY = 0.999  # of f P: a load in partial slip next to sliding
+BALANCED = 1e-9  # of P times the half-width: a moment that needs no tilt
 # Of the slope's change over one patch: where that much of it is not linear, the search for overlaps
 # shows other valleys (it misses them where a contact is 1e-5 of their distance).
 BENT = 1e-3
@@ -281,6 +282,9 @@ class Solution:
             plain = Scene(profile=scene.profile, modulus=scene.Estar, normal_load=P, half_width=b)
             _ = Solution(plain, self.tol).as_one_patch
         edges, state = coupled_contact(scene, self._frictionless)
+        lever = edges.normal_load * edges.contact.r
+        if scene.moment is not None and abs(edges.moment - scene.moment) > BALANCED * lever:
+            raise held_moment(self.scene)
         return replace(edges, tilt=self.scene.tilt), state
 
     @property

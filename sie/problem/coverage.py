@@ -44,12 +44,7 @@ def _refuse_dissimilar(scene: Scene) -> None:
             f"bulk_stress = 0, set friction = 0, or {NEGLECTED}"
         )
     if scene.moment:
-        raise ContactError(
-            f"{pair} pressed with moment = {scene.moment:g}: a moment that is held turns the "
-            "indenter while the load grows, and the slip that this leaves between them is not "
-            "solved; give a tilt, which is held while the load grows, set moment = 0, set friction "
-            f"= 0, or {NEGLECTED}"
-        )
+        raise held_moment(scene)
     if scene.tangential_load and scene.half_width is not None:
         raise ContactError(
             f"{pair} under tangential_load = {scene.tangential_load:g} with half_width = "
@@ -58,6 +53,16 @@ def _refuse_dissimilar(scene: Scene) -> None:
         )
     if scene.tangential_load and scene.profile.pieces.is_flat_punch:
         refuse_corners(scene)
+
+
+def held_moment(scene: Scene) -> ContactError:
+    """The ContactError: a moment that turns the indenter while P grows."""
+    return ContactError(
+        f"dissimilar bodies (β = {scene.beta:.4g}) with friction = {scene.friction:g} pressed with "
+        f"moment = {scene.moment:g}: a moment that is held turns the indenter while the load "
+        "grows, and the slip that this leaves between them is not solved; give a tilt, which is "
+        f"held while the load grows, in place of the moment, set friction = 0, or {NEGLECTED}"
+    )
 
 
 def uneven_under_shear(scene: Scene) -> ContactError:

@@ -219,6 +219,8 @@ def test_a_smooth_profile_takes_one_panel_and_few_searches(monkeypatch):
         (sie.Flat(1.0), {"tilt": 0.05}, "touches first at x = -1"),
         (sie.Flat(0.5) + SKEW, {}, "reaches a corner of the indenter at x = -0.5"),
         (SKEW, {"moment": 0.1}, "give a tilt, which is held while the load grows"),
+        (SKEW, {"moment": 0.0}, "give a tilt, which is held while the load grows"),
+        (sie.Parabola(1.0).shifted(0.5), {"moment": 0.0}, "give a tilt"),
     ],
 )
 def test_what_is_not_solved_is_refused_with_the_reason(profile, changes, words):
