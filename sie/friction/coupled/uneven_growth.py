@@ -43,7 +43,7 @@ SETTLED = 1e-12  # of P' and m': a step of Newton's method that small is the las
 SHORT_STEP, ROUGH = 1e-3, 1e-7  # of a step: the matrix is kept below it; a longer one may follow
 SHIFTED = 1e-4  # of the distance from the edge: steps of differences, in the matrix alone
 NEAR = 0.5  # of a panel's length: nearer it is integrated on panels that shrink towards x
-STEEP, LEAST_SHARE = 0.999, 1e-3  # of m': steps beyond it are cut, to that part
+STEEP, LEAST_SHARE = 1.0 - 1e-9, 1e-3  # of m': steps beyond it are cut, to that part
 GRID = np.linspace(-1.0, 1.0, 33)  # where it is looked at
 
 

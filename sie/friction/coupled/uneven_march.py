@@ -241,7 +241,7 @@ class March:
                 length, landing = reached, landing + 1
                 continue
             self._scale = max(self._scale, self.load + panel.load(math.inf))
-            missed = self._missed(panel)
+            missed = self._missed(panel, goal)
             if missed > NEGLIGIBLE and missed <= NO_LESS * before:
                 before, landing = missed, 0
                 length *= CUT if not at_kink else max((NEGLIGIBLE / missed) ** STEEPLY, LEAST_CUT)
@@ -263,13 +263,13 @@ class March:
         sides = Side(self.edges[0].values, 1.0), Side(self.edges[1].values, -1.0)
         return collocated(self.history, empty, sides)
 
-    def _missed(self, panel: UnevenPanel) -> float:
-        """What the last coefficients of both series carry, in parts of the load and of s."""
+    def _missed(self, panel: UnevenPanel, goal: float) -> float:
+        """What the last coefficients of both series carry, in parts of the load and of the goal."""
         size, length = np.abs(panel.series), panel.length
         tail = float(size[-3:].max())
         load = tail * length ** (1.0 + panel.power) if tail > DECAYED * size.max() else 0.0
         turned = float(np.abs(panel.rates[-3:]).max())
-        turned = turned * length / panel.hi if turned > DECAYED else 0.0
+        turned = turned * length / goal if turned > DECAYED else 0.0
         return max(load / self._scale, turned)
 
     def _crossing(self, panel: UnevenPanel) -> float:
