@@ -349,9 +349,15 @@ def refuse_turning(panel: UnevenPanel, ahead: float, before: float, flat: FlatFu
 def _turning(s: float, P: float, turn: float, c: float) -> str:
     """Why there is no answer beyond the half-width s and the load P."""
     start = f"from P = {P:.6g} on, at the half-width {s:.6g}," if P > 0.0 else "at once"
+    way, less = "right" if turn > 0.0 else "left", "lower the load, " if P > 0.0 else ""
     return (
-        f"{start} the middle of the contact moves to the {'right' if turn > 0.0 else 'left'} "
-        f"{abs(turn):.3g} times as fast as its half-width grows. Both ends of the stick zone of "
-        f"dissimilar bodies move outwards only below {c:.3g}; beyond, what stuck slips again, and "
-        f"how is not solved; {'lower the load, ' if P > 0.0 else ''}change the tilt, {NEGLECT}"
+        f"{start} the middle of the contact moves to the {way} {_below_one(abs(turn))} times as "
+        "fast as its half-width grows. Both ends of the stick zone of dissimilar bodies move "
+        f"outwards only below {_below_one(c)}; beyond, what stuck slips again, and how is not "
+        f"solved; {less}change the tilt, {NEGLECT}"
     )
+
+
+def _below_one(part: float) -> str:
+    """A part in words that tell it from 1."""
+    return f"{part:.3g}" if part < 0.99 else f"(1 - {1.0 - part:.2g})"
