@@ -10,8 +10,8 @@ equations, integrated once from the axis, are for β > 0
 The contact grows cell by cell. In each step a cell either sticks, and g stays as it was, or slips
 outwards with q = f p; an active set finds which. The error is of the first order in the cells.
 
-Under P and Q in proportion the contact is not symmetric. Both of its edges are given then, in one
-proportion while it grows, and P and Q are found: p is 0 in the cells beside.
+Under P and Q in proportion, or under a profile that is not symmetric, the contact is not symmetric.
+Both of its edges are given then while it grows, and P and Q are found: p is 0 in the cells beside.
 """
 
 from collections.abc import Callable
@@ -160,8 +160,22 @@ def oblique_contact(
     n           cells on either side of 0; as many steps
     material    β and f
     """
-    (beta, friction), part = material, np.linspace(0.0, 1.0 + 1.0 / n, n + 2)
-    ends = np.append(edges[0] * part[:0:-1], edges[1] * part)
+    part = np.linspace(0.0, 1.0 + 1.0 / n, n + 2)
+    return followed_contact(rise, np.append(edges[0] * part[:0:-1], edges[1] * part), material)
+
+
+def followed_contact(
+    rise: Callable[[Array], Array], ends: Array, material: tuple[float, float]
+) -> ObliqueContact:
+    """A profile pressed until its contact has all but the outermost of 2 n + 2 cells.
+
+    In each of n steps it gains one on either side.
+
+    rise        E*/2 h
+    ends        of the cells, ascending
+    material    β and f
+    """
+    (beta, friction), n = material, (len(ends) - 3) // 2
     x, width = 0.5 * (ends[1:] + ends[:-1]), np.diff(ends)
 
     def primitive(s: Array) -> Array:  # ∫ ln|s| ds

@@ -38,6 +38,7 @@ from .friction.coupled.sheared_contact import found_state, sheared_contact
 from .friction.coupled.shift import tangential_shift
 from .friction.coupled.tangential import TangentialSearch, tangential_search
 from .friction.coupled.traction import OnHalves
+from .friction.coupled.uneven_contact import UnevenContact
 from .friction.dissipation import dissipated
 from .friction.full_stick import Component, full_stick_contact
 from .friction.goodman.departure import departure
@@ -51,7 +52,7 @@ from .patches.answer import SeveralPatches
 from .patches.friction import PatchesUnder, PatchSlip
 from .patches.full import FullContact
 from .patches.result import PatchCertificate, worst_of
-from .problem.coverage import refuse_uncovered
+from .problem.coverage import held_moment, refuse_uncovered, uneven_under_shear
 from .problem.request import ECONOMY, sheared
 from .problem.scene import Scene
 from .stages import stage as cached_property  # its first reading is logged
@@ -63,6 +64,7 @@ from .traction.of_slope import SlopeDensity
 Array = NDArray[np.float64]
 
 NEARLY = 0.999  # of f P: a load in partial slip next to sliding
+BALANCED = 1e-9  # of P times the half-width: a moment that needs no tilt
 
 
 class Solution(Frictionless, StressAnswers):
@@ -105,27 +107,41 @@ class Solution(Frictionless, StressAnswers):
         return full_stick_contact(self.scene, self.tol)
 
     @cached_property
-    def coupled(self) -> tuple[Edges, CoupledContact | ShearedContact]:
+    def coupled(self) -> tuple[Edges, CoupledContact | UnevenContact | ShearedContact]:
         """The edges and the state of dissimilar bodies in partial slip."""
         if self.scene.tangential_load:
-            return sheared_contact(self.scene, self.tangential_search)
+            edges, state = sheared_contact(self._upright, self.tangential_search)
+            return replace(edges, tilt=self.scene.tilt), state
         return self.pressed
 
     @cached_property
-    def pressed(self) -> tuple[Edges, CoupledContact]:
+    def pressed(self) -> tuple[Edges, CoupledContact | UnevenContact]:
         """The same under the normal load alone."""
-        scene = self.scene
+        scene = self._upright
         if not scene.profile.convex:
             P, b = scene.normal_load, scene.half_width
             plain = Scene(profile=scene.profile, modulus=scene.Estar, normal_load=P, half_width=b)
             _ = Frictionless(plain, self.tol).as_one_patch
-        return coupled_contact(self.scene, self._frictionless)
+        edges, state = coupled_contact(scene, self._frictionless)
+        lever = edges.normal_load * edges.contact.r
+        if scene.moment is not None and abs(edges.moment - scene.moment) > BALANCED * lever:
+            raise held_moment(self.scene)
+        return replace(edges, tilt=self.scene.tilt), state
+
+    @property
+    def _upright(self) -> Scene:
+        """The scene with its tilt in the profile."""
+        scene = self.scene
+        return replace(scene, profile=scene.profile.tilted(scene.tilt), tilt=0.0)
 
     @cached_property
     def tangential_search(self) -> TangentialSearch:
         """The search for the zones of dissimilar bodies under any tangential load after that."""
+        pressed = self.pressed[1]
+        if isinstance(pressed, UnevenContact):
+            raise uneven_under_shear(self.scene)
         return tangential_search(
-            self.scene, self.pressed[1], lambda scene: self._frictionless(scene).edges
+            self._upright, pressed, lambda scene: self._frictionless(scene).edges
         )
 
     def _frictionless(self, scene: Scene) -> Normal:
@@ -280,9 +296,9 @@ class Solution(Frictionless, StressAnswers):
             )
         if self.scene.coupled:
             state = self.coupled[1]
-            if isinstance(state, ShearedContact):
-                return sheared_certificate(state, self.scene, self.tol)
-            return coupled_certificate(state, self.scene, self.tol)
+            if isinstance(state, CoupledContact):
+                return coupled_certificate(state, self._upright, self.tol)
+            return sheared_certificate(state, self._upright, self.tol)
         others = self.tangential.contacts if self.sheared else ()
         if others or self._several is not None:
             each = [c.certificate(self.tol) for c in (self.in_patches, *others)]
@@ -477,7 +493,7 @@ class Solution(Frictionless, StressAnswers):
                 (x < self.edges[0]) | (x > self.edges[1]), np.inf, np.where(np.isnan(x), x, 0.0)
             )
         if self.scene.coupled:
-            return self.coupled[1].gap(x, self.scene.profile)
+            return self.coupled[1].gap(x, self._upright.profile)
         if self._several is not None:
             return self._several.gap(x.ravel()).reshape(x.shape)
         return gap(x.ravel(), self.slope_density, self._slope).reshape(x.shape)

@@ -1,4 +1,6 @@
-"""The certificate of dissimilar bodies under P, then Q: equations (1) and (12).
+"""The certificate of dissimilar bodies: equations (1) and (12) where the halves are unlike.
+
+The loads are P, then Q; both in proportion; or P under a profile that is not symmetric.
 
 They are measured on p and q alone, as in `coupled_check`.
 
@@ -22,6 +24,7 @@ from numpy.typing import NDArray
 from sie.contact.small_strains import notes
 from sie.friction.coupled.proportional import ProportionalContact
 from sie.friction.coupled.sheared import ShearedContact
+from sie.friction.coupled.uneven_contact import UnevenContact
 from sie.numerics.gauss_jacobi import with_weight
 from sie.numerics.interval import EPS
 from sie.problem.scene import Scene
@@ -31,7 +34,7 @@ from .coupled_check import OUTSIDE, gradient_of_slip
 from .result import Certificate, ShearCertificate
 
 Array = NDArray[np.float64]
-State = ShearedContact | ProportionalContact
+State = ShearedContact | ProportionalContact | UnevenContact
 
 PROMISED, OF_SHEAR = 1e-10, 1e-9  # of the largest pressure, and of the largest shear in (12)
 NODES, RATIO = 14, 4.0
@@ -56,21 +59,17 @@ class Values(NamedTuple):
 def sheared_certificate(state: State, scene: Scene, tol: float) -> Certificate:
     """Measured on p and q, and on those under P alone."""
     p, q = state.tractions
-    marks = _marks(state)
-    nodes, weight = _rule(marks)
-    # Next to a mark that counts as another one a node may be that mark, where p may be infinite
-    apart = ~np.isin(nodes, state.marks)
-    nodes, weight = nodes[apart], weight[apart]
-    values = Values((marks[0], marks[-1]), nodes, weight, p(nodes), q(nodes))
+    values, marks = _values(state), _marks(state)
+    nodes, weight = values.x, values.weight
     x = _looked_at(marks)
     at_p, at_q = p(x), q(x)
     Hp, Hq = _principal(values, values.p, x, at_p), _principal(values, values.q, x, at_q)
     peak, of_shear = float(values.p.max()), float(np.abs(values.q).max())
-    beta, P = scene.beta, scene.normal_load
-    assert P is not None
+    beta, P = scene.beta, p.resultant
     H = scene.profile.slope(x)
     missed = float(np.abs(Hp - beta * at_q - 0.5 * scene.Estar * H).max()) / peak
-    ((lo, hi),) = state.stick
+    # What stuck under the lighter load shows whether γ stays
+    ((lo, hi),) = (state.lighter if isinstance(state, UnevenContact) else state).stick
     stuck = (x > lo) & (x < hi)
     before = _kept_gradient(state, x[stuck], beta)
     drift = float(np.abs((Hq + beta * at_p)[stuck] - before).max(initial=0.0)) / of_shear
@@ -95,7 +94,25 @@ def _kept_gradient(state: State, x: Array, beta: float) -> Array:
     """What the slip gradient was when x stuck, times E*/2."""
     if isinstance(state, ProportionalContact):
         return state.kept_gradient(x)
+    if isinstance(state, UnevenContact):
+        p, q = state.lighter.pressure_and_shear(x)
+        values = _values(state.lighter)
+        gradient: Array = _principal(values, values.q, x, q) + beta * p
+        return gradient
     return gradient_of_slip(state.search.normal, np.abs(x - state.axis), beta)
+
+
+def _values(state: State) -> Values:
+    """The tractions at the nodes of a rule."""
+    (p, q), marks = state.tractions, _marks(state)
+    nodes, weight = _rule(marks)
+    # Next to a mark that counts as another one a node may be that mark, where p may be infinite
+    apart = ~np.isin(nodes, state.marks)
+    nodes, weight = nodes[apart], weight[apart]
+    if isinstance(state, UnevenContact):
+        rows = state.pressure_and_shear(nodes)
+        return Values((marks[0], marks[-1]), nodes, weight, rows[0], rows[1])
+    return Values((marks[0], marks[-1]), nodes, weight, p(nodes), q(nodes))
 
 
 def _of_shear(
@@ -108,7 +125,7 @@ def _of_shear(
     """What is measured on q; `drift` is the change of the slip gradient in the stick zone."""
     Q, peak, size = scene.tangential_load, float(values.p.max()), np.abs(values.q)
     way = f"towards {'+' if Q > 0.0 else '-'}x"
-    if isinstance(state, ProportionalContact):
+    if not isinstance(state, ShearedContact):
         way = f"{'outwards' if scene.beta > 0.0 else 'inwards'} on both sides"
     excess = float((size - scene.friction * values.p).max()) / (scene.friction * peak)
     return ShearCertificate(

@@ -35,7 +35,7 @@ def refuse_uncovered(scene: Scene) -> None:
 
 
 def _refuse_dissimilar(scene: Scene) -> None:
-    """Raises ContactError for what is asked beyond P, then Q, of a symmetric profile."""
+    """Raises ContactError for what is asked beyond P at a tilt, or P, then Q."""
     pair = f"dissimilar bodies (β = {scene.beta:.4g}) with friction = {scene.friction:g}"
     if scene.bulk_stress:
         raise ContactError(
@@ -43,15 +43,8 @@ def _refuse_dissimilar(scene: Scene) -> None:
             "both ends of the stick zone, where p and q change together, is not solved; set "
             f"bulk_stress = 0, set friction = 0, or {NEGLECTED}"
         )
-    if scene.tilt or scene.moment:
-        name, value = ("tilt", scene.tilt) if scene.tilt else ("moment", scene.moment)
-        turned = f"give profile.tilted({value:g}) if that is symmetric, as a parabola is, "
-        raise ContactError(
-            f"{pair} pressed with {name} = {value:g}: their stick zone grows in proportion to the "
-            "contact only under a symmetric profile, and the growth of both of its ends is not "
-            f"solved; {turned if scene.tilt else ''}set {name} = 0, set friction = 0, or "
-            f"{NEGLECTED}"
-        )
+    if scene.moment:
+        raise held_moment(scene)
     if scene.tangential_load and scene.half_width is not None:
         raise ContactError(
             f"{pair} under tangential_load = {scene.tangential_load:g} with half_width = "
@@ -60,6 +53,26 @@ def _refuse_dissimilar(scene: Scene) -> None:
         )
     if scene.tangential_load and scene.profile.pieces.is_flat_punch:
         refuse_corners(scene)
+
+
+def held_moment(scene: Scene) -> ContactError:
+    """The ContactError: a moment that turns the indenter while P grows."""
+    return ContactError(
+        f"dissimilar bodies (β = {scene.beta:.4g}) with friction = {scene.friction:g} pressed with "
+        f"moment = {scene.moment:g}: a moment that is held turns the indenter while the load "
+        "grows, and the slip that this leaves between them is not solved; give a tilt, which is "
+        f"held while the load grows, in place of the moment, set friction = 0, or {NEGLECTED}"
+    )
+
+
+def uneven_under_shear(scene: Scene) -> ContactError:
+    """The ContactError: Q after P under a profile that is not symmetric."""
+    return ContactError(
+        f"dissimilar bodies (β = {scene.beta:.4g}) with friction = {scene.friction:g} under "
+        f"tangential_load = {scene.tangential_load:g}: the profile is not symmetric, and how the "
+        "stick zone moves under Q is solved for symmetric profiles; set tangential_load = 0, set "
+        f"friction = 0, or {NEGLECTED}"
+    )
 
 
 def refused_load(kappa: float, loads: tuple[float, float, float], spreads: bool) -> ContactError:

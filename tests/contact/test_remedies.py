@@ -129,13 +129,15 @@ def test_a_scene_that_follows_its_refusal_s_remedy_is_solved(name):
 
 DISSIMILAR = {"body": ALLOY, "indenter": STEEL, "friction": 0.4}
 CORNER = {"profile": FLAT, "tangential_load": 0.1}
-TILTED = {"profile": PARABOLA, "tilt": 0.01}
+TILTED = {"profile": FLAT, "tilt": 0.01}
+TURNED = {"profile": PARABOLA, "moment": 0.01}
 DISSIMILAR_REMEDIES = {
     "dundurs at a corner": (CORNER, "give dundurs = 0", {"dundurs": 0.0}),
     "sliding": (CORNER, "sliding = ±1", {"sliding": 1, "tangential_load": 0.0}),
     "dundurs": (TILTED, "give dundurs = 0", {"dundurs": 0.0}),
     "friction": (TILTED, "set friction = 0", {"friction": 0.0}),
-    "tilt": (TILTED, "set tilt = 0", {"tilt": 0.0}),
+    "tilt": (TILTED, "change the tilt", {"tilt": 0.0}),
+    "moment": (TURNED, "give a tilt", {"moment": None, "tilt": 0.01}),
 }
 
 

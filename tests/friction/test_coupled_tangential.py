@@ -668,7 +668,7 @@ def test_pressure_is_continuous_a_few_doubles_beside_the_stick_zone(part):
     ("changes", "words"),
     [
         ({"normal_load": None, "half_width": 1.0}, "give normal_load"),
-        ({"tilt": 0.01}, "both of its ends"),
+        ({"moment": 0.01}, "a moment that is held"),
         ({"bulk_stress": 0.01}, "strain of the body"),
     ],
 )
@@ -677,11 +677,16 @@ def test_what_is_not_solved_is_refused_before_any_work(changes, words):
         sie.solve(replace(scene(), **changes))
 
 
-def test_a_tilted_parabola_is_refused_with_the_profile_that_is_solved():
-    with pytest.raises(sie.ContactError, match=re.escape("give profile.tilted(0.1)")):
-        sie.solve(replace(scene(), tilt=0.1))
-    tilted, upright = solved(sie.Parabola(1.0).tilted(0.1)), solved()
+def test_a_tilted_parabola_is_a_parabola_about_another_axis():
+    tilted, upright = sie.solve(replace(scene(), tilt=0.1)), solved()
     assert zones(tilted) == pytest.approx(zones(upright) - 0.1, abs=1e-11)
+    assert tilted.tilt == 0.1 and tilted.check().ok
+    assert tilted.gap(2.0) == pytest.approx(float(upright.gap(2.1)), rel=1e-9)
+
+
+def test_a_tangential_load_under_a_profile_that_is_not_symmetric_is_refused():
+    with pytest.raises(sie.ContactError, match="set tangential_load = 0"):
+        _ = solved(sie.Polynomial((0.0, 0.0, 0.5, 0.1, 0.02))).edges
 
 
 def test_paths_are_refused_with_what_is_missing():

@@ -21,6 +21,7 @@ from oracles import spence
 from sie.certificate.coupled_check import coupled_certificate
 from sie.certificate.coupled_shear_check import sheared_certificate
 from sie.certificate.shear_check import goodman_certificate
+from sie.friction.coupled.contact import CoupledContact
 from sie.friction.coupled.flat import flat_punch
 from sie.friction.coupled.sheared import ShearedContact
 from sie.friction.goodman.slip import GoodmanSlip
@@ -141,7 +142,9 @@ def equations(shares: tuple[float, ...]) -> Iterator[Record]:
             solution = solved(profile, beta, f)
             scene = replace(solution.scene, dundurs=beta * (1.0 + OFF))
             found = solution.check()
-            other = coupled_certificate(solution.pressed[1], scene, 1e-13)
+            state = solution.pressed[1]
+            assert isinstance(state, CoupledContact)
+            other = coupled_certificate(state, scene, 1e-13)
             ones.append(found.residual)
             twelves.append(of_shear(found))
             wrong_ones.append(other.residual)

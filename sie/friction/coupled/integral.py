@@ -15,6 +15,8 @@ Array = NDArray[np.float64]
 
 DEGREE = 16
 RATIO, NEAREST = 3.0, 1e-14  # of panels towards an end: growth, and the first, in parts of the zone
+# Panels beside a contact: the first, in half-widths, where H has a power of the distance; growth
+NEAR_EDGE, FARTHER = 1e-9, 4.0
 
 
 class Integral(NamedTuple):
@@ -47,3 +49,12 @@ def towards_ends(lo: float, hi: float, inner: Array) -> Array:
     near = 0.5 * (hi - lo) * RATIO ** -np.arange(levels, -0.5, -1.0)
     cuts = np.concatenate(([lo], lo + near, hi - near, [hi], inner[(inner > lo) & (inner < hi)]))
     return np.unique(cuts)
+
+
+def outwards(function: Callable[[Array], Array], distances: Array, width: float) -> Array:
+    """∫f from 0 to each distance from an edge, where f has a power of the distance."""
+    far = float(distances.max())
+    first = min(NEAR_EDGE * width, far)
+    levels = math.ceil(math.log(far / first, FARTHER)) if far > first else 0
+    cuts = np.append(0.0, np.minimum(first * FARTHER ** np.arange(levels + 1.0), far))
+    return integral(function, np.unique(cuts))(distances)

@@ -1,6 +1,6 @@
 """The search for the contact of dissimilar bodies pressed with friction: P' and the half-width.
 
-The profile is symmetric and convex.
+Here the profile is symmetric and convex; others are those of `uneven_contact`.
 
 The half-width b comes from P = ∫P' ds. It is not larger than without friction, as friction
 stiffens the contact: the frictionless contact bounds the search, and refuses what no contact can
@@ -30,6 +30,7 @@ from .contact import FALLING, CoupledContact
 from .functions import FlatFunctions, flat_functions
 from .growth import Piece, power_law_growth, solved_growth
 from .profile import GrowthPanel
+from .uneven_contact import UnevenContact, uneven_contact
 
 Array = NDArray[np.float64]
 
@@ -44,21 +45,20 @@ AXIS_ROUNDING = (
 )  # half-widths: such is the rounding of the frictionless contact's centre
 
 
-def _axis(scene: Scene, bound: Edges) -> float:
-    """The axis of the profile, or of the frictionless contact if h' is odd about it there."""
+def _axis(scene: Scene, bound: Edges) -> float | None:
+    """The axis of the profile, or of the frictionless contact if h' is odd about it there.
+
+    None if the profile is not symmetric.
+    """
     profile, contact = scene.profile, bound.contact
     if profile.axis is not None:
         return profile.axis
-    y = contact.r * (np.arange(LOOKS) + 0.5) / LOOKS
+    # Next to the edges too, as a light load only reaches the beginning of rounded edges
+    part = np.append((np.arange(LOOKS) + 0.5) / LOOKS, 1.0 - 0.5 ** np.arange(2.0, 40.0))
+    y = contact.r * part
     right, left = profile.slope(contact.m + y), profile.slope(contact.m - y)
-    uneven, largest = float(np.abs(right + left).max()), float(np.abs(right).max())
-    if uneven > EVEN * largest:
-        raise ContactError(
-            f"the profile is not symmetric: about x = {contact.m:.6g} its slopes differ by "
-            f"{uneven / largest:.2g} of the largest; for dissimilar bodies with friction only "
-            "symmetric profiles are solved, as others tilt the stick zone while the load grows; "
-            "set friction = 0, or give dundurs = 0 to neglect β"
-        )
+    if float(np.abs(right + left).max()) > EVEN * float(np.abs(right).max()):
+        return None
     breaks = profile.pieces.breaks
     nearest = float(breaks[np.argmin(np.abs(breaks - contact.m))])
     # The axis of a symmetric trace is one of its points, or half-way between two
@@ -78,10 +78,16 @@ def _growth(
     return solved_growth(flat, pieces) if pieces else (), kinks
 
 
+def _without_friction(scene: Scene) -> Scene:
+    """The scene whose contact bounds the search."""
+    P, b = scene.normal_load, scene.half_width
+    return Scene(profile=scene.profile, modulus=scene.Estar, normal_load=P, half_width=b)
+
+
 @reported("contact of dissimilar bodies")
 def coupled_contact(
     scene: Scene, frictionless: Callable[[Scene], Normal]
-) -> tuple[Edges, CoupledContact]:
+) -> tuple[Edges, CoupledContact | UnevenContact]:
     """The edges and the state; ContactError where no contact answers.
 
     `frictionless` solves the normal problem of a scene; its contact bounds the search.
@@ -89,16 +95,11 @@ def coupled_contact(
     beta = scene.beta
     flat = flat_functions(abs(beta), scene.friction)
     half_modulus = 0.5 * scene.Estar
-    bound = frictionless(
-        Scene(
-            profile=scene.profile,
-            modulus=scene.Estar,
-            normal_load=scene.normal_load,
-            half_width=scene.half_width,
-        )
-    )
+    bound = frictionless(_without_friction(scene))
     widest, sharp = bound.edges.contact.r, bound.edges.sharp[0]
     axis = _axis(scene, bound.edges)
+    if axis is None:
+        return uneven_contact(scene, bound)
     growth, kinks = _growth(flat, scene, widest, axis)
     ahead, load, corner = _width(growth, widest, sharp, scene)
     _refuse_falling(growth, ahead, axis)

@@ -30,7 +30,7 @@ from sie.traction.base import on_line, zero_or_nan
 from sie.traction.on_panels import SlidingDensity
 
 from .gradient import RESOLVED, SlipGradient
-from .integral import RATIO, Integral, integral, towards_ends
+from .integral import RATIO, Integral, integral, outwards, towards_ends
 from .near_corner import Corner, stuck_corners
 from .tangential import TangentialSearch, Trial
 from .two_sided import Known, TwoSidedTraction, both_tractions
@@ -41,8 +41,6 @@ BESIDE = 1e-9  # half-widths from a corner of the profile, where values infinite
 # Parts of the way between two places next to which f p - q is small, or p infinite
 LOOKED_AT = 0.5 + 0.5 * np.tanh(np.linspace(-8.0, 8.0, 49))
 EDGE_DEGREE = 24  # of S on the outer half of a slip zone
-# Panels of the gap: the first, in half-widths, where H has a power of the distance; growth
-NEAR_EDGE, FARTHER = 1e-9, 4.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -335,13 +333,10 @@ class ShearedContact:
     def _raised(self, edge: float, u: Array) -> Array:
         """E*/2 times how far the surfaces part less than the profile rises, from an edge on."""
         side = math.copysign(1.0, float(u[0]) - edge)
-        far, r = float(np.abs(u - edge).max()), self.state.sliding.contact.r
-        first = min(NEAR_EDGE * r, far)
-        levels = math.ceil(math.log(far / first, FARTHER)) if far > first else 0
-        cuts = np.append(0.0, np.minimum(first * FARTHER ** np.arange(levels + 1.0), far))
-        cuts = np.unique(cuts)
-        found = integral(lambda d: side * self.hilbert_outside(edge + side * d), cuts)
-        return found(np.abs(u - edge))
+        width = self.state.sliding.contact.r
+        return outwards(
+            lambda d: side * self.hilbert_outside(edge + side * d), np.abs(u - edge), width
+        )
 
     # -- with their potentials ---------------------------------------------------------------------
 

@@ -11,6 +11,7 @@ from sie.contact.normal import normal_contact
 from sie.contact.pressure import pressure
 from sie.errors import ContactError
 from sie.friction.coupled.normal import coupled_contact
+from sie.friction.coupled.uneven_contact import UnevenContact
 from sie.problem.scene import Scene
 
 from .functions import goodman_flat
@@ -27,6 +28,8 @@ def departure(scene: Scene, tol: float) -> str:
             raise ContactError("not symmetric")
         upright = replace(scene, coupling="full", tangential_load=0.0, moment=None)
         _, state = coupled_contact(upright, lambda one: normal_contact(one, tol))
+        if isinstance(state, UnevenContact):
+            raise ContactError("not symmetric")
     except ContactError:
         return f"{NEGLECT}; how far the answer is from the coupled one is not known here"
     k, c = goodman_flat(abs(scene.beta), scene.friction).k, state.flat.c

@@ -1,0 +1,242 @@
+"""Dissimilar bodies pressed with friction under profiles that are not symmetric."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import sie
+from oracles import spence
+from sie.contact.normal import normal_contact
+from sie.friction.coupled import uneven_march
+from sie.friction.coupled.uneven_contact import uneven_contact
+
+SKEW = sie.Polynomial((0.0, 0.0, 0.5, 0.1, 0.02))
+UNEVEN = {
+    "polynomial": (SKEW, 0.5),
+    "tilted wedge": (sie.Wedge(0.3).tilted(0.1), 0.5),
+    "wedge and parabola": (sie.Wedge(0.2).tilted(0.02) + sie.Parabola(1.0), 0.5),
+    "flat base": (sie.Piecewise((-0.5, 0.4), ((0.5, 1.0), (0.0,), (-0.2, 0.5))), 0.2),
+    "function": (sie.FromFunction("exp(x) - 1"), 0.5),
+    "broken power": (sie.Power(1.5, 1.0) + SKEW, 0.2),
+}
+
+
+def scene(profile=SKEW, beta=0.3, friction=0.3, load=0.5, **changes):
+    given = {"normal_load": load} if "half_width" not in changes else {}
+    pair = {"modulus": 2.0, "poisson": 0.3, "dundurs": beta, "friction": friction}
+    return sie.Scene(profile=profile, **pair, **(given | changes))
+
+
+def solved(*args, **changes):
+    return sie.solve(scene(*args, **changes))
+
+
+def as_uneven(question):
+    """The state of a symmetric profile by the solver that does not know that."""
+    plain = sie.Scene(
+        profile=question.profile, modulus=question.Estar, normal_load=question.normal_load
+    )
+    return uneven_contact(question, normal_contact(plain, 1e-13, frozenset()))[1]
+
+
+# -- laws ------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    "profile", [sie.Parabola(1.0), sie.Wedge(0.3), sie.RoundedFlat(0.5, 1.0)], ids=repr
+)
+def test_under_a_symmetric_profile_nothing_but_the_method_differs(profile):
+    solution = solved(profile)
+    one, other = solution.coupled[1], as_uneven(solution.scene)
+    assert other.b == pytest.approx(one.b, rel=1e-13)
+    x = one.b * np.array([-0.97, -0.7, -0.4, 0.1, 0.3, 0.6, 0.9])
+    p, q = other.pressure_and_shear(x)
+    assert p == pytest.approx(solution.pressure(x), rel=1e-12)
+    assert q == pytest.approx(solution.shear(x), abs=1e-12 * np.abs(q).max())
+    slip = solution.slip(x)
+    assert other.relative_slip(x) == pytest.approx(slip, abs=1e-11 * np.abs(slip).max())
+    beside = one.b * np.array([-1.5, 1.001, 4.0])
+    assert other.gap(beside, profile) == pytest.approx(solution.gap(beside), rel=1e-9)
+
+
+def test_energy_under_a_symmetric_profile_is_that_of_the_other_method():
+    solution = solved(sie.Parabola(1.0))
+    assert as_uneven(solution.scene).energy == pytest.approx(solution.energy_lost, rel=1e-12)
+
+
+@pytest.mark.parametrize("name", UNEVEN)
+def test_both_equations_hold_by_a_quadrature_that_the_solver_does_not_use(name):
+    profile, load = UNEVEN[name]
+    found = solved(profile, load=load).check()
+    assert found.ok
+    assert max(found.residual, found.shear.residual) < 1e-12
+
+
+@pytest.mark.parametrize(
+    ("beta", "friction"), [(0.07, 0.3), (0.5, 0.5), (0.01, 1.0), (0.3, 5.0), (-0.3, 0.3)]
+)
+def test_both_equations_hold_for_other_pairs(beta, friction):
+    found = solved(SKEW, beta, friction).check()
+    assert found.ok
+    assert max(found.residual, found.shear.residual) < 2e-12
+
+
+def test_certificate_is_not_ok_for_another_mismatch():
+    right = solved()
+    wrong = sie.Solution(replace(right.scene, dundurs=0.3001))
+    wrong.__dict__["pressed"] = wrong.__dict__["coupled"] = right.coupled
+    assert not wrong.check().ok
+
+
+def test_the_mirrored_profile_has_the_mirrored_contact():
+    one, other = solved(), solved(SKEW.mirrored())
+    assert other.edges == pytest.approx([-x for x in one.edges[::-1]], rel=1e-13)
+    x = np.array([-0.5, -0.1, 0.2, 0.4])
+    assert other.pressure(-x) == pytest.approx(one.pressure(x), rel=1e-12)
+    assert other.shear(-x) == pytest.approx(-one.shear(x), abs=1e-13)
+    assert other.moment == pytest.approx(-one.moment, rel=1e-12)
+
+
+def test_tilt_of_the_scene_is_tilt_of_the_profile():
+    one, other = solved(tilt=0.05), solved(SKEW.tilted(0.05))
+    assert one.edges == other.edges and one.stick == other.stick
+    assert one.tilt == 0.05 and one.check().ok
+    assert one.gap(2.0) == pytest.approx(float(other.gap(2.0)), rel=1e-13)
+
+
+def test_lengths_scale():
+    one = solved(load=0.5)
+    other = solved(sie.Polynomial((0.0, 0.0, 0.5e-3, 0.1e-6, 0.02e-9)), load=0.5e3)
+    assert other.edges == pytest.approx([1e3 * x for x in one.edges], rel=1e-12)
+    assert other.energy_lost == pytest.approx(1e6 * one.energy_lost, rel=1e-11)
+
+
+def test_half_width_and_load_are_inverse_to_each_other():
+    one = solved(load=0.5)
+    other = solved(half_width=one.half_width)
+    assert other.normal_load == pytest.approx(0.5, rel=1e-12)
+    assert other.edges == pytest.approx(one.edges, rel=1e-12)
+
+
+def test_stick_zone_keeps_its_part_of_the_contact_as_under_symmetric_profiles():
+    solution = solved()
+    ((lo, hi),), (x1, x2) = solution.stick, solution.edges
+    assert (hi - lo) / (x2 - x1) == pytest.approx(0.6457874123866, abs=1e-12)
+    assert lo + hi == pytest.approx(x1 + x2, abs=1e-14)
+
+
+def test_shear_is_friction_times_pressure_outwards_in_slip():
+    solution = solved()
+    (x1, x2), ((lo, hi),) = solution.edges, solution.stick
+    for side, x in ((-1.0, np.linspace(x1, lo, 12)), (1.0, np.linspace(hi, x2, 12))):
+        inner = x[1:-1]
+        assert solution.shear(inner) == pytest.approx(
+            side * 0.3 * solution.pressure(inner), rel=1e-12
+        )
+        assert (side * solution.slip(inner) > 0.0).all()
+    stick = np.linspace(lo, hi, 30)[1:-1]
+    assert (np.abs(solution.shear(stick)) < 0.3 * solution.pressure(stick)).all()
+
+
+def test_moment_and_shear_balance_by_a_plain_quadrature():
+    solution = solved()
+    phi = (np.arange(4000) + 0.5) * math.pi / 4000
+    r, m = solution.half_width, solution.centre
+    x, weight = m + r * np.cos(phi), r * np.sin(phi) * math.pi / 4000
+    assert (solution.pressure(x) * x) @ weight == pytest.approx(solution.moment, abs=1e-6)
+    assert solution.shear(x) @ weight == pytest.approx(0.0, abs=1e-6)
+    z = m + r * np.array([0.3 + 0.8j, -1.4 + 0.5j])
+    for traction in (solution.pressure, solution.shear):
+        plain = (traction(x) * weight / (z[:, None] - x)).sum(axis=1) / math.pi
+        assert np.abs(traction.cauchy(z) - plain).max() < 1e-6
+
+
+def test_the_body_yields_first_where_no_other_place_is_stressed_more():
+    solution = solved()
+    yielding = solution.elastic_limit()
+    x, y = np.linspace(-0.6, 0.6, 13), np.geomspace(1e-3, 1.0, 8)[:, None]
+    assert (solution.stress(x, y).j2 <= yielding.j2).all()
+
+
+# -- an independent witness ------------------------------------------------------------------------
+
+
+def on_a_grid(state, n):
+    """The printed equations increment by increment, between the edges of the state's growth."""
+    s = state.b * np.linspace(0.0, 1.0, n + 1)[1:]
+    edges = np.array([state._edges_at(one) for one in s])
+    last = 2.0 * edges[-1] - edges[-2]  # of the outermost cells, where p is 0
+    ends = (last[0], *edges[::-1, 0], state.first[0], *edges[:, 1], last[1])
+    return spence.followed_contact(SKEW.height, np.array(ends), (0.3, 0.3))  # E*/2 = 1
+
+
+def test_a_grid_with_the_same_edges_finds_the_load_and_no_shear_load():
+    solution = solved()
+    state = solution.coupled[1]
+    errors = []
+    for n in (20, 40):
+        grid = on_a_grid(state, n)
+        P, Q = grid.loads
+        errors.append(abs(P / 0.5 - 1.0))
+        assert abs(Q) < 1e-3 * P
+        width = 2.0 * state.b / len(grid.x)
+        ((lo, hi),) = solution.stick
+        sticking = grid.x[grid.sticks]
+        assert sticking[0] == pytest.approx(lo, abs=2.0 * width)
+        assert sticking[-1] == pytest.approx(hi, abs=2.0 * width)
+    assert errors[1] < 0.6 * errors[0] < 0.03
+
+
+# -- cost ------------------------------------------------------------------------------------------
+
+
+def test_a_smooth_profile_takes_one_panel_and_few_searches(monkeypatch):
+    calls = []
+    one = uneven_march.collocated
+
+    def counted(*args):
+        calls.append(args)
+        return one(*args)
+
+    monkeypatch.setattr(uneven_march, "collocated", counted)
+    assert len(solved().coupled[1].panels) == 1
+    assert len(calls) == 1
+
+
+# -- refusals --------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("profile", "changes", "words"),
+    [
+        (sie.Wedge(0.3), {"tilt": 0.25}, "at once the middle of the contact moves to the left"),
+        (SKEW, {"friction": 0.1}, "from P = 0.0139"),
+        (sie.RoundedFlat(0.5, 1.0), {"tilt": 0.05}, "to the right 0.646 times as fast"),
+        (sie.Flat(1.0), {"tilt": 0.05}, "touches first at x = -1"),
+        (sie.Flat(0.5) + SKEW, {}, "reaches a corner of the indenter at x = -0.5"),
+        (SKEW, {"moment": 0.1}, "give a tilt, which is held while the load grows"),
+        (SKEW, {"moment": 0.0}, "give a tilt, which is held while the load grows"),
+        (sie.Parabola(1.0).shifted(0.5), {"moment": 0.0}, "give a tilt"),
+    ],
+)
+def test_what_is_not_solved_is_refused_with_the_reason(profile, changes, words):
+    with pytest.raises(sie.ContactError, match=words):
+        _ = solved(profile, **changes).edges
+
+
+def test_a_contact_is_solved_up_to_the_load_that_a_refusal_names():
+    with pytest.raises(sie.ContactError, match="from P = ") as refusal:
+        _ = solved(friction=0.1).edges
+    load = float(str(refusal.value).split("P = ")[1].split(" ")[0])
+    assert solved(friction=0.1, load=0.99 * load).check().ok
+    with pytest.raises(sie.ContactError, match="from P = "):
+        _ = solved(friction=0.1, load=1.02 * load).edges
+
+
+def test_a_light_load_on_a_wide_base_is_told_from_one_on_a_symmetric_profile():
+    sides = sie.RoundedFlat(0.5, 1.0) + sie.RoundedFlat(0.5, 2.0).shifted(0.1)
+    assert solved(sides, load=1e-4).check().ok
