@@ -71,11 +71,6 @@ class EdgeSticks(MovedEnd):
         return self.stick.x1, self.stick.x2
 
     @property
-    def kept(self) -> tuple[float, float]:
-        old = self.before.pressure.contact
-        return max(self.stick.x1, old.x1), min(self.stick.x2, old.x2)
-
-    @property
     def _places(self) -> tuple[float, ...]:
         """Where p and q may not be smooth.
 

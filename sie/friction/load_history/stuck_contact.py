@@ -57,11 +57,6 @@ class BothStick(MarchedStep):
         return self.stick.x1, self.stick.x2
 
     @property
-    def kept(self) -> tuple[float, float]:
-        old = self.before.pressure.contact
-        return old.x1, old.x2
-
-    @property
     def error(self) -> float:
         return 0.0
 
@@ -128,7 +123,7 @@ class BothStick(MarchedStep):
 
 def both_stick(before: Held, course: Course, begun: float) -> BothStick:
     """The state at the end of a course, or where an edge begins to slip."""
-    times = np.linspace(begun, course.hi, WATCHED)
+    times = course.times(begun, WATCHED)
     share, slips = course.hi, (0.0, 0.0)
     for k in (0, 1):
         room = _held(course, times, k)

@@ -36,9 +36,9 @@ from .slip_rates import SlipRates
 
 Array = NDArray[np.float64]
 
-# Places in the stick zone at which |q| <= f p is tested, how near to its ends as powers of 10, and
-# by how much of the largest f p it may be missed.
-SCANNED, NEAREST, EXCEEDED = 200, -7.0, 1e-9
+# Places in the stick zone at which |q| <= f p is tested, how near to and far from its ends, and by
+# how much of the largest f p it may be missed. A wedge has infinite p in the middle.
+SCANNED, NEAREST, FARTHEST, EXCEEDED = 200, 1e-7, 0.49, 1e-9
 LOCATED = 1e-7  # of a step: so well it is known where in it what is refused happens
 # So well it is known when an end of the stick zone stops, of a step and of the rate of slip: what
 # the end misses is of the second order.
@@ -305,7 +305,7 @@ def excess(state: MarchedStep, sticks: Interval) -> tuple[float, float]:
     The second is that of what sticks to the end, or slips in another direction than at the end.
     """
     stick, width = state.stick, 2.0 * state.stick.r
-    near = width * np.logspace(NEAREST, math.log10(0.5), SCANNED)
+    near = width * np.geomspace(NEAREST, FARTHEST, SCANNED)
     x = np.concatenate((stick.x1 + near, stick.x2 - near))
     bound, q = state.friction * state.pressure(x), state.in_stick(x)
     beyond = (np.abs(q) - bound) / bound.max()
