@@ -24,7 +24,7 @@ from sie.traction.of_slope import SlopeDensity
 Array = NDArray[np.float64]
 
 DEGREES = (16, 32)  # numbers of terms of an edge that are tried
-MANYFOLD, OF_LOG = 8.0, (48, 96)  # growth of P by which its logarithm is taken, and terms then
+MANYFOLD, OF_LOG = 8.0, (24, 48, 96)  # growth of P by which its logarithm is taken, and terms then
 EARLIEST = -0.5  # of P: what times that are tried may be before the part
 RESOLVED = 1e-13  # of the contact: what the last terms of a series leave
 SHORTEST = 1e-7  # part of a step in which the edges are one series
@@ -120,6 +120,11 @@ class Span(NamedTuple):
         return cls(lo, hi, change.start.P / change.rates.P if manyfold else math.inf)
 
     @property
+    def of_log(self) -> bool:
+        """Whether the variable is log P."""
+        return self.before < math.inf
+
+    @property
     def length(self) -> float:
         """That of the variable."""
         return float(self._passed(np.array(self.hi)))
@@ -132,14 +137,14 @@ class Span(NamedTuple):
     def share(self, part: Array) -> Array:
         """The share of the step at which so much of it has passed."""
         passed = self.length * part
-        if self.before < math.inf:
+        if self.of_log:
             passed = (self.lo + self.before) * np.expm1(passed)
         share: Array = np.minimum(self.lo + passed, self.hi)
         return share
 
     def pace(self, earlier: Array, later: Array) -> Array:
         """By how much the variable differs at two shares of the step, over their difference."""
-        if self.before == math.inf:
+        if not self.of_log:
             return np.ones(np.broadcast(earlier, later).shape)
         since = earlier + self.before
         grown = np.maximum((later - earlier) / since, EARLIEST)
@@ -148,7 +153,7 @@ class Span(NamedTuple):
 
     def _passed(self, share: Array) -> Array:
         passed = share - self.lo
-        if self.before == math.inf:
+        if not self.of_log:
             return passed
         return np.log1p(np.maximum(passed / (self.lo + self.before), EARLIEST))
 
@@ -225,7 +230,7 @@ def course(change: LoadChange, lo: float) -> Course:
     """The course of a step from a share on, to where its edges do not go on smoothly."""
     span = Span.of(change, lo, 1.0)
     while span.hi - lo >= SHORTEST:
-        for terms in OF_LOG if span.before < math.inf else DEGREES:
+        for terms in OF_LOG if span.of_log else DEGREES:
             shares = span.share(0.5 * (1.0 + chebyshev.points(terms)))
             edges = [change.pressure(share).contact for share in shares.tolist()]
             series = chebyshev.transform(np.array([(e.x1, e.x2) for e in edges]).T)
@@ -245,7 +250,11 @@ class SmoothEdges:
         self._last: Course | None = None
 
     def at(self, share: float) -> Course:
-        """The course that a share of the step is on; shares do not fall."""
-        if self._last is None or share >= self._last.hi:
-            self._last = course(self.change, share)
-        return self._last
+        """The course that a share of the step is on; shares do not fall.
+
+        A series of log P becomes shorter as P has grown.
+        """
+        last = self._last
+        if last is None or share >= last.hi or (share > last.lo and last.span.of_log):
+            self._last = last = course(self.change, share)
+        return last
