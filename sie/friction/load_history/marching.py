@@ -122,9 +122,10 @@ def _travelled(trial: Trial) -> MovedStep:
     dQ, dtau = change.rates.Q, change.rates.tau
     direction, rear = math.copysign(1.0, dQ) * math.copysign(1.0, dtau), math.copysign(1.0, dQ)
     signs = (rear, -rear) if direction > 0.0 else (-rear, rear)
-    if trial.held.signs != signs:
+    goes_on = trial.held.signs[0] == signs[0], trial.held.signs[1] == signs[1]
+    if not goes_on[direction > 0.0]:
         raise trial.refusal(MEETS, 0.0)
-    return _moving(trial.with_signs(signs, (True, True)), course(change, 0.0), 0.0, direction)
+    return _moving(trial.with_signs(signs, goes_on), course(change, 0.0), 0.0, direction)
 
 
 def while_pressure_changes(trial: Trial) -> tuple[MarchedStep, ...]:
@@ -193,7 +194,7 @@ def _moving(trial: Trial, edges: Course, share: float, advances: float) -> Moved
     """The part of a step in which an end advances, an edge grows and sticks, or both do."""
     part: MovedStep
     if advances:
-        part = end_advances(trial.held, edges, trial.signs, advances, share)
+        part = end_advances(trial.held, edges, Onset(trial.signs, trial.goes_on, advances), share)
     elif any(trial.signs):
         goes_on = trial.goes_on[0 if trial.signs[0] else 1]
         part = edge_sticks(trial.held, edges, trial.signs, goes_on, share)

@@ -154,10 +154,10 @@ class Trial:
             contact = state.pressure.contact
             return rates.onwards(contact, state.stick) if inside(state.stick, contact) else None
 
-        if all(self.goes_on):
-            at_start = rates.onwards(self.held.pressure.contact, self.held.stick)
-            if at_start.min() <= STILL * abs(at_start).max():
-                return 0.0, (-1.0, 1.0)[int(at_start.argmin())]
+        at_start = rates.onwards(self.held.pressure.contact, self.first(self.goes_on))
+        least = int(at_start.argmin())
+        if self.goes_on[least] and at_start[least] <= STILL * abs(at_start).max():
+            return 0.0, (-1.0, 1.0)[least]
         bracket = _bracket(onwards)
         if bracket is None:
             return None
