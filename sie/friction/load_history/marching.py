@@ -17,7 +17,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
-from contextlib import suppress
 from dataclasses import replace
 from itertools import product
 
@@ -33,13 +32,15 @@ from .growing_contact import Course, LoadChange, SmoothEdges, course
 from .growing_edge import EdgeSticks, edge_sticks
 from .marched_step import Held, MarchedStep
 from .moved_end import MovedEnd
+from .receding_equations import NO_ZONE
 from .receding_step import Receded
-from .several_sticks import SeveralSticks, in_several_zones
+from .several_sticks import NONE, SeveralSticks, in_several_zones
 from .slip_onset import Onset, onsets
 from .stuck_contact import BothStick, both_stick
 from .trial_step import (
     EXCEEDED,
     ISLAND,
+    TRY,
     TURNS,
     GoesOn,
     Marchable,
@@ -78,8 +79,11 @@ def _parts(trial: Trial) -> tuple[MarchedStep, ...]:
     try:
         return at_constant_pressure(trial) if trial.constant else while_pressure_changes(trial)
     except ContactError as problem:
-        with suppress(ContactError):
+        try:
             return (_in_several_zones(trial),)
+        except ContactError as other:
+            if NO_ZONE in str(problem) and str(other) != NONE:
+                raise ContactError(f"{other}: {TRY}") from None
         raise problem
 
 
