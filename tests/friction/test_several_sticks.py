@@ -91,3 +91,10 @@ def test_a_gap_opens_inside_the_stick_zone_and_joins_the_slip_beside_it():
         on_the_way = tuple(a + share * (b - a) for a, b in zip(start, turned))
         numbers.append(len(followed([(0.4, 0.0), start, on_the_way])[-1].stick))
     assert numbers == [1, 2, 1]
+
+
+def test_energy_is_refused_where_slip_turned_beside_several_stick_zones_and_the_state_is_not():
+    turned = followed([(0.0, 0.0), (-0.72, 0.07), (-0.56, 0.79), (0.08, 0.08)])[-1]
+    assert turned.check().ok
+    with pytest.raises(sie.ContactError, match="turns on the way"):
+        _ = turned.energy_lost
