@@ -14,6 +14,8 @@ each point to the next all loads change in proportion to time. What is exact, an
     one end alone passes an earlier    step by step, by the shear at the start of each
     one, or slip turns at one edge     (`load_history.marching`); at constant P also a stick zone
                                        that travels; several stick zones, all of which recede
+    from P = 0, P, Q, σ and    the same, from soon after the first contact on
+    tilt in proportion
     dissimilar bodies                  P and Q in proportion from zero, under a power law
                                        (`friction.coupled.proportional`)
 
