@@ -14,6 +14,8 @@ each point to the next all loads change in proportion to time. What is exact, an
     one end alone passes an earlier    step by step, by the shear at the start of each
     one, or slip turns at one edge     (`load_history.marching`); at constant P also a stick zone
                                        that travels; several stick zones, all of which recede
+    from P = 0, P, Q, σ and    the same, from soon after the first contact on
+    tilt in proportion
     dissimilar bodies                  P and Q in proportion from zero, under a power law
                                        (`friction.coupled.proportional`)
 
@@ -46,7 +48,7 @@ from .friction.coupled.proportional import ProportionalContact, proportional_con
 from .friction.coupled.two_sided import TwoSidedTraction
 from .friction.load_history.load_steps import Followable, proportional_points, turning_points
 from .friction.load_history.marching import march
-from .friction.load_history.path_slip import MarchedSlip, PathSlip, held, step_shift
+from .friction.load_history.path_slip import MarchedSlip, PathSlip, held, step_shift, touched
 from .friction.load_history.turning_point import TurningPoint
 from .friction.loads import Loads
 from .friction.slip_state import Slip
@@ -241,13 +243,17 @@ class History(PathContacts, Sequence[Solution]):
 
     def march(self, before: TurningPoint, loads: Loads) -> TurningPoint:
         """The turning point after a step that no layers answer."""
-        if any(any(self.plain(*at.normal).sharp) for at in (before.loads, loads)):
+        first = before.loads.touching(loads)
+        if any(any(self.plain(*at.normal).sharp) for at in (first, loads)):
             raise ContactError(
                 "no layers of the contact answer this step, and a contact with sharp edges is not "
                 "marched: the shear is infinite there; round its corners (sie.RoundedFlat)"
             )
-        start = held(self, before, self.sheared_by(before.loads))
-        return march(self, start, before.loads, loads)
+        if first is before.loads:
+            start = held(self, before, self.sheared_by(first))
+        else:
+            start = touched(self, first, loads)
+        return march(self, start, first, loads)
 
     def energy(self, index: int) -> float:
         """The energy lost from the beginning of the path to a turning point."""

@@ -189,14 +189,15 @@ def marched_certificate(
     The residual is at least the error of the ends of the stick zone over its half-width.
     """
     terms = [_on_own_rule(part.shear, part.pressure.contact, part.marks, slope) for part in parts]
-    first = parts[0].before
-    lower = [_on_own_rule(first.shear, first.pressure.contact, first.marks, slope), *terms[:-1]]
     residual = of_change = 0.0
-    for part, term, before in zip(parts, terms, lower, strict=True):
+    for part, term in zip(parts, terms, strict=True):
+        begun = part.latest()
+        old = begun.pressure.contact
+        before = _on_own_rule(begun.shear, old, begun.marks, slope)
         pair = [term, before._replace(factor=-1.0)]
-        at = np.concatenate([points(zone, pair) for zone in part.kept_zones])
+        at = np.concatenate([points(zone, pair) for zone in part.kept_in(old)])
         _, change, _, rounding = integrals(pair, at)
-        missed = np.abs(change - (part.tau - part.before.tau)).max(initial=0.0)
+        missed = np.abs(change - (part.tau - begun.tau)).max(initial=0.0)
         residual, of_change = max(residual, float(missed)), max(of_change, float(rounding.max()))
     contact, (x, _, weight, *_) = parts[-1].pressure.contact, terms[-1].rule
     p, q = state.friction * parts[-1].pressure(x), parts[-1].shear(x)

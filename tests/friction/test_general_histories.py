@@ -331,7 +331,6 @@ def test_an_invalid_point_of_a_cycle_is_refused_by_its_name(point, said, name):
     [
         ([(1, 0.3, 0), (1, 0.3, np.nan)], "σ of point 1 is nan"),
         ([(1, 0.3, 0), (0.2, 0.3, 0.1)], "step 1 .*exceeds f P"),
-        ([(0, 0, 0), (1, 0.3, 0.1)], "step 1 .*grows from nothing"),
     ],
 )
 def test_a_step_that_is_not_covered_is_named(points, said):

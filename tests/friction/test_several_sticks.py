@@ -98,3 +98,10 @@ def test_bulk_stress_that_leaves_no_stick_zone_on_the_grid_is_refused(P):
     path = sie.Path([(P0, 0.0, 0.0), (P, 0.5 * F, 30.0 * S)])
     with pytest.raises(sie.ContactError, match=r"^step 1 of the path"):
         sie.follow(HERTZ, path)
+
+
+def test_energy_is_refused_where_slip_turned_beside_several_stick_zones_and_the_state_is_not():
+    turned = followed([(0.0, 0.0), (-0.72, 0.07), (-0.56, 0.79), (0.08, 0.08)])[-1]
+    assert turned.check().ok
+    with pytest.raises(sie.ContactError, match="turns on the way"):
+        _ = turned.energy_lost

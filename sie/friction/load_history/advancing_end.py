@@ -132,17 +132,17 @@ class EndAdvances(MovedEnd):
         return total
 
 
-def end_advances(
-    before: Held, course: Course, signs: tuple[float, float], direction: float, share: float
-) -> EndAdvances:
+def end_advances(before: Held, course: Course, way: Onset, share: float) -> EndAdvances:
     """The state at the end of a course, or where the end no longer advances.
 
-    `direction` is 1 if it is the right end, -1 if it is the left one. Raises ContactError where
+    The other end recedes from where it was, or from the edge of contact. Raises ContactError where
     there is none.
     """
-    s, f = signs[0] if direction > 0.0 else signs[1], course.contacts.scene.friction
-    ends = direction * before.stick.x1, direction * before.stick.x2
-    start, first = min(ends), max(ends)
+    signs, goes_on, direction = way.signs, way.goes_on, way.advances
+    rear = 0 if direction > 0.0 else 1
+    s, f = signs[rear], course.contacts.scene.friction
+    inner = before.stick if goes_on[rear] else before.pressure.contact
+    start, first = direction * inner[rear], direction * before.stick[1 - rear]
     rates = course.rates.mirrored(direction)
     zone = AdvancingZone(course, direction, rates, s, f, first, first - start)
     first = zone.jump(start, share)

@@ -67,7 +67,8 @@ class ChangingContact:
     def __init__(self, path: Followed, index: int) -> None:
         self.path, self.index = path, index
         self.state = path.turning_points[index]
-        self.start, self.end = path.turning_points[index - 1].loads, self.state.loads
+        self.end = self.state.loads
+        self.start = path.turning_points[index - 1].loads.touching(self.end)
         self.change = LoadChange(path, self.start, self.end)
         self.rise = path.level(self.end) - path.level(self.start)
         self._states: dict[tuple[Loads, complex], Slip] = {}
@@ -169,7 +170,9 @@ class ChangingContact:
 
         It is the last time if x comes into contact, the first if it leaves.
         """
-        right = x > self._contact(0.5).m
+        first = self._contact(0.0)
+        comes = min(first.from_left(x), first.from_right(x)) < 0.0
+        right = x > (first if comes else self._contact(1.0)).m
 
         def inside(share: float) -> float:
             contact = self._contact(share)

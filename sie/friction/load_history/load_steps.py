@@ -199,10 +199,7 @@ def _layered(contacts: Followable, before: TurningPoint, loads: Loads) -> Turnin
     if not (before.turned or tilted):
         return step.upright()
     if before.loads.P == 0.0:
-        raise ContactError(
-            "a contact that grows from nothing while bulk stress or tilt changes is not covered; "
-            "give a first point with P > 0"
-        )
+        raise NotLayered("the contact grows from nothing while bulk stress or tilt changes")
     if step.bared < 1.0:
         between = TurningPoint(before.loads.towards(loads, step.bared), step.without_top())
         return stepped(contacts, replace(between, turned=before.turned, straight=False), loads)

@@ -22,6 +22,8 @@ from .panel_shear import SAME, PanelShear
 
 Array = NDArray[np.float64]
 
+MUCH, HALVINGS = 0.1, 12  # of a stick zone: what stuck for a while; how often a while is halved
+
 
 @dataclass(frozen=True, eq=False)
 class Held:
@@ -149,18 +151,28 @@ class MarchedStep(ABC):
         slip: Array = self.slip(x) - first.slip(np.clip(x, *first.pressure.interval))
         return slip
 
-    @property
-    def kept(self) -> tuple[float, float]:
-        """What stuck all along the step, from the first such place to the last."""
-        (left, right), old = self.reach, self.before.pressure.contact
-        return max(left, self.stick.x1, old.x1), min(right, self.stick.x2, old.x2)
-
-    @property
-    def kept_zones(self) -> tuple[tuple[float, float], ...]:
-        """The zones that stuck all along the step."""
-        (left, right), gaps = self.kept, self.gaps
-        cuts = [left, *(end for gap in gaps for end in gap[:2]), right]
+    def kept_in(self, contact: Interval) -> tuple[tuple[float, float], ...]:
+        """The zones that stuck since the contact was this one in the step."""
+        left = max(self.reach[0], self.stick.x1, contact.x1)
+        right = min(self.reach[1], self.stick.x2, contact.x2)
+        cuts = [left, *(end for gap in self.gaps for end in gap[:2]), right]
         return tuple(zip(cuts[::2], cuts[1::2], strict=True))
+
+    def latest(self) -> Held:
+        """The state since which much of what sticks did so, the start if that is one."""
+        begun, (share, end) = self.before, self.span
+        widest = max(hi - lo for lo, hi in self.sticks)
+        for _ in range(HALVINGS):
+            if self._longest(begun).r >= 0.5 * MUCH * widest:
+                break
+            share = 0.5 * (share + end)
+            begun = self.until(share).held
+        return begun
+
+    def _longest(self, begun: Held) -> Interval:
+        """The longest zone that stuck since a state on the way."""
+        zones = self.kept_in(begun.pressure.contact)
+        return Interval(*max(zones, key=lambda zone: zone[1] - zone[0]))
 
     @cached_property
     def marks(self) -> tuple[float, ...]:
@@ -222,8 +234,16 @@ class MarchedStep(ABC):
     @property
     def drag(self) -> float:
         """What the part adds to the shift of the indenter, as of `drag`."""
-        stuck = Interval(*max(self.kept_zones, key=lambda zone: zone[1] - zone[0]))
-        return drag(self.before, self.held, stuck)
+        return self._drag(self.before, self.span[0], HALVINGS)
+
+    def _drag(self, begun: Held, share: float, halvings: int) -> float:
+        """The same since a share of the step, in parts where no point stuck all along."""
+        stuck, end = self._longest(begun), self.span[1]
+        if stuck.r > 0.0 or not halvings:
+            return drag(begun, self.held, stuck)
+        between = self.until(0.5 * (share + end))
+        before = between._drag(begun, share, halvings - 1)
+        return before + self._drag(between.held, between.span[1], halvings - 1)
 
     @cached_property
     def integrals(self) -> IntegralsOfSlip:

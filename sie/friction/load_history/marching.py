@@ -35,14 +35,16 @@ from .growing_edge import EdgeSticks, edge_sticks
 from .joined_zones import Joined, joined
 from .marched_step import Held, MarchedStep
 from .moved_end import MovedEnd
+from .receding_equations import NO_ZONE
 from .receding_step import Receded
-from .several_sticks import SeveralSticks, in_several_zones
+from .several_sticks import NONE, SeveralSticks, in_several_zones
 from .slip_onset import Onset, onsets
 from .stuck_contact import BothStick, both_stick
 from .trial_step import (
     EXCEEDED,
     ISLAND,
     LOCATED,
+    TRY,
     TURNS,
     GoesOn,
     Marchable,
@@ -84,8 +86,11 @@ def _parts(trial: Trial) -> tuple[MarchedStep, ...]:
     try:
         return at_constant_pressure(trial) if trial.constant else while_pressure_changes(trial)
     except ContactError as problem:
-        with suppress(ContactError):
+        try:
             return (_in_several_zones(trial),)
+        except ContactError as other:
+            if NO_ZONE in str(problem) and str(other) != NONE:
+                raise ContactError(f"{other}: {TRY}") from None
         raise problem
 
 
@@ -128,9 +133,10 @@ def _travelled(trial: Trial) -> MovedStep:
     dQ, dtau = change.rates.Q, change.rates.tau
     direction, rear = math.copysign(1.0, dQ) * math.copysign(1.0, dtau), math.copysign(1.0, dQ)
     signs = (rear, -rear) if direction > 0.0 else (-rear, rear)
-    if trial.held.signs != signs:
+    goes_on = trial.held.signs[0] == signs[0], trial.held.signs[1] == signs[1]
+    if not goes_on[direction > 0.0]:
         raise trial.refusal(MEETS, 0.0)
-    return _moving(trial.with_signs(signs, (True, True)), course(change, 0.0), 0.0, direction)
+    return _moving(trial.with_signs(signs, goes_on), course(change, 0.0), 0.0, direction)
 
 
 def while_pressure_changes(trial: Trial) -> tuple[MarchedStep, ...]:
@@ -203,7 +209,7 @@ def _moving(trial: Trial, edges: Course, share: float, advances: float) -> Moved
     """The part of a step in which an end advances, an edge grows and sticks, or both do."""
     part: MovedStep
     if advances:
-        part = end_advances(trial.held, edges, trial.signs, advances, share)
+        part = end_advances(trial.held, edges, Onset(trial.signs, trial.goes_on, advances), share)
     elif any(trial.signs):
         goes_on = trial.goes_on[0 if trial.signs[0] else 1]
         part = edge_sticks(trial.held, edges, trial.signs, goes_on, share)

@@ -22,8 +22,10 @@ from sie.traction.combination import superposed
 
 from . import changing_contact
 from .changing_contact import ChangingContact
+from .growing_contact import LoadChange, Span
 from .marched_step import Held, MarchedStep, drag
 from .panel_shear import PanelShear
+from .slip_onset import onsets
 from .turning_point import TurningPoint
 
 Array = NDArray[np.float64]
@@ -192,7 +194,8 @@ class PathSlip(Slip):
             if state.loads.P == 0.0:
                 continue
             touches = self._touches(x, state.loads)
-            stayed = self._touches(x, before.loads) & touches
+            start = before.loads.touching(state.loads) if state.marched else before.loads
+            stayed = self._touches(x, start) & touches
             total = np.where(stayed, total, 0.0) + step_slip(self.history, index, x)
             new = touches & ~stayed
             if state.marched and new.any():
@@ -255,6 +258,27 @@ class MarchedSlip(PathSlip):
     @property
     def contacts(self) -> tuple[()]:
         return ()
+
+
+def touched(history: Followed, loads: Loads, end: Loads) -> Held:
+    """What a step to `end` starts from that has just brought the bodies into contact.
+
+    Q and P grow in one proportion, and the bulk stress and the tilt do not matter yet; but a flat
+    has its width at once. Where slip begins with it at one edge alone, the state is that of the
+    same loads in proportion on a flat.
+    """
+    p, (Q, tau) = history.pressure_at(loads), history.sheared_by(loads)
+    stick = Interval(p.contact.x1, p.contact.x2)
+    found = Held(Q, tau, p, superposed((Q / loads.P, p)), stick, (0.0, 0.0), tuple(p.breaks))
+    change, f = LoadChange(history, loads, end), history.scene.friction
+    signs = next((way.signs for way in onsets(found, change, f)), found.signs)
+    if all(signs) or not any(signs):
+        return found
+    state = history.on_the_way(loads.normal, history.shear(loads), True)
+    c1, c2 = state.stick[0]
+    stick = Interval(c1 if signs[0] else stick.x1, c2 if signs[1] else stick.x2)
+    marks = (*state.levels, *state.shear.breaks)
+    return replace(found, shear=state.shear, stick=stick, signs=signs, marks=marks)
 
 
 def held(history: Followed, point: TurningPoint, loads: tuple[float, float]) -> Held:
@@ -333,22 +357,27 @@ def _shift_of_change(history: Followed, index: int) -> float:
     A contact [M - R, M + R] that does not slip shifts by -2 ln R/(π E*) dQ + 2/E* M dτ.
     """
     before, point = history.turning_points[index - 1 : index + 1]
+    start = before.loads.touching(point.loads)
     if not history.in_one_patch:
         ChangingContact(history, index).refuse("how far slip shifts the indenter is not covered")
-    (Q0, tau0), (Q, tau) = sheared = [history.sheared_by(o.loads) for o in (before, point)]
+    change = LoadChange(history, start, point.loads)
+    span = Span.of(change, 0.0, 1.0)
 
-    def without_slip(share: float) -> float:
-        contact = history.pressure_at(before.loads.towards(point.loads, share)).contact
-        return math.pi * (tau - tau0) * contact.m - (Q - Q0) * math.log(contact.r)
+    def without_slip(part: float) -> float:
+        share = span.share(np.array(part))
+        contact = change.pressure(float(share)).contact
+        dQ, dtau = change.rates.Q, change.rates.tau
+        moved = math.pi * dtau * contact.m - dQ * math.log(contact.r)
+        return moved * span.length / float(span.pace(share, share))
 
     if point.marched:
         whole = sum(part.drag for part in point.marched)
     else:
-        start, end = (_layered(history, *o) for o in zip((before, point), sheared, strict=True))
-        old = start.pressure.contact
+        first, end = (_layered(history, o, history.sheared_by(o.loads)) for o in (before, point))
+        old = first.pressure.contact
         stuck = Interval(max(old.x1, end.stick.x1), min(old.x2, end.stick.x2))
-        whole = drag(start, end, stuck)
-    stuck_shift = integral(without_slip, abs(Q - Q0) + abs(without_slip(1.0)))
+        whole = drag(first, end, stuck)
+    stuck_shift = integral(without_slip, abs(change.rates.Q) + abs(without_slip(1.0)))
     half_modulus = 0.5 * history.scene.Estar
     return (whole - stuck_shift) / (math.pi * half_modulus)
 

@@ -9,7 +9,7 @@ tells how many stick zones there are and in which directions the zones beside th
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import pairwise
 from typing import Protocol
@@ -36,6 +36,10 @@ PLACES = 240  # in each stick zone, at which |q| <= f p is tested ...
 EXCEEDED = 1e-9  # ... and by how much of the largest f p it may be missed, which is rounding
 TURNED = 1e-3  # of the largest slip: as well does a grid know it
 ADVANCES = "one of several stick zones grows at an end while it shrinks at others"
+TURNED_BACK = (
+    "slip beside several stick zones turns on the way where it goes over all of it again: the "
+    "energy lost meanwhile is not known, the state at the end is"
+)
 TURNS = "slip beside one of several stick zones turns on the way"
 
 
@@ -56,10 +60,12 @@ class SeveralSticks(Receded):
 
     found         the stick zones, and the zones in which q changed
     directions    the signs of slip in these, from left to right
+    one_way       whether slip had these directions all along
     """
 
     found: StickIntervals  # type: ignore[assignment]
     directions: tuple[float, ...] = ()
+    one_way: bool = True
 
     @property
     def stick(self) -> Interval:
@@ -87,6 +93,8 @@ class SeveralSticks(Receded):
     @cached_property
     def work(self) -> float:
         """∫f p |Δg| dx less ∫∫f |Δg| dp dx while the pressure changes."""
+        if not self.one_way:
+            raise ContactError(TURNED_BACK)
         whole, change = self.integrals.work, self.change
         if change is None:
             return whole
@@ -184,7 +192,18 @@ def in_several_zones(step: Stepping) -> SeveralSticks:
     grown = np.diff(slip, axis=0, prepend=0.0) * np.sign(slip[-1])
     if grown.min() < -TURNED * np.abs(slip[-1]).max():
         raise ContactError(TURNS)
-    return states[-1]
+    return replace(states[-1], one_way=_one_way(states))
+
+
+def _one_way(states: list[SeveralSticks]) -> bool:
+    """Whether each zone of slip on the way has the direction that slip has there at the end."""
+    return all(
+        sign == after
+        for state in states[:-1]
+        for lo, hi, sign in state.slipped
+        for first, end, after in states[-1].slipped
+        if first < 0.5 * (lo + hi) < end
+    )
 
 
 def _times(friction: float, pressure: SlopeDensity) -> Callable[[Array], Array]:

@@ -119,7 +119,7 @@ class BothStick(MarchedStep):
 
 def both_stick(before: Held, course: Course, begun: float) -> BothStick:
     """The state at the end of a course, or where an edge begins to slip."""
-    times = np.linspace(begun, course.hi, WATCHED)
+    times = course.times(begun, WATCHED)
     share, slips = course.hi, (0.0, 0.0)
     for k in (0, 1):
         room = _held(course, times, k)

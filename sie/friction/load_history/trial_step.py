@@ -35,9 +35,9 @@ from .slip_rates import SlipRates
 
 Array = NDArray[np.float64]
 
-# Places in the stick zone at which |q| <= f p is tested, how near to its ends as powers of 10, and
-# by how much of the largest f p it may be missed.
-SCANNED, NEAREST, EXCEEDED = 200, -7.0, 1e-9
+# Places in the stick zone at which |q| <= f p is tested, how near to and far from its ends, and by
+# how much of the largest f p it may be missed. A wedge has infinite p in the middle.
+SCANNED, NEAREST, FARTHEST, EXCEEDED = 200, 1e-7, 0.49, 1e-9
 LOCATED = 1e-7  # of a step: so well it is known where in it what is refused happens
 # So well it is known when an end of the stick zone stops, of a step and of the rate of slip: what
 # the end misses is of the second order.
@@ -140,10 +140,10 @@ class Trial:
             contact = state.pressure.contact
             return rates.onwards(contact, state.stick) if inside(state.stick, contact) else None
 
-        if all(self.goes_on):
-            at_start = rates.onwards(self.held.pressure.contact, self.held.stick)
-            if at_start.min() <= STILL * abs(at_start).max():
-                return 0.0, (-1.0, 1.0)[int(at_start.argmin())]
+        at_start = rates.onwards(self.held.pressure.contact, self.first(self.goes_on))
+        least = int(at_start.argmin())
+        if self.goes_on[least] and at_start[least] <= STILL * abs(at_start).max():
+            return 0.0, (-1.0, 1.0)[least]
         bracket = _bracket(onwards)
         if bracket is None:
             return None
@@ -294,7 +294,7 @@ def excess(state: MarchedStep, sticks: Interval) -> tuple[float, float]:
     The second is that of what sticks to the end, or slips in another direction than at the end.
     """
     stick, width = state.stick, 2.0 * state.stick.r
-    near = width * np.logspace(NEAREST, math.log10(0.5), SCANNED)
+    near = width * np.geomspace(NEAREST, FARTHEST, SCANNED)
     x = np.concatenate((stick.x1 + near, stick.x2 - near))
     bound, q = state.friction * state.pressure(x), state.in_stick(x)
     beyond = (np.abs(q) - bound) / bound.max()
