@@ -577,6 +577,38 @@ def test_energy_is_the_work_of_friction_on_the_slip_of_small_steps():
     assert solved().energy_lost == pytest.approx(2.0 * work * (x[1] - x[0]), rel=5e-3)
 
 
+@pytest.mark.parametrize("name", ["rounded flat", "kinked"])
+def test_energy_grows_with_the_load_by_friction_on_the_slip_of_the_flat(name):
+    x, w = gauss_jacobi(24, 0.0, 0.0)[::2]
+    nodes, weights = gauss_jacobi(6, 0.0, 0.0)[::2]
+    flat, rates = flat_functions(0.3, 0.3), []
+    for P in 2.0 + 0.1 * nodes:
+        state = solved(PROFILES[name], normal_load=P).coupled[1]
+        places = np.array([flat.c * state.b, *(y for y in state.marks if y > flat.c * state.b)])
+        lo, length = places[:-1, None], np.diff(places)[:, None]
+        # Broken powers of the distances from both ends become smooth
+        part = x**4 * (35.0 - 84.0 * x + 70.0 * x**2 - 20.0 * x**3)
+        rest, dx = part[::-1], w * 140.0 * (x * (1.0 - x)) ** 3
+        y, to_end = (lo + length * part).ravel(), (state.b - places[1:, None]) + length * rest
+        p = state.pressure(y, to_end.ravel())
+        e = to_end.ravel() / state.b
+        g = flat.slip(1.0 - e, e, y / state.b - flat.c)
+        rates.append(2.0 * 0.3 * float((length * dx).ravel() @ (p * g)))
+    heavy, light = (solved(PROFILES[name], normal_load=P).energy_lost for P in (2.1, 2.0))
+    assert heavy - light == pytest.approx(0.1 * float(weights @ np.array(rates)), rel=1e-8)
+
+
+@pytest.mark.parametrize("pair", [(0.45, 0.1), (0.3, 0.04), (0.3, 0.3), (0.1, 0.3)])
+def test_slip_of_a_flat_is_smooth_where_two_expressions_of_it_meet(pair):
+    flat = flat_functions(*pair)
+    from_c = (flat.rest - flat.beyond) * np.exp(0.4 * np.linspace(-1.0, 1.0, 81))
+    e = flat.rest - from_c
+    g = flat.slip(1.0 - e, e, from_c)
+    fitted = np.polynomial.chebyshev.chebvander(np.linspace(-1.0, 1.0, 81), 24)
+    missed = g - fitted @ np.linalg.lstsq(fitted, g, rcond=None)[0]
+    assert np.abs(missed).max() < 1e-12 * np.abs(g).max()
+
+
 @pytest.mark.parametrize("name", ["wedge", "parabola", "rounded flat", "polynomial"])
 def test_gap_opens_beside_the_contact_as_its_slope_says(name):
     solution = solved(PROFILES[name])

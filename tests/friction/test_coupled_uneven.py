@@ -63,8 +63,19 @@ def test_under_a_symmetric_profile_nothing_but_the_method_differs(profile):
     assert other.gap(beside, profile) == pytest.approx(solution.gap(beside), rel=1e-9)
 
 
-def test_energy_under_a_symmetric_profile_is_that_of_the_other_method():
-    solution = solved(sie.Parabola(1.0))
+@pytest.mark.parametrize(
+    ("profile", "beta", "friction"),
+    [
+        (sie.Parabola(1.0), 0.3, 0.3),
+        (sie.RoundedFlat(0.5, 1.0), 0.45, 0.1),
+        (sie.RoundedFlat(0.5, 1.0), 0.5, 0.5),
+        (sie.RoundedFlat(0.9, 1.0), 0.3, 0.3),
+    ],
+    ids=repr,
+)
+def test_energy_under_a_symmetric_profile_is_that_of_the_other_method(profile, beta, friction):
+    load = sie.solve(scene(profile, beta, friction, half_width=1.0)).normal_load
+    solution = solved(profile, beta, friction, load)
     assert as_uneven(solution.scene).energy == pytest.approx(solution.energy_lost, rel=1e-12)
 
 

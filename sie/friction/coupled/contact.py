@@ -20,11 +20,13 @@ from sie.numerics.interval import EPS, interval_about
 from sie.profiles.base import Profile
 from sie.traction.base import on_line, zero_or_nan
 
+from .dissipation import tables_of_pair, work_of_pair
+from .flat import double_exponential
 from .functions import FlatFunctions
 from .growth import load_slope
 from .half_potential import Panels
 from .panels import graded, totals
-from .profile import GrowthPanel, Superposition
+from .profile import GrowthPanel, Kernel, Superposition
 from .tables import interpolated
 from .traction import CoupledTraction, resolved_panels
 
@@ -32,7 +34,8 @@ Array = NDArray[np.float64]
 
 WIDER = 1.0 + 64.0 * EPS  # than the frictionless contact: as far as P' is known
 FALLING = 1e-9  # of the largest P': below it a negative one is not rounding
-ENERGY_NODES = 24
+ON_PANEL = 24
+CLOSEST = 1e-17  # of r: as near a contact begins the sum over wider ones, not smooth there
 FEW = 12  # marks: between more of them interpolation saves little
 # half-widths: the first panel beside the edge, where H has a power of the distance
 NEAR_EDGE = 1e-9
@@ -220,11 +223,11 @@ class CoupledContact:
         if abs(start) > FALLING * float(np.abs(first.series).max()):
             return math.inf
         hi = min(first.hi, self.ahead)
-        s, weight = first.rule(hi, ENERGY_NODES, -1.0 if first.power else 0.0)
+        s, weight = first.rule(hi, ON_PANEL, -1.0 if first.power else 0.0)
         total = float(weight @ (first(s) / s))
         for panel in others:
             if panel.lo < self.ahead:
-                ahead, weight = panel.rule(min(panel.hi, self.ahead) - panel.lo, ENERGY_NODES)
+                ahead, weight = panel.rule(min(panel.hi, self.ahead) - panel.lo, ON_PANEL)
                 total += float(weight @ (panel(ahead) / (panel.lo + ahead)))
         return A * total
 
@@ -253,26 +256,34 @@ class CoupledContact:
     @cached_property
     def energy(self) -> float:
         """The dissipated energy: ∫ f p |dg| over both slip zones, while P grew."""
-        flat, total = self.flat, 0.0
-        steps = [(p, min(p.hi, self.ahead) - p.lo) for p in self.growth]
-        for panel, length in steps:
-            if length > 0.0:
-                ahead, weight = panel.rule(length, ENERGY_NODES)
-                total += float((weight * panel(ahead)) @ self._rate(panel.lo + ahead))
-        if self.corner_load:
-            # The flat's own part grows as the square of its load
-            edge = self._rate(np.array([self.ahead]))[0]
-            total += self.corner_load * float(edge) + 0.5 * self.corner_load**2 * flat.dissipation
-        return 2.0 * total / self.half_modulus
-
-    def _rate(self, ahead: Array) -> Array:
-        """∫ f p ĝ dx over c s < x < s, p the pressure under P(s), s = a + ahead."""
-        t, e, from_c, weight = self.flat.slip_places
-        s = (self.b - self.ahead) + ahead
-        x = (s[:, None] * t).ravel()
-        p = np.zeros((len(s), len(t)))
+        flat, stack, corner = self.flat, self.superposition.stack, self.corner_load
+        both = 0.5 * corner**2 * float(work_of_pair(flat, np.ones(1), np.zeros(1))[0])
         if self.growth:
-            p = self.superposition.pressure(x, np.repeat(ahead, len(t))).reshape(p.shape)
-        g = self.flat.slip(t, e, from_c)
-        rate: Array = s * self.flat.friction * (p @ (weight * g))
-        return rate
+            part, _, dx = double_exponential()
+            inside = {mark - stack.origin for mark in self.marks}
+            ends = {stack.lo[0], self.ahead, *(s for s in inside if 0.0 < s < self.ahead)}
+            cuts = np.array(sorted(ends))
+            lo, size = cuts[:-1, None], np.diff(cuts)[:, None]
+            beyond, first = lo + size * part, np.searchsorted(stack.lo, lo, "right") - 1
+            panel = np.maximum(np.searchsorted(stack.lo, beyond) - 1, first)
+            # From the ends of intervals, where P' may be infinite, distances keep their digits
+            from_lo = ((lo - stack.lo[panel]) + size * part).reshape(-1, 1)
+            mass = stack(panel.ravel(), from_lo)[:, 0] * (size * dx).ravel()
+            both += float(mass @ self._of_later_layers(beyond.ravel()))
+        return 2.0 * flat.friction * both / self.half_modulus
+
+    def _of_later_layers(self, beyond: Array) -> Array:
+        """∫P' K ds over the wider contacts, for contacts of half-width origin + beyond."""
+        flat, origin = self.flat, self.superposition.stack.origin
+        edge, stick = tables_of_pair(flat)
+        out, back = flat.beyond / flat.middle, (flat.rest - flat.beyond) / (flat.c * flat.middle)
+        kernels = (
+            Kernel(lambda t, e, d: edge(t, e), flat.middle, 1.0, CLOSEST, back, out),
+            Kernel(lambda t, e, d: stick(t, e), flat.c, flat.middle, out, span=back),
+        )
+        r, e = origin + beyond, (self.ahead - beyond) / self.b
+        work = self.superposition._sum(kernels, r, np.full(len(r), self.ahead), over_s=False)
+        if self.corner_load:
+            slips = e < flat.rest
+            work[slips] += self.corner_load * work_of_pair(flat, 1.0 - e[slips], e[slips])
+        return work

@@ -30,10 +30,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie.numerics.elliptic import elliptic_functions
-from sie.numerics.gauss_jacobi import gauss_jacobi
 
-from .flat import FlatPunch, double_exponential, flat_punch, long_rule, sum_of_poles
-from .tables import DEGREE, Points, Table, joined
+from .flat import FlatPunch, flat_punch, long_rule, sum_of_poles
+from .panels import graded, totals
+from .tables import Points, Table, joined
 
 Array = NDArray[np.float64]
 Function = Callable[[Array, Array], Array]
@@ -91,18 +91,6 @@ class FlatFunctions:
         g[near_c] = self.slip_near_c(t[near_c], e[near_c]) * from_c[near_c] ** (1.0 + self.h)
         return g
 
-    @cached_property
-    def slip_places(self) -> Points:
-        """A rule for the slip zone, whatever the exponents at its ends."""
-        return self._of_slip_zone(*double_exponential())
-
-    @cached_property
-    def dissipation(self) -> float:
-        """∫ f p g dt over the slip zone."""
-        t, e, from_c, dt = self.slip_places
-        both = self.pressure(t, e, from_c) * self.slip(t, e, from_c)
-        return self.friction * float(dt @ both)
-
     # -- tables ------------------------------------------------------------------------------------
 
     @cached_property
@@ -125,36 +113,41 @@ class FlatFunctions:
     @cached_property
     def slip_near_c(self) -> Table:
         """g/(t - c)^(1+h), from γ = (t - c)^h times a function that is smooth across c."""
-        x, _, w = gauss_jacobi(DEGREE, 0.0, self.h)
-        factor = (1.0 - self.beta**2) * self.sine / self.beta
+        h, factor = self.h, (1.0 - self.beta**2) * self.sine / self.beta
 
         def mean(t: Array, e: Array) -> Array:
-            back = self._beyond_c(t, e)[:, None] * (1.0 - x)
-            t, e = t[:, None] - back, e[:, None] + back
+            gap = self._beyond_c(t, e)
+            owner, ahead, left, w = graded(gap, np.full(len(t), 2.0 * self.c), e, (h, 0.0))
+            t, e = t[owner][:, None] - left, e[owner][:, None] + left
             S = self.S(t.ravel(), e.ravel()).reshape(t.shape)
-            return factor * (((t + self.c) / (e * (1.0 + t))) ** self.h * S) @ w
+            gamma = factor * (ahead * (t + self.c) / (e * (1.0 + t))) ** h * S
+            return totals(owner, gamma * w, len(gap)) / gap ** (1.0 + h)
 
         return self._near_c(mean)
 
     @cached_property
     def slip_near_edge(self) -> tuple[Table, Table]:
         """g = regular + singular (1 - t)^(1-h) beyond c^(1/2), from γ = β (1 + f²) p - J."""
-        x, _, w = gauss_jacobi(DEGREE, 0.0, -self.h)
-        legendre = gauss_jacobi(DEGREE, 0.0, 0.0)
         at = np.array([self.middle]), np.array([self.beyond])
-        gap = self._beyond_c(*at)
+        gap, power = self._beyond_c(*at), 1.0 - self.h
+        strength = self.beta * (1.0 + self.friction**2) * self.sine
+
+        def beyond(t: Array, e: Array, power: float) -> tuple[Any, ...]:
+            """A rule from t to 1 for functions that are singular at c."""
+            never = np.full(len(e), math.inf)
+            owner, _, left, w = graded(e, self._beyond_c(t, e), never, (0.0, power))
+            return owner, 1.0 - left, left, w
 
         def singular(t: Array, e: Array) -> Array:
-            e = e[:, None] * x
-            t = 1.0 - e
-            chi = (self._beyond_c(t, e) * (t + self.c) / (1.0 + t)) ** self.h
-            Psi = self.Psi(t.ravel(), e.ravel()).reshape(t.shape)
-            return -self.beta * (1.0 + self.friction**2) * self.sine * (chi * Psi) @ w
+            owner, u, left, w = beyond(t, e, -self.h)
+            chi = self.weight(u, left, self._beyond_c(u, left))
+            Psi = self.Psi(u.ravel(), left.ravel()).reshape(u.shape)
+            return -strength * totals(owner, chi * Psi * w, len(e)) / e**power
 
         def regular(t: Array, e: Array) -> Array:
-            ahead = e[:, None] * legendre.x
-            J = self._J((1.0 - ahead).ravel(), ahead.ravel(), self._S_in_stick)
-            return e * (J.reshape(ahead.shape) @ legendre.weight)
+            owner, u, left, w = beyond(t, e, 0.0)
+            J = self._J(u.ravel(), left.ravel(), self._S_in_stick).reshape(u.shape)
+            return totals(owner, J * w, len(e))
 
         there = self.slip_near_c(*at) * gap ** (1.0 + self.h)
         start = (there - singular(*at) * at[1] ** (1.0 - self.h) - regular(*at))[0]

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from sie.numerics.gauss_jacobi import with_weight
 
-from .tables import APART, stretched
+from .stretching import APART, stretched
 
 Array = NDArray[np.float64]
 

@@ -12,11 +12,12 @@ from numpy.typing import NDArray
 
 from sie.numerics import chebyshev
 
+from .stretching import APART, stretched
+
 Array = NDArray[np.float64]
 
 LENGTH, DEGREE = 1.0, 14  # of a panel of v, and of its series: (2 π + 6.4)^-14 is rounding
 STRAIGHT = 0.5  # no longer in v, one panel is straight
-APART = 1e17  # times its length, from an interval: there a singularity is none
 # Of ln((y - m)/(n - y)): the panel next to the middle ends at MIDDLE and is straight in its inverse
 # hyperbolic sine, times BEND; those beyond have one length; and their series
 MIDDLE, BEND, LOG_LENGTH, LOG_DEGREE = 5.0, 0.3, 3.0, 28
@@ -40,21 +41,6 @@ class Points(NamedTuple):
 def joined(*parts: Points) -> Points:
     """The places of all rules, in their order."""
     return Points(*(np.concatenate(column) for column in zip(*parts, strict=True)))
-
-
-def stretched(length: Any, before: Any, after: Any, grown: Array, left: Array) -> tuple[Any, ...]:
-    """Places of an interval by v = ln((B + y)/(C + L - y)): y and L - y, and dy/dv.
-
-    `grown` of v lies behind and `left` ahead. y and L - y are the distances from the ends.
-
-    A function that is singular at y = -B and y = C + L, and nowhere else on the line beside the
-    interval, is analytic in v for |Im v| < π.
-    """
-    ratio, rise, back = before / (after + length), np.expm1(grown), np.expm1(left)
-    below = 1.0 + ratio * (1.0 + rise)
-    to_end = after * back / (1.0 + after / (before + length) * (1.0 + back))
-    rate = before * (1.0 + ratio) * (1.0 + rise) / (below * below)
-    return before * rise / below, to_end, rate
 
 
 class Table:
