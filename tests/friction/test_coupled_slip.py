@@ -786,3 +786,11 @@ def test_the_plan_is_the_footprint():
 
 def test_a_scene_of_dissimilar_bodies_survives_a_pickle():
     assert pickle.loads(pickle.dumps(scene())) == scene()
+
+
+@pytest.mark.parametrize("changes", [{}, {"coupling": "goodman"}, {"tilt": 0.01}])
+def test_a_solution_of_dissimilar_bodies_survives_a_pickle(changes):
+    solution = solved(normal_load=1.0, **changes)
+    stress = solution.stress(0.1, 0.2).xx
+    again = pickle.loads(pickle.dumps(solution))
+    assert again.edges == solution.edges and again.stress(0.1, 0.2).xx == stress
