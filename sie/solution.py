@@ -6,6 +6,7 @@ contact without shear is in `frictionless`, the stress in the body in `stress_an
 
 from __future__ import annotations
 
+import math
 from collections.abc import Collection, Sequence
 from dataclasses import replace
 from functools import partial
@@ -89,6 +90,14 @@ class Solution(Frictionless, StressAnswers):
     Lengths, stresses and loads are in the units of the scene, loads per unit length of the line of
     contact. An attribute computes what it needs when it is read, and keeps it.
     """
+
+    def __getstate__(self) -> dict[str, Any]:
+        """The stages; the question alone where they hold functions, which no pickle takes."""
+        scene, state = self.scene, vars(self)
+        computed_again = scene.coupled or scene.goodman or math.isfinite(scene.profile.period)
+        if type(self) is not Solution or not computed_again:
+            return state
+        return {name: state[name] for name in ("scene", "tol", "economy")}
 
     # -- stages ------------------------------------------------------------------------------------
 

@@ -818,3 +818,17 @@ def test_the_plan_is_the_footprint():
 
 def test_a_scene_of_dissimilar_bodies_survives_a_pickle():
     assert pickle.loads(pickle.dumps(scene())) == scene()
+
+
+@pytest.mark.parametrize("changes", [{}, {"coupling": "goodman"}, {"tilt": 0.01}])
+def test_a_solution_of_dissimilar_bodies_survives_a_pickle(changes):
+    solution = solved(normal_load=1.0, **changes)
+    stress = solution.stress(0.1, 0.2).xx
+    again = pickle.loads(pickle.dumps(solution))
+    assert again.edges == solution.edges and again.stress(0.1, 0.2).xx == stress
+
+
+def test_surface_stress_where_a_parabola_touched_first_is_that_beside_it():
+    solution = solved()
+    beside = solution.stress(1e-9, 0.0).xx
+    assert solution.stress(0.0, 0.0).xx == pytest.approx(float(beside), rel=1e-7)

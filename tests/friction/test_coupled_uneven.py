@@ -239,13 +239,14 @@ def test_what_is_not_solved_is_refused_with_the_reason(profile, changes, words):
         _ = solved(profile, **changes).edges
 
 
-def test_a_contact_is_solved_up_to_the_load_that_a_refusal_names():
+@pytest.mark.parametrize("friction", [0.1, 0.05, 0.03])
+def test_a_contact_is_solved_up_to_the_load_that_a_refusal_names(friction):
     with pytest.raises(sie.ContactError, match="from P = ") as refusal:
-        _ = solved(friction=0.1).edges
+        _ = solved(friction=friction).edges
     load = float(str(refusal.value).split("P = ")[1].split(" ")[0])
-    assert solved(friction=0.1, load=0.99 * load).check().ok
+    assert solved(friction=friction, load=0.99 * load).check().ok
     with pytest.raises(sie.ContactError, match="from P = "):
-        _ = solved(friction=0.1, load=1.02 * load).edges
+        _ = solved(friction=friction, load=1.02 * load).edges
 
 
 def test_a_light_load_on_a_wide_base_is_told_from_one_on_a_symmetric_profile():

@@ -41,6 +41,8 @@ FIRST = 1e-8  # of the half-width from first contact: where the power of the slo
 WHOLE = 1e-3  # of twice a power, from a whole number
 FALLING = 1e-9  # of the largest P': below it a negative one is not rounding
 LOOKS = 200  # places of a panel at which the middle is looked at
+# Before them, in parts of the panel from first touch on: under low friction it turns back early
+NEAR_START = 10.0 ** np.arange(-12.0, -2.0)
 NEGLECT = "set friction = 0, or give dundurs = 0 to neglect β"
 
 
@@ -319,10 +321,10 @@ class March:
 
 def refuse_turning(panel: UnevenPanel, ahead: float, before: float, flat: FlatFunctions) -> None:
     """Raises ContactError where an end of the stick zone would move back, or P' < 0."""
-    places = ahead * (np.arange(LOOKS) + 1.0) / LOOKS
-    if panel.power == 0.0:
-        places = np.append(0.0, places)
-    excess, load = np.abs(panel.rate(places)) - flat.c, panel(places)
+    even = ahead * (np.arange(LOOKS) + 1.0) / LOOKS
+    start = ahead * NEAR_START if panel.power else np.zeros(1)
+    places = np.append(start, even)
+    excess, load = np.abs(panel.rate(places)) - flat.c, panel(even)
     turned = np.flatnonzero(excess >= 0.0)
     if turned.size:
         k = int(turned[0])
