@@ -12,6 +12,7 @@ import sie
 from oracles.kalker import Mesh
 from oracles.load_history import history as on_a_mesh
 from sie.friction.load_history import marching
+from sie.friction.load_history.advancing_end import EndAdvances
 from sie.friction.load_history.joined_zones import joined
 from sie.friction.load_history.load_steps import loads_of, turning_points
 from sie.history import History
@@ -274,6 +275,28 @@ def test_a_random_path_keeps_to_friction_and_balance(points):
     bound = f * solution.pressure(x)
     assert (np.abs(solution.shear(x)) <= bound + 1e-9).all()
     assert solution.check().ok
+
+
+# Slip turns to a short zone at the left edge; an advancing end arrives at one.
+SHORT = [(1, 0.602, 0.49), (1, 0.637, -0.13), (1, 0.7, -0.2)]
+
+
+@pytest.mark.parametrize("scene", [HERTZ, LOPSIDED], ids=["Hertz", "lopsided"])
+def test_shear_in_slip_is_friction_as_near_to_an_edge_as_an_end_is_known(scene):
+    solution = followed(scene, SHORT)[-1]
+    x1, x2 = solution.edges
+    x = x1 + 0.5 * (x2 - x1) * np.geomspace(1.01e-8, 1e-6, 300)
+    assert (x < solution.stick[0][0]).all()
+    assert solution.shear(x) == pytest.approx(f * solution.pressure(x), abs=1e-11 * f)
+    assert solution.check().ok
+
+
+def test_an_end_that_has_arrived_at_an_edge_leaves_no_zone_of_slip_there():
+    part = next(p for p in parts_of(followed(HERTZ, UNTIL_STUCK)[-1]) if isinstance(p, EndAdvances))
+    assert 0.0 in (
+        part.stick.x1 - part.pressure.contact.x1,
+        part.pressure.contact.x2 - part.stick.x2,
+    )
 
 
 def test_the_energy_of_a_closed_march_is_the_area_of_its_loop():

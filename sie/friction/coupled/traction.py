@@ -212,10 +212,12 @@ def resolved_panels(
     marks: tuple[float, ...],
     power: float,
     resolved: float = RESOLVED,
+    short: float = 1.0,
 ) -> tuple[Panels, ...]:
     """Panels of several functions of 0 < y < b that are smooth between the marks, b the last.
 
-    `values` has a row of each.
+    `values` has a row of each. Panels that are longer than `short`, of b, are resolved at every
+    place; of others the force alone may be what they are resolved to.
     """
     b = marks[-1]
     part = 0.5 * (1.0 + chebyshev.points(DEGREE))
@@ -232,7 +234,8 @@ def resolved_panels(
             f[:, -1] /= ((b - y[-1]) / (b - lo[-1])) ** power
         series = chebyshev.transform(f)
         tail = np.abs(series[..., -2:]).max(axis=2) / np.maximum(largest, LEAST)[:, None]
-        settled = ((tail <= resolved) | (tail * (hi - lo) <= FAINT * b)).all(axis=0)
+        faint = (tail * (hi - lo) <= FAINT * b) & (hi - lo <= short * b)
+        settled = ((tail <= resolved) | faint).all(axis=0)
         tail = tail.max(axis=0)
         settled |= (tail < ROUGH) & (tail > SAME * before)
         done += [(lo[k], hi[k], series[:, k]) for k in np.flatnonzero(settled)]

@@ -71,7 +71,14 @@ class EndAdvances(MovedEnd):
         d, contact = self.zone.direction, self.pressure.contact
         last = self.panels[-1]
         ends = d * last.end, d * float(self.zone.ahead(last, np.array(last.last)))
-        return Interval(max(min(ends), contact.x1), min(max(ends), contact.x2))
+        x1, x2 = max(min(ends), contact.x1), min(max(ends), contact.x2)
+        if self.event == 0:
+            x1, x2 = (x1, contact.x2) if d > 0.0 else (contact.x1, x2)
+        return Interval(x1, x2)
+
+    def until(self, share: float) -> EndAdvances:
+        earlier = super().until(share)
+        return replace(earlier, event=OVER) if share < self.share else earlier
 
     @property
     def reach(self) -> tuple[float, float]:

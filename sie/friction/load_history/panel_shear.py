@@ -18,6 +18,7 @@ Array = NDArray[np.float64]
 SAME = 1e-13  # of the contact: marks that are nearer to each other are one
 # of a shear at a smooth edge: its power of the distance
 AT_EDGE = 0.5
+SHORT = 2e-9  # of the contact: panels at marks, less than what an end of a stick zone is known to
 
 
 class PanelShear(OnHalves):
@@ -59,7 +60,7 @@ class PanelShear(OnHalves):
         def from_left(y: Array) -> Array:
             return self._values(np.minimum(self.contact.x1 + y, self.contact.x2))
 
-        return HalfPotential(resolved_panels(from_left, self._ends, AT_EDGE)[0])
+        return HalfPotential(resolved_panels(from_left, self._ends, AT_EDGE, short=SHORT)[0])
 
     @cached_property
     def moment(self) -> float:  # type: ignore[override]

@@ -36,11 +36,13 @@ from .marched_step import FrozenEdge, Held, MarchedStep, places
 from .panel_shear import SAME
 from .receding_equations import Equations
 from .slip_rates import SlipRates
+from .stick_intervals import TINY, Zone, zone
 
 Array = NDArray[np.float64]
 Side = tuple[float, float, float]
 
 OF_SLIP = 1e-11  # of the steepest slip, to which its steepness is resolved
+OPPOSING = 1e-8  # of the largest slip: what may be against the direction of its zone
 
 
 class Ends(NamedTuple):
@@ -108,6 +110,28 @@ class Receded(MarchedStep):
             grown = chebyshev.evaluate(chebyshev.antiderivative(panels.series[k]).T, s)
             out[beside] = (until[k] + 0.5 * length * grown) / self.pressure.half_modulus
         return out
+
+    @cached_property
+    def _in_zones(self) -> tuple[tuple[Zone, Array], ...]:
+        """The zones of slip, and the slip in their directions at their places."""
+        contact, marks = self.pressure.contact, np.array([*self._places, *self.marks])
+        ends = [contact.x1, *(end for stick in self.sticks for end in stick), contact.x2]
+        signs = self.signs[0], *(sign for _, _, sign in self.gaps), self.signs[1]
+        zones = [
+            (sign, zone(between, marks, self.pressure))
+            for sign, between in zip(signs, zip(ends[::2], ends[1::2], strict=True), strict=True)
+        ]
+        return tuple((z, sign * self.slip(z.places)) for sign, z in zones)
+
+    @property
+    def largest(self) -> float:
+        """The largest slip."""
+        return max(float(np.abs(slip).max()) for _, slip in self._in_zones)
+
+    @property
+    def opposing(self) -> float:
+        """The largest slip against the direction of its zone, over the largest slip."""
+        return max(float(-slip.min()) for _, slip in self._in_zones) / max(self.largest, TINY)
 
     @property
     def _beside(self) -> tuple[Side, ...]:
@@ -184,13 +208,9 @@ def receded(
 SURE, EARLY, LATE = 1e-7, 1e-2, 1e-6
 
 
-def moving_work(part: Receded, change: LoadChange) -> float:
-    """f ∫∫ p |dΔg| dx.
-
-    The ends of the stick zone change their speed at marks, beyond which power is a series in the
-    root of time.
-    """
-    begun, end, known = part.begun, part.share, {part.share: part}
+def on_the_way(part: Receded) -> Callable[[float], Receded]:
+    """The states on the way, each searched for from the nearest one that is known."""
+    known = {part.share: part}
 
     def state(share: float) -> Receded:
         if share not in known:
@@ -198,6 +218,16 @@ def moving_work(part: Receded, change: LoadChange) -> float:
             known[share] = part.until(share, known[nearest])
         return known[share]
 
+    return state
+
+
+def moving_work(part: Receded, change: LoadChange) -> float:
+    """f ∫∫ p |dΔg| dx.
+
+    The ends of the stick zone change their speed at marks, beyond which power is a series in the
+    root of time.
+    """
+    begun, end, state = part.begun, part.share, on_the_way(part)
     rates = SlipRates(change.rates, part.friction, part.signs)
 
     def power(share: float) -> float:

@@ -10,8 +10,8 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import cached_property
-from itertools import pairwise
+from functools import cached_property, partial
+from itertools import chain, pairwise
 from typing import Protocol
 
 import numpy as np
@@ -24,9 +24,10 @@ from sie.numerics.halving import integral
 from sie.numerics.interval import Interval
 from sie.traction.of_slope import SlopeDensity
 
-from .grid_zones import cells, guess, stepped
+from .grid_zones import Guess, cells, guess, stepped
+from .growing_contact import LoadChange
 from .marched_step import Held, places
-from .receding_step import Receded, Side
+from .receding_step import OPPOSING, Ends, Receded, Side, on_the_way, receded
 from .stick_intervals import ROUNDING, StickIntervals, Zone, settled, zone
 
 Array = NDArray[np.float64]
@@ -34,6 +35,8 @@ Array = NDArray[np.float64]
 NONE = "no stick zones inside the contact balance the loads"
 PLACES = 240  # in each stick zone, at which |q| <= f p is tested ...
 EXCEEDED = 1e-9  # ... and by how much of the largest f p it may be missed, which is rounding
+LACKING = 3  # how often stick zones that a guess lacks, where slip opposes, are added to it
+KNOWN = 1e-2  # of a step: how well it is known when zones join
 TURNED = 1e-3  # of the largest slip: as well does a grid know it
 ADVANCES = "one of several stick zones grows at an end while it shrinks at others"
 TURNED_BACK = (
@@ -88,24 +91,30 @@ class SeveralSticks(Receded):
     def until(self, share: float, near: Receded | None = None) -> SeveralSticks:
         assert self.change is not None
         loads, pressure = self.change.shear(share), self.change.pressure(share)
-        return stuck_in_several(self.before, pressure, self.friction, loads)
+        return stuck_in_several(self.before, pressure, self.friction, loads, near or self)
 
     @cached_property
     def work(self) -> float:
-        """∫f p |Δg| dx less ∫∫f |Δg| dp dx while the pressure changes."""
+        """The energy of the parts of the step in which as many zones stick.
+
+        Where it is one, the power of slip is in closed form; else it is ∫f p |Δg| dx less ∫∫f |Δg|
+        dp dx.
+        """
         if not self.one_way:
             raise ContactError(TURNED_BACK)
-        whole, change = self.integrals.work, self.change
+        change = self.change
         if change is None:
-            return whole
-
-        def rate(share: float) -> float:
-            state = self.until(share)
-            contact = state.pressure.contact
-            strain = float(change.rates.strain(np.array(contact.m), np.array(contact.r)))
-            return state.integrals.work_of(change.rates.P, strain)
-
-        return whole - integral(rate, abs(whole))
+            return self.integrals.work
+        state, scale, total = on_the_way(self), abs(self.integrals.work), 0.0
+        for begun, end in pairwise((0.0, *_events(state), 1.0)):
+            last = state(end)
+            if state(0.5 * (begun + end)).gaps:
+                until = last.integrals.work
+                total += until - (state(begun).integrals.work if begun else 0.0)
+                total -= integral(partial(_released, state, change), scale, (begun, end))
+            else:
+                total += replace(_in_one_zone(last), change=change, begun=begun, share=end).work
+        return total
 
     @property
     def _beside(self) -> tuple[Side, ...]:
@@ -115,16 +124,23 @@ class SeveralSticks(Receded):
     def integrals(self) -> IntegralsOfSlip:
         """Integrals of Δg."""
         contact, f, total = self.pressure.contact, self.friction, np.zeros(4)
-        marks = np.array([*self._places, *self.marks])
-        ends = np.concatenate(([contact.x1], self.found.ends.ravel(), [contact.x2]))
-        for sign, (lo, hi) in zip(self.directions, ends.reshape(-1, 2).tolist(), strict=True):
-            z = zone((lo, hi), marks, self.pressure)
-            slip = sign * self.slip(z.places)
+        for sign, (z, slip) in zip(self.directions, self._in_zones, strict=True):
             left, right = z.apart(contact.x1), z.apart(contact.x2)
             moved = z.weight * slip / np.sqrt(left * right) / np.pi
             spread, lever = float(moved.sum()), float(moved @ (left - right))
             total += f * float(z.force @ slip), sign * spread, f * spread, 0.5 * f * lever
         return IntegralsOfSlip(*total.tolist())
+
+    @property
+    def cut(self) -> Guess:
+        """A guess with stick zones also where slip is against the direction of its zone."""
+        ends, signs, least = self.found.ends.tolist(), [], -OPPOSING * self.largest
+        for sign, (z, slip) in zip(self.directions, self._in_zones, strict=True):
+            turns = np.diff((slip < least).astype(int), prepend=0, append=0)
+            starts, stops = np.flatnonzero(turns == 1), np.flatnonzero(turns == -1) - 1
+            ends += np.stack((z.places[starts], z.places[stops]), axis=1).tolist()
+            signs += [sign] * (len(starts) + 1)
+        return Guess(np.array(sorted(ends)), tuple(signs))
 
     @property
     def excess(self) -> float:
@@ -138,18 +154,25 @@ class SeveralSticks(Receded):
 
 
 def stuck_in_several(
-    before: Held, pressure: SlopeDensity, friction: float, loads: tuple[float, float]
+    before: Held,
+    pressure: SlopeDensity,
+    friction: float,
+    loads: tuple[float, float],
+    near: Receded | None = None,
 ) -> SeveralSticks:
-    """The state under a pressure and the loads Q and τ. Raises ContactError where none is found."""
+    """The state under a pressure and the loads Q and τ, sought near another one first.
+
+    Raises ContactError where none is found.
+    """
     change = loads[0] - before.Q, loads[1] - before.tau
     old, new = before.pressure.contact, pressure.contact
     outer = Interval(min(old.x1, new.x1), max(old.x2, new.x2))
     marks = np.array(places(before, pressure))
 
     bound = _times(friction, pressure)
-    for first, signs in guess(outer, before.shear, bound, change, marks):
 
-        def beside(ends: Array, signs: tuple[float, ...] = signs) -> StickIntervals:
+    def state(first: Array, signs: tuple[float, ...]) -> SeveralSticks:
+        def beside(ends: Array) -> StickIntervals:
             cuts = np.concatenate(([outer.x1], ends.ravel(), [outer.x2])).reshape(-1, 2)
 
             def slipping(cut: list[float], sign: float) -> Zone:
@@ -158,14 +181,32 @@ def stuck_in_several(
 
             return StickIntervals(ends, tuple(map(slipping, cuts.tolist(), signs)))
 
-        found, error = settled(beside, first, outer, change)
+        found = settled(beside, first, outer, change)
         outermost = signs[0], signs[-1]
-        state = SeveralSticks(
-            before, pressure, friction, outermost, *loads, found, error, directions=signs
+        return SeveralSticks(
+            before, pressure, friction, outermost, *loads, *found, directions=signs
         )
-        if error < ROUNDING and state.excess <= EXCEEDED:
-            return state
+
+    nearest = []
+    if isinstance(near, SeveralSticks) and inside(near.stick, outer):
+        nearest = [Guess(near.found.ends, near.directions)]
+    for first in chain(nearest, guess(outer, before.shear, bound, change, marks)):
+        found = _settled(state, first)
+        if found is not None:
+            return found
     raise ContactError(NONE)
+
+
+def _settled(state: Callable[..., SeveralSticks], guess: Guess) -> SeveralSticks | None:
+    """The state near a guess, with the short stick zones that it lacks; None where it fails."""
+    for _ in range(LACKING):
+        found = state(*guess)
+        if not (found.error < ROUNDING and found.excess <= EXCEEDED):
+            return None
+        if found.opposing <= OPPOSING:
+            return found
+        guess = found.cut
+    return None
 
 
 def in_several_zones(step: Stepping) -> SeveralSticks:
@@ -173,10 +214,11 @@ def in_several_zones(step: Stepping) -> SeveralSticks:
 
     Both are tested at five times on the way. Raises ContactError where they do not hold.
     """
-    states = [
-        stuck_in_several(step.held, step.pressure(share), step.friction, step.shear(share))
-        for share in TESTED
-    ]
+    states: list[SeveralSticks] = []
+    for share in reversed(TESTED):
+        pressure, near = step.pressure(share), states[0] if states else None
+        found = stuck_in_several(step.held, pressure, step.friction, step.shear(share), near)
+        states.insert(0, found)
     for earlier, later in pairwise(states):
         if not all(_within(zone, earlier.sticks) for zone in later.sticks):
             raise ContactError(ADVANCES)
@@ -204,6 +246,34 @@ def _one_way(states: list[SeveralSticks]) -> bool:
         for first, end, after in states[-1].slipped
         if first < 0.5 * (lo + hi) < end
     )
+
+
+def _in_one_zone(state: Receded) -> Receded:
+    """The same state of one stick zone, with nothing said of several ones."""
+    ends, loads = Ends(state.signs, near=state.stick), (state.Q, state.tau)
+    return receded(state.before, state.pressure, state.friction, loads, ends)
+
+
+def _events(state: Callable[[float], Receded]) -> list[float]:
+    """The shares of a step at which the number of stick zones changes."""
+    found = []
+    for ends in pairwise(TESTED):
+        low, high = ends
+        zones = len(state(high).gaps)
+        while len(state(ends[0]).gaps) != zones and high - low > KNOWN:
+            middle = 0.5 * (low + high)
+            low, high = (low, middle) if len(state(middle).gaps) == zones else (middle, high)
+        if high < ends[1]:
+            found.append(high)
+    return found
+
+
+def _released(state: Callable[[float], Receded], change: LoadChange, share: float) -> float:
+    """∫f |Δg| dp/dt dx."""
+    now = state(share)
+    contact = now.pressure.contact
+    strain = float(change.rates.strain(np.array(contact.m), np.array(contact.r)))
+    return now.integrals.work_of(change.rates.P, strain)
 
 
 def _times(friction: float, pressure: SlopeDensity) -> Callable[[Array], Array]:

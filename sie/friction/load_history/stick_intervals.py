@@ -197,11 +197,11 @@ def settled(
     last, inverse = np.inf, None
     for _ in range(MOST_STEPS):
         found = beside(ends)
-        missed = found.missed(*change)
         width = np.diff(np.concatenate(([outer.x1], ends.ravel(), [outer.x2])))
         nearest = np.minimum(width[:-1], width[1:])
         if not nearest.min() > SAME * outer.r:
             break
+        missed = found.missed(*change)
         if inverse is None or np.abs((inverse @ missed) / nearest).max() > SLOW * last:
             h = DIFFERENCE * nearest
             moved = [beside(ends + d.reshape(ends.shape)).missed(*change) for d in np.diag(h)]
