@@ -96,12 +96,12 @@ class PathEnergy:
         before, state = self.path.turning_points[index - 1 : index + 1]
         try:
             return self.path.march(before, state.loads).marched
-        except ContactError:
-            step = ChangingContact(self.path, index)
-            step.refuse(
-                "the energy lost meanwhile depends on the way; the state at its end does not"
-            )
-            raise
+        except ContactError as problem:
+            raise ContactError(
+                f"step {index} of the path, to {state.loads}: the energy lost depends on the way, "
+                f"which the state at its end does not; on it, {problem}",
+                step=index,
+            ) from None
 
     def _of_states(self, index: int, o: SlippedLayer, sign: float) -> float:
         """The energy that an overwritten layer dissipated, per jump.

@@ -25,7 +25,6 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from sie.errors import ContactError
 from sie.numerics.interval import Interval
 
 from .advancing_zone import AdvancingZone
@@ -163,10 +162,7 @@ def end_advances(before: Held, course: Course, way: Onset, share: float) -> EndA
     marks = sorted({direction * x for x in places(before, edge)})
     marks = [u for u in marks if u > start + SAME * old.r]
     motion = EndMotion(zone, missing)
-    try:
-        panels, event = motion.way(start, share, marks)
-    except ContactError:
-        raise ContactError(BOTH) from None
+    panels, event = motion.way(start, share, marks)
     lost = BOTH if event == LOST else ""
     error = abs(motion.end_from_fewer(panels) - panels[-1].end) / zone.half(panels[-1].end, share)
     end = course.hi if event == OVER else panels[-1].until

@@ -141,16 +141,22 @@ class EndMotion:
             panel = Panel(start, length, time, 0.5 * pace * STEADY)
             return float(known[0] + pace * self.zone.own(panel, last, ROUGH).rate.sum())
 
+        low, at_low, late = 0.0, math.nan, math.inf
         high = (self.zone.course.hi - time) / length
         at_high = missed(high)
-        for _ in range(DOUBLED):
+        for _ in range(DOUBLED + HALVED):
             if at_high <= 0.0:
                 break
-            high *= 2.0
+            if at_high > 0.0:
+                low, at_low = high, at_high
+            else:
+                late = high  # so late there is no such zone
+            high = min(2.0 * high, 0.5 * (low + late)) if low else 0.25 * high
             at_high = missed(high)
         else:
             return None
-        low, at_low = high, at_high
+        if not low:
+            low, at_low = high, at_high
         for _ in range(HALVED):
             if not at_low <= 0.0:
                 break
