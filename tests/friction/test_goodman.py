@@ -77,6 +77,12 @@ def test_contact_that_begins_at_a_corner_of_a_tilted_flat_is_answered(part):
     assert solved(sie.RoundedFlat(0.5, 1.0), **given).check().ok
 
 
+@pytest.mark.parametrize("pieces", [((-3, 1), (0, 2)), ((0, 0, -1), (0, 1))])
+def test_contact_that_grows_to_one_side_alone_at_first_is_refused(pieces):
+    with pytest.raises(sie.ContactError, match=r"stick zone.* would recede"):
+        _ = solved(sie.Piecewise((-3, 0, 3), pieces), 0.2, 0.3).stick
+
+
 def test_certificate_is_not_ok_for_another_mismatch():
     state = solved(sie.RoundedFlat(0.5, 1.0)).tangential
     wrong = replace(state, step=replace(state.step, scene=replace(state.step.scene, dundurs=0.11)))

@@ -35,6 +35,8 @@ NEGLIGIBLE = 1e-14  # of the load over the half-width: what a short panel may mi
 MOST_BREAKS = 12  # each asks for panels of its own, and for minutes where they are many
 MOST = 200  # panels: beyond, none is cut
 CUT = 0.3  # of a panel: where it is cut
+# of the first panel: what is cut further only if the middle moves by less than ASIDE of the growth
+SHORTEST, ASIDE = 1e-6, 0.9
 NEWTONS, SETTLED = 60, 4.0 * EPS
 
 
@@ -181,12 +183,29 @@ class ContactTable:
         while todo:
             lo, hi = todo.pop()
             panel, missed = self._panel(lo, hi)
-            if missed <= NEGLIGIBLE or len(done) > MOST:
+            if missed <= NEGLIGIBLE or len(done) + len(todo) > MOST:
                 done.append(panel)
             else:
+                if hi < SHORTEST * ends[1]:
+                    self._refuse_one_sided(panel)
                 middle = lo + CUT * (hi - lo)
                 todo += [(middle, hi), (lo, middle)]
         return tuple(done)
+
+    def _refuse_one_sided(self, first: Panel) -> None:
+        """Raises ContactError where one edge stays behind as the contact begins to grow.
+
+        It does so where h' jumps on one side only, or has unlike powers on both: dm/dr is then ± 1.
+        """
+        moved = np.ptp(first.centre_at(np.array([0.0, first.hi - first.lo])))
+        if moved > ASIDE * (first.hi - first.lo):
+            raise ContactError(
+                f"the profile rises with unlike powers of the distance on both sides of x = "
+                f"{self.first_centre:.6g}, where it touches first: the contact grows to one side "
+                "alone there, so that its stick zone would recede, which Goodman's approximation "
+                "does not solve; give a profile whose slope goes with one power on both sides, or "
+                "dundurs = 0 to neglect β"
+            )
 
     @cached_property
     def ends(self) -> list[float]:

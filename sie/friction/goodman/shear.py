@@ -176,10 +176,12 @@ class GoodmanGrowth:
 
     def _centre(self, r: Array) -> Array:
         centre = np.zeros(r.shape)
-        for panel in self.table.panels:
-            here = r >= panel.lo
-            ahead = np.minimum(r[here], panel.hi) - panel.lo
-            centre[here] = self.side * panel.centre_at(ahead)
+        ends = [*(panel.lo for panel in self.table.panels[1:]), math.inf]
+        for panel, following in zip(self.table.panels, ends, strict=False):
+            here = (r >= panel.lo) & (r < following)
+            if here.any():
+                ahead = np.minimum(r[here], panel.hi) - panel.lo
+                centre[here] = self.side * panel.centre_at(ahead)
         return centre
 
     def _reaching(self, y: Array, part: float) -> Start:
