@@ -43,7 +43,11 @@ class Frictionless:
 
     @cached_property
     def normal(self) -> Normal | SeveralPatches | FullContact:
-        """Edges, load, moment and tilt; verified where the profile may not be convex."""
+        """Edges, load, moment and tilt."""
+        return self._contact()
+
+    def _contact(self) -> Normal | SeveralPatches | FullContact:
+        """The contact without shear, verified where the profile may not be convex."""
         if asks_for_patches(self.scene.profile):
             return self._in_patches()
         try:

@@ -101,14 +101,12 @@ class Solution(Frictionless, StressAnswers):
 
     # -- stages ------------------------------------------------------------------------------------
 
-    @cached_property
-    def normal(self) -> Normal | SeveralPatches | FullContact:
-        """Edges, load, moment and tilt."""
+    def _contact(self) -> Normal | SeveralPatches | FullContact:
         if self.scene.bonded:
             return Normal(self.bonded[0], False)
         if self.scene.coupled:
             return Normal(self.coupled[0], not self.scene.tangential_load)
-        return super().normal
+        return super()._contact()
 
     @cached_property
     def bonded(self) -> tuple[Edges, JacobiDensity]:

@@ -11,6 +11,7 @@ import pytest
 import sie
 from analytic import goodman
 from sie.certificate.shear_check import goodman_certificate
+from sie.friction.goodman.frame import DeficitFrame
 from sie.friction.goodman.functions import goodman_flat
 from sie.io.scene_file import parse
 
@@ -75,6 +76,14 @@ def test_certificate_holds_where_the_contact_is_not_symmetric(name):
 def test_contact_that_begins_at_a_corner_of_a_tilted_flat_is_answered(part):
     given = {"friction": 0.2, "tilt": 0.005, "normal_load": 1.0, "tangential_load": 0.2 * part}
     assert solved(sie.RoundedFlat(0.5, 1.0), **given).check().ok
+
+
+def test_zone_past_two_breaks_at_one_distance_keeps_its_force():
+    def one(distance, _):
+        return np.ones_like(distance)
+
+    frame = DeficitFrame(one, 0.5, 1.0, 0.5, (0.2, 0.2), None, 0.1)
+    assert frame.zone(0.5).force.sum() == pytest.approx(0.5 / 0.5, rel=1e-12)
 
 
 @pytest.mark.parametrize("pieces", [((-3, 1), (0, 2)), ((0, 0, -1), (0, 1))])

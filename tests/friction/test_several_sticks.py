@@ -90,7 +90,7 @@ def test_a_gap_opens_inside_the_stick_zone_and_joins_the_slip_beside_it():
     """Q held while σ is reversed: the gap opens behind an earlier end and takes over the zone."""
     start, turned = (0.4, 0.25), (0.4, -0.25)
     numbers = []
-    for share in (0.45, 0.459, 0.462):
+    for share in (0.45, 0.459, 0.463):
         on_the_way = tuple(a + share * (b - a) for a, b in zip(start, turned))
         numbers.append(len(followed([(0.4, 0.0), start, on_the_way])[-1].stick))
     assert numbers == [1, 2, 1]
@@ -99,7 +99,7 @@ def test_a_gap_opens_inside_the_stick_zone_and_joins_the_slip_beside_it():
 def test_a_short_stick_zone_that_a_guess_lacks_is_found_where_slip_would_oppose(monkeypatch):
     """The second one of two zones is about to vanish; the guess has the first one alone."""
     start = followed([(0.4, 0.0), (0.4, 0.25)])[-1]
-    held, sigma = start.history.turning_points[-1].marched[-1].held, (0.25 - 0.5 * 0.462) * S
+    held, sigma = start.history.turning_points[-1].marched[-1].held, (0.25 - 0.5 * 0.463) * S
     poor = Guess(np.array([[-0.943, 0.7737]]), (-held.signs[0], -held.signs[1]))
     monkeypatch.setattr(several_sticks, "guess", lambda *_: iter([poor]))
     found = stuck_in_several(held, held.pressure, f, (held.Q, 0.25 * sigma))

@@ -189,7 +189,14 @@ PUNCH = parse(example("rounded-flat")).scene
 CYCLE = parse(example("fatigue"))
 PATH_FILE = parse(example("fretting-cycle"))
 PATH = sie.follow(PATH_FILE.scene, PATH_FILE.load_path)
-DISSIMILAR = parse(example("dissimilar")).scene
+NODES = np.linspace(-1.0, 1.0, 17)
+DISSIMILAR = sie.Scene(
+    profile=sie.Sampled(NODES, NODES**2 / 2.0),
+    modulus=1.0,
+    dundurs=0.1,
+    friction=0.3,
+    normal_load=0.3,
+)
 
 
 def test_a_small_solve_opens_no_work(told):

@@ -45,7 +45,8 @@ class DeficitFrame:
         if length <= 0.0:
             none = np.zeros(0)
             return SlipZone(0.0, none, none, none, none)
-        ends = np.array([0.0, *(b for b in self.breaks if b < length), length])
+        # Marks that are a rounding apart may be at one distance from an end
+        ends = np.unique([0.0, *(b for b in self.breaks if b < length), length])
         width = np.diff(ends)
         before = np.full(len(width), NEAREST * length)
         before[0] = self.scale

@@ -30,7 +30,7 @@ from sie.traction.of_slope import SlopeDensity
 
 from .growing_contact import Contacts, LoadChange
 from .marched_step import Held, MarchedStep
-from .receding_step import Ends, Receded, receded
+from .receding_step import OPPOSING, Ends, Receded, receded
 from .slip_rates import SlipRates
 
 Array = NDArray[np.float64]
@@ -194,6 +194,8 @@ class Trial:
             if self._problem(before if k else None, now, end, (earlier, later)):
                 raise self._located(before if k else None, end, (earlier, later))
             before = now
+        if self.constant and end.opposing > OPPOSING:
+            raise self.refusal(ISLAND, share)
         return end
 
     def _solved(self, share: float) -> Receded:
