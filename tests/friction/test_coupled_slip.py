@@ -145,6 +145,11 @@ def test_slip_zone_remains_under_any_friction_of_very_dissimilar_bodies():
     assert flat_punch(0.5, 1e9).modulus.rest > 1e-3
 
 
+def test_panels_end_where_doubles_do_not_tell_a_jump_from_the_end():
+    (panels,) = resolved_panels(lambda y: 1.0 * (y < 1.0 - 1e-14), (1.0,), 0.5)
+    assert np.isfinite(panels.series).all()
+
+
 def test_panels_of_a_traction_end_at_its_rounding():
     places = []
 

@@ -118,7 +118,7 @@ class FlatFunctions:
         def mean(t: Array, e: Array) -> Array:
             gap = self._beyond_c(t, e)
             owner, ahead, left, w = graded(gap, np.full(len(t), 2.0 * self.c), e, (h, 0.0))
-            t, e = t[owner][:, None] - left, e[owner][:, None] + left
+            t, e = self.c + ahead, e[owner][:, None] + left
             S = self.S(t.ravel(), e.ravel()).reshape(t.shape)
             gamma = factor * (ahead * (t + self.c) / (e * (1.0 + t))) ** h * S
             return totals(owner, gamma * w, len(gap)) / gap ** (1.0 + h)
@@ -135,8 +135,8 @@ class FlatFunctions:
         def beyond(t: Array, e: Array, power: float) -> tuple[Any, ...]:
             """A rule from t to 1 for functions that are singular at c."""
             never = np.full(len(e), math.inf)
-            owner, _, left, w = graded(e, self._beyond_c(t, e), never, (0.0, power))
-            return owner, 1.0 - left, left, w
+            owner, ahead, left, w = graded(e, self._beyond_c(t, e), never, (0.0, power))
+            return owner, t[owner][:, None] + ahead, left, w
 
         def singular(t: Array, e: Array) -> Array:
             owner, u, left, w = beyond(t, e, -self.h)

@@ -29,6 +29,7 @@ RESOLVED = 2e-14  # of the largest traction: the last coefficients of a panel
 FAINT = 1e-15  # of the largest traction times b: what a short panel may miss
 # Tails below ROUGH that a cut leaves above SAME of what they were are rounding
 ROUGH, SAME = 1e-8, 0.8
+TOLD = 1e-12  # of the distance from 0: nodes of a shorter panel are few doubles apart
 LEAST = 1e-300  # of a panel, to an edge where the traction may be infinite
 
 
@@ -238,6 +239,7 @@ def resolved_panels(
         settled = ((tail <= resolved) | faint).all(axis=0)
         tail = tail.max(axis=0)
         settled |= (tail < ROUGH) & (tail > SAME * before)
+        settled |= hi - lo <= TOLD * lo
         done += [(lo[k], hi[k], series[:, k]) for k in np.flatnonzero(settled)]
         open_ = []
         for k in np.flatnonzero(~settled).tolist():
