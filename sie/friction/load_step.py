@@ -217,13 +217,15 @@ class Step:
     def late(self) -> TurningPoint | None:
         """A new front that an edge of a shrinking contact holds up at first.
 
-        At the end of the step it has passed whatever slipped before.
+        Slip beside the old stick zone may go on meanwhile: at the end of the step the front has
+        passed all of it.
         """
         sign, contact = -self.k, self.contacts.contact(self.loads)
         front, ahead = sign * self.pull - self.rise, sign * (self.pull - self.k * self.rise)
         if abs(sign) != 1.0 or not self.rise:
             return None
-        stopped = self._at_ends(self.k * self.pull - self.rise, self._zone(0.0, self.memory).r)
+        old = self._zone(0.0, self.memory)
+        stopped = self._at_ends(self.k * self.pull - self.rise, old.r)
         whole = self.contacts.contact(self.before.loads)
         if max(stopped) > 0.0 or not self._opens(front, whole, whole):
             return None
@@ -231,7 +233,8 @@ class Step:
             return None
         memory, slips = self._slipped(sign, 1.0)
         zone = self._zone(1.0, memory)
-        if not (inside(zone, contact) and self._opens(front, zone, contact)):
+        passed = inside(zone, contact) and inside(zone, old)
+        if not (passed and self._opens(front, zone, contact)):
             return None
         return self._reached(memory, tuple(slip._replace(timed=False) for slip in slips))
 

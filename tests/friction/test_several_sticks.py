@@ -99,7 +99,7 @@ def test_a_gap_opens_inside_the_stick_zone_and_joins_the_slip_beside_it():
 def test_a_short_stick_zone_that_a_guess_lacks_is_found_where_slip_would_oppose(monkeypatch):
     """The second one of two zones is about to vanish; the guess has the first one alone."""
     start = followed([(0.4, 0.0), (0.4, 0.25)])[-1]
-    held, sigma = start.history.turning_points[-1].marched[-1].held, (0.25 - 0.5 * 0.463) * S
+    held, sigma = start.history.turning_points[-1].marched[-1].held, (0.25 - 0.5 * 0.462) * S
     poor = Guess(np.array([[-0.943, 0.7737]]), (-held.signs[0], -held.signs[1]))
     monkeypatch.setattr(several_sticks, "guess", lambda *_: iter([poor]))
     found = stuck_in_several(held, held.pressure, f, (held.Q, 0.25 * sigma))
