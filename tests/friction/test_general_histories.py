@@ -182,6 +182,12 @@ def test_a_front_that_is_held_up_is_that_of_the_step_in_parts():
     assert parts.energy_lost == pytest.approx(whole.energy_lost, rel=1e-9)
 
 
+def test_a_trial_of_an_advancing_end_that_leaves_the_contact_gives_no_warning():
+    points = [(1, 0, 0), (1.4031, 0.7101, 0.16746), (0.89323, -0.28385, -0.26637)]
+    with pytest.raises(sie.ContactError, match="advance"):
+        _ = followed(HERTZ, points)[-1].energy_lost
+
+
 def test_a_nested_loop_leaves_no_memory():
     points = [(1, 0.6, 0.1), (0.95, -0.2, -0.05), (1.0, 0.1, 0.0), (0.95, -0.2, -0.05)]
     _, before, _, after = history = followed(LOPSIDED, points)

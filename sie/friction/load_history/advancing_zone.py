@@ -163,11 +163,11 @@ class AdvancingZone(MovingZone):
         def rate(later: float) -> Array:
             now = self._instant(panel, w, later)
             x = place[:, None]
-            added: Array = du * (2.0 * now.pressure(x) - now.gain(behind, now.a - x))
+            with np.errstate(invalid="ignore", divide="ignore"):  # nan where a trial leaves contact
+                added: Array = du * (2.0 * now.pressure(x) - now.gain(behind, now.a - x))
             return added
 
-        with np.errstate(invalid="ignore", divide="ignore"):
-            here = rate(0.0)
+        here = rate(0.0)
 
         def change() -> Array:
             step = DIFFERENCE * (self.course.hi - self.course.lo)
