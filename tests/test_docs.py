@@ -132,11 +132,14 @@ def test_the_citation_has_the_version_of_the_package():
 
 PAGES = [page for page in DOCUMENTS if "{code-cell}" in page.read_text(encoding="utf-8")]
 GUIDES = sorted({*(ROOT / "docs" / "how-to").glob("*.md")} - {*PAGES})
+NEEDED = {"cluster": "xarray"}
 
 
 @pytest.mark.parametrize("guide", GUIDES, ids=lambda path: path.stem)
 def test_the_snippets_and_commands_of_a_guide_run_in_order(guide, tmp_path, monkeypatch, capsys):
     """Python, scene files ("Save this as `name`") and commands, beside the guide's data."""
+    if guide.stem in NEEDED:
+        pytest.importorskip(NEEDED[guide.stem], reason="the guide writes a file of a sweep")
     for data in guide.parent.glob("*.csv"):
         shutil.copy(data, tmp_path)
     monkeypatch.chdir(tmp_path)
