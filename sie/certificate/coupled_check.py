@@ -80,7 +80,7 @@ def coupled_certificate(state: CoupledContact, scene: Scene, tol: float) -> Cert
         abscissae=rounding + P_ROUNDING * peak / of_shear,
         condition=1.0,
         advancing=True,
-        kind="outwards on both sides while the normal load grew; β couples p and q",
+        kind=kind_of_slip(state.full_stick, scene.beta),
         tol=max(tol, OF_SHEAR),
     )
     return Certificate(
@@ -95,6 +95,14 @@ def coupled_certificate(state: CoupledContact, scene: Scene, tol: float) -> Cert
         shear=shear,
         notes=notes(np.concatenate(slopes), peak / scene.Estar),
     )
+
+
+def kind_of_slip(full_stick: bool, beta: float) -> str:
+    """The slip under a normal load alone, in words."""
+    way = f"{'outwards' if beta > 0.0 else 'inwards'} on both sides while the normal load grew"
+    if full_stick:
+        way = "full stick, its zones narrower than 1e-15 of the contact"
+    return f"{way}; β couples p and q"
 
 
 def _drift(state: CoupledContact, x: Array, gamma: Array, beta: float) -> float:
@@ -131,7 +139,7 @@ def _values(state: CoupledContact) -> Values:
     nearest = min(NEAREST, 0.1 * state.flat.rest)
     powers = [*(0.0 for _ in marks[1:]), state.edge_power]
     for lo, width, after, power in zip((0.0, *marks), widths, beyond, powers, strict=False):
-        first = min(nearest, 0.1 * lo / float(width)) if lo else nearest
+        first = min(nearest, NEAREST * lo / float(width)) if lo else nearest
         ahead, behind, weight = _panels(float(width), power, first)
         parts.append((lo + ahead, after + behind, weight))
     y, rest, weight = (np.concatenate(column) for column in zip(*parts, strict=True))

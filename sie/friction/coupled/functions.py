@@ -64,20 +64,20 @@ class FlatFunctions:
 
     def pressure(self, t: Array, e: Array, from_c: Array) -> Array:
         """p."""
-        edge = e < self.beyond
+        edge = self._outer(t, e)
         p = np.empty(t.shape)
         p[edge] = (
             self.sine * self.weight(t[edge], e[edge], from_c[edge]) * self.Psi(t[edge], e[edge])
         )
         p[~edge] = self.A(t[~edge], e[~edge])
-        slip = ~edge & (e < self.rest)
+        slip = ~edge & (self._beyond_c(t, e) > 0.0)
         chi = self.weight(t[slip], e[slip], from_c[slip])
         p[slip] -= self.sine * chi * self.S_beside_c(t[slip], e[slip])
         return p
 
     def shear_deficit(self, t: Array, e: Array, from_c: Array) -> Array:
         """f p - q."""
-        deficit, stick = np.zeros(t.shape), e > self.rest
+        deficit, stick = np.zeros(t.shape), self._beyond_c(t, e) < 0.0
         chi = self.weight(t[stick], e[stick], from_c[stick])
         deficit[stick] = chi * self.S(t[stick], e[stick]) / self.beta
         return deficit
@@ -85,9 +85,9 @@ class FlatFunctions:
     def slip(self, t: Array, e: Array, from_c: Array) -> Array:
         """g."""
         regular, singular = self.slip_near_edge
-        g, edge = np.zeros(t.shape), e < self.beyond
+        g, edge = np.zeros(t.shape), self._outer(t, e)
         g[edge] = regular(t[edge], e[edge]) + singular(t[edge], e[edge]) * e[edge] ** (1.0 - self.h)
-        near_c = ~edge & (e < self.rest)
+        near_c = ~edge & (self._beyond_c(t, e) > 0.0)
         g[near_c] = self.slip_near_c(t[near_c], e[near_c]) * from_c[near_c] ** (1.0 + self.h)
         return g
 
@@ -171,7 +171,12 @@ class FlatFunctions:
         from_c = float(self._beyond_c(*self._middle))
         return Table(self._middle, ONE, (from_c, math.inf), function)
 
+    def _outer(self, t: Array, e: Array) -> Any:
+        """Where t > c^(1/2)."""
+        return e < self.beyond if self.c > 0.5 else t > self.middle
+
     def _beyond_c(self, t: Any, e: Any) -> Any:
+        """t - c, from that of t and 1 - t which tells it better."""
         return self.rest - e if self.c > 0.5 else t - self.c
 
     # -- A and Ψ, from the eigenvector -------------------------------------------------------------
