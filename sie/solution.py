@@ -356,6 +356,24 @@ class Solution(Frictionless, StressAnswers):
         return self.patches if self.scene.friction else ()
 
     @property
+    def slip_widths(self) -> tuple[float, float]:
+        """The widths of the zones of slip at the left edge and at the right one, in lengths.
+
+        Returns
+        -------
+        tuple of float
+            From each edge to the stick zone next to it; the width of the contact, twice, in full
+            sliding. Between dissimilar bodies under a normal load alone they keep their digits
+            when they are smaller than the rounding of the edges; 0 below 1e-15 of the half-width,
+            where that is full stick.
+        """
+        if self.scene.coupled and not self.scene.tangential_load:
+            return (self.coupled[1].slip_width,) * 2
+        x1, x2 = self.edges
+        stick = self.stick or ((x2, x1),)
+        return stick[0][0] - x1, x2 - stick[-1][1]
+
+    @property
     def shear(self) -> Density:
         """The shear traction q, which acts on the body along +x, a `Density` in units of stress.
 

@@ -30,7 +30,7 @@ from sie.numerics.interval import EPS
 from sie.problem.scene import Scene
 from sie.progress_bar import reported
 
-from .coupled_check import OUTSIDE, gradient_of_slip
+from .coupled_check import OUTSIDE, gradient_of_slip, kind_of_slip
 from .result import Certificate, ShearCertificate
 
 Array = NDArray[np.float64]
@@ -124,9 +124,13 @@ def _of_shear(
 ) -> ShearCertificate:
     """What is measured on q; `drift` is the change of the slip gradient in the stick zone."""
     Q, peak, size = scene.tangential_load, float(values.p.max()), np.abs(values.q)
-    way = f"towards {'+' if Q > 0.0 else '-'}x"
-    if not isinstance(state, ShearedContact):
-        way = f"{'outwards' if scene.beta > 0.0 else 'inwards'} on both sides"
+    if isinstance(state, UnevenContact):
+        kind = kind_of_slip(state.full_stick, scene.beta)
+    else:
+        way = f"towards {'+' if Q > 0.0 else '-'}x"
+        if isinstance(state, ProportionalContact):
+            way = f"{'outwards' if scene.beta > 0.0 else 'inwards'} on both sides"
+        kind = f"{way} beside the stick zone; β couples p and q"
     excess = float((size - scene.friction * values.p).max()) / (scene.friction * peak)
     return ShearCertificate(
         residual=drift,
@@ -136,7 +140,7 @@ def _of_shear(
         abscissae=EPS + 16.0 * EPS * peak / float(size.max()),
         condition=1.0,
         advancing=True,
-        kind=f"{way} beside the stick zone; β couples p and q",
+        kind=kind,
         tol=max(tol, OF_SHEAR),
     )
 

@@ -78,8 +78,9 @@ def test_stick_zone_and_central_pressure_of_a_flat_agree_with_other_formulations
 
 @pytest.mark.parametrize("pair", spence.SLIP_WIDTHS)
 def test_slip_zone_is_as_narrow_as_in_forty_digits(pair):
-    width = flat_punch(*pair).modulus.rest
-    assert width == pytest.approx(spence.SLIP_WIDTHS[pair], rel=1e-10)
+    solution = solved(sie.Parabola(1.0), *pair)
+    left, right = (width / solution.half_width for width in solution.slip_widths)
+    assert left == right == pytest.approx(spence.SLIP_WIDTHS[pair], rel=1e-10)
 
 
 @pytest.mark.parametrize("pair", REFERENCES)
@@ -146,14 +147,14 @@ def test_slip_zone_remains_under_any_friction_of_very_dissimilar_bodies():
 
 
 def test_panels_end_where_doubles_do_not_tell_a_jump_from_the_end():
-    (panels,) = resolved_panels(lambda y: 1.0 * (y < 1.0 - 1e-14), (1.0,), 0.5)
+    (panels,) = resolved_panels(lambda y, _: 1.0 * (y < 1.0 - 1e-14), (1.0,), 0.5)
     assert np.isfinite(panels.series).all()
 
 
 def test_panels_of_a_traction_end_at_its_rounding():
     places = []
 
-    def rough(y):
+    def rough(y, _):
         places.append(y.size)
         return np.sqrt(1.0 - y) * (1.0 + 1e-10 * np.sin(1e12 * y))
 
@@ -334,7 +335,36 @@ def test_tractions_of_a_parabola_in_full_stick_are_bonded_punches_superposed(bet
 def test_full_stick_is_said_where_the_slip_zone_is_narrower_than_rounding(beta, friction):
     solution = solved(sie.Flat(1.0), beta, friction)
     assert solution.stick == (solution.edges,)
+    assert solution.slip_widths == (0.0, 0.0)
     assert solution.check().error <= 1e-11
+    assert "slip: full stick" in str(solution.check())
+
+
+NARROW = [(0.05, 0.6), (0.05, 0.5), (-0.05, 0.5), (0.02, 0.205), (0.005, 0.6)]
+
+
+@pytest.mark.parametrize(("beta", "friction"), NARROW)
+@pytest.mark.parametrize("profile", [sie.Flat(1.0), sie.Parabola(1.0), sie.RoundedFlat(0.5, 1.0)])
+def test_potentials_beside_narrow_slip_zones_have_the_loads(profile, beta, friction):
+    """1 - c/b from 1e-12 to what doubles cannot tell; π z F(z) is P far away."""
+    solution = solved(profile, beta, friction)
+    far, P = 1e8j * solution.half_width, solution.normal_load
+    assert (math.pi * far * solution.pressure.cauchy(far)).real == pytest.approx(P, rel=1e-8)
+    assert solution.shear.moment * beta > 0.0
+    stress = solution.stress(0.0, [0.0, 0.1, 1.0])
+    assert all(np.isfinite(part).all() for part in (stress.xx, stress.yy, stress.xy))
+    assert not math.isnan(solution.peak_tension().value)
+
+
+@pytest.mark.parametrize("beta", [0.1, 0.2, 0.3, 0.4, 0.5])
+def test_stick_zones_of_any_smallness_under_a_flat_are_certified(beta):
+    """Down to 2e-39 of the half-width, where 1 - x is 1 at both ends of the slip zone."""
+    solution = solved(sie.Flat(1.0), beta, 0.01)
+    c = solution.stick[0][1]
+    x = c * np.array([0.5, 2.0])
+    q = solution.shear(x) / solution.pressure(x) / 0.01
+    assert q[0] == pytest.approx(1.0 / 3.0, abs=2e-3) and q[1] == 1.0
+    assert solution.check().ok
 
 
 # -- the two equations -----------------------------------------------------------------------------

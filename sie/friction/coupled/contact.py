@@ -80,6 +80,11 @@ class CoupledContact:
         return ((self.axis - self.c, self.axis + self.c),)
 
     @property
+    def slip_width(self) -> float:
+        """The width of each zone of slip, to full relative accuracy."""
+        return 0.0 if self.full_stick else self.flat.rest * self.b
+
+    @property
     def slip_zones(self) -> tuple[tuple[float, float, float], ...]:
         """(lo, hi, sign of q)."""
         if self.full_stick:

@@ -171,8 +171,9 @@ class CoupledTraction(OnHalves):
 
     @property
     def breaks(self) -> tuple[float, ...]:
-        m = self.contact.m
-        inner = {m - y for y in self.marks[:-1]} | {m + y for y in self.marks[:-1]}
+        m, b = self.contact.m, self.marks[-1]
+        told = [y for y in self.marks[:-1] if b - y > TOLD * b]
+        inner = {m - y for y in told} | {m + y for y in told}
         return tuple(sorted(inner | set(self.interval)))
 
     def __call__(self, x: ArrayLike) -> Array:
@@ -209,7 +210,7 @@ def on_panels(panels: Panels, y: Array) -> Array:
 
 
 def resolved_panels(
-    values: Callable[[Array], Array],
+    values: Callable[[Array, Array], Array],
     marks: tuple[float, ...],
     power: float,
     resolved: float = RESOLVED,
@@ -217,24 +218,29 @@ def resolved_panels(
 ) -> tuple[Panels, ...]:
     """Panels of several functions of 0 < y < b that are smooth between the marks, b the last.
 
-    `values` has a row of each. Panels that are longer than `short`, of b, are resolved at every
-    place; of others the force alone may be what they are resolved to.
+    `values` has a row of each, at y and b - y, which next to b is known better than from y. Panels
+    that are longer than `short`, of b, are resolved at every place; of others the force alone may
+    be what they are resolved to.
     """
     b = marks[-1]
     part = 0.5 * (1.0 + chebyshev.points(DEGREE))
     ends = (0.0, *marks)
     open_ = [(lo, hi, math.inf) for lo, hi in itertools.pairwise(ends) if hi > lo]
     done: list[tuple[float, float, Array]] = []
-    largest = np.zeros(1)
+    largest = np.zeros((1, 1))
     while open_:
         lo, hi, before = (np.array(column) for column in zip(*open_, strict=True))
         y = lo[:, None] + (hi - lo)[:, None] * part
-        f = values(y.ravel()).reshape(-1, *y.shape)
-        largest = np.maximum(largest, np.abs(f[..., 1:-1]).max(axis=(1, 2), initial=0.0))
+        rest = (b - hi)[:, None] + (hi - lo)[:, None] * (1.0 - part)
+        f = values(y.ravel(), rest.ravel()).reshape(-1, *y.shape)
         if hi[-1] == b:
-            f[:, -1] /= ((b - y[-1]) / (b - lo[-1])) ** power
+            f[:, -1] /= (1.0 - part) ** power
+        sizes = np.abs(f[..., 1:-1]).max(axis=2)
+        # A short panel at a corner would hide what panels beside it miss
+        inner = sizes[:, hi < b].max(axis=1, keepdims=True, initial=0.0)
+        largest = np.maximum(largest, inner)
         series = chebyshev.transform(f)
-        tail = np.abs(series[..., -2:]).max(axis=2) / np.maximum(largest, LEAST)[:, None]
+        tail = np.abs(series[..., -2:]).max(axis=2) / np.maximum(sizes, largest + LEAST)
         faint = (tail * (hi - lo) <= FAINT * b) & (hi - lo <= short * b)
         settled = ((tail <= resolved) | faint).all(axis=0)
         tail = tail.max(axis=0)

@@ -105,6 +105,11 @@ class UnevenContact:
         return (self._edges_at(self.b, 1.0 if self.full_stick else self.flat.c),)
 
     @property
+    def slip_width(self) -> float:
+        """The width of each zone of slip, to full relative accuracy."""
+        return 0.0 if self.full_stick else self.flat.rest * self.b
+
+    @property
     def slip_zones(self) -> tuple[tuple[float, float, float], ...]:
         """(lo, hi, sign of q)."""
         if self.full_stick:

@@ -100,7 +100,7 @@ class GoodmanShear(PotentialsOfParts):
         sides = (1.0,) if self.state.symmetric else (1.0, -1.0)
         power = -0.5 if any(self.state.step.normal.edges.sharp) else 0.5
 
-        def halves(y: Array) -> Array:
+        def halves(y: Array, _: Array) -> Array:
             return np.stack([self._half(y, side) for side in sides])
 
         right, *left = resolved_panels(halves, self._inner, power)

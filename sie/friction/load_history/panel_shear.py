@@ -57,7 +57,7 @@ class PanelShear(OnHalves):
 
     @cached_property
     def _half(self) -> HalfPotential:
-        def from_left(y: Array) -> Array:
+        def from_left(y: Array, _: Array) -> Array:
             return self._values(np.minimum(self.contact.x1 + y, self.contact.x2))
 
         return HalfPotential(resolved_panels(from_left, self._ends, AT_EDGE, short=SHORT)[0])

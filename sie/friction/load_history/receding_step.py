@@ -156,7 +156,7 @@ class Receded(MarchedStep):
         apart = np.diff(d, prepend=0.0) > SAME * length
         inner = d[apart & (d > SAME * length) & (d < length * (1.0 - SAME))].tolist()
 
-        def steepness(distance: Array) -> Array:
+        def steepness(distance: Array, _: Array) -> Array:
             x = end + side * distance
             change = self.shear.hilbert(x) - self.before.shear.hilbert(x)
             steep: Array = side * (change - (self.tau - self.before.tau))
