@@ -16,7 +16,8 @@ each point to the next all loads change in proportion to time. What is exact, an
                                        that travels; several stick zones, all of which recede
     from P = 0, P, Q, σ and    the same, from soon after the first contact on
     tilt in proportion
-    dissimilar bodies                  P and Q in proportion from zero, under a power law
+    dissimilar bodies                  P that grows and then Q, each point as a scene; P and Q in
+                                       proportion from zero, under a power law
                                        (`friction.coupled.proportional`)
 
 `path_contacts` has the contacts under the loads of the path. `friction.memory` computes the layers
@@ -39,14 +40,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import higher_layers
-from .certificate.coupled_shear_check import sheared_certificate
-from .certificate.result import Certificate, ShearCertificate
+from .certificate.result import ShearCertificate
 from .certificate.shear_check import marched_certificate
 from .contact.known_contact import Edges, Normal
-from .errors import ContactError, LoadError
+from .errors import ContactError
 from .friction.coupled.proportional import ProportionalContact, proportional_contact
-from .friction.coupled.two_sided import TwoSidedTraction
-from .friction.load_history.load_steps import Followable, proportional_points, turning_points
+from .friction.load_history.load_steps import Followable, points_of_loads, turning_points
 from .friction.load_history.marching import march
 from .friction.load_history.path_slip import MarchedSlip, PathSlip, held, step_shift, touched
 from .friction.load_history.turning_point import TurningPoint
@@ -58,7 +57,7 @@ from .patches.path_energy import PathEnergy
 from .path_contacts import PathContacts
 from .plan import Plan, Step
 from .problem.load_path import Path
-from .problem.path_scene import in_proportion, unsheared
+from .problem.path_scene import as_scenes, in_proportion, unsheared
 from .problem.request import ECONOMY
 from .problem.scene import Scene
 from .progress_bar import counted
@@ -152,10 +151,14 @@ class History(PathContacts, Sequence[Solution]):
         self._points: dict[int, PathSolution] = {}
         self._energy = PathEnergy(self)
         self._shifts: dict[int, float] = {}
-        self.in_proportion = steps is turning_points and in_proportion(scene, path)
-        self.turning_points = (
-            proportional_points(path) if self.in_proportion else steps(scene, path, self)
-        )
+        self._kind: type[PathSolution] = PathSolution
+        self.as_scenes: list[Solution] = []
+        if steps is turning_points and as_scenes(scene, path):
+            self._kind, self.as_scenes = SceneSolution, self._solved_as_scenes()
+        elif steps is turning_points and in_proportion(scene, path):
+            self._kind = ProportionalSolution
+        layered = self._kind is PathSolution
+        self.turning_points = steps(scene, path, self) if layered else points_of_loads(path)
 
     def __len__(self) -> int:
         return len(self.turning_points)
@@ -169,8 +172,8 @@ class History(PathContacts, Sequence[Solution]):
             return [self[k] for k in range(*index.indices(len(self)))]
         k = range(len(self))[index]
         if k not in self._points:
-            kind = ProportionalSolution if self.in_proportion else PathSolution
-            self._points[k] = kind(self, k)
+            touching = self.path.points[k][0] > 0.0
+            self._points[k] = (self._kind if touching else PathSolution)(self, k)
         return self._points[k]
 
     def __iter__(self) -> Iterator[Solution]:
@@ -185,8 +188,8 @@ class History(PathContacts, Sequence[Solution]):
         Plan
             A step of the plan for each step of the path, printed as a table.
         """
-        known = "P and Q in proportion" if self.in_proportion else "layers: contacts superposed"
-        how = (f"marched: {point.why}" if point.marched else known for point in self.turning_points)
+        route, points = self._kind.route, self.turning_points
+        how = (f"marched: {point.why}" if point.marched else route for point in points)
         return Plan(tuple(Step(f"step {k}", True, reason) for k, reason in enumerate(how)))
 
     def plot(self, ax: Any = None, units: Any = None) -> Any:
@@ -259,6 +262,16 @@ class History(PathContacts, Sequence[Solution]):
         """The energy lost from the beginning of the path to a turning point."""
         return self._energy.until(index)
 
+    def _solved_as_scenes(self) -> list[Solution]:
+        """The points as scenes, which share what they can; refused here if they are not covered."""
+        found, scenes = self.solution(self.scene), []
+        for P, Q, _ in self.path.points:
+            if P:
+                found = found.with_(normal_load=P, tangential_load=Q)
+                solve(found.scene, self.tol)
+            scenes.append(found)
+        return scenes
+
     def shift_of_step(self, index: int) -> float:
         """The shift of the indenter that slip adds in one step."""
         if index not in self._shifts:
@@ -268,6 +281,8 @@ class History(PathContacts, Sequence[Solution]):
 
 class PathSolution(Solution):
     """The solution at one point of a path."""
+
+    route = "layers: contacts superposed"
 
     def __init__(self, history: History, index: int) -> None:
         self.history, self.index = history, index
@@ -343,41 +358,33 @@ class PathSolution(Solution):
         return f"sie.follow({self.history.scene!r}, {self.history.path!r})[{self.index}]"
 
 
-class ProportionalSolution(PathSolution):
-    """The solution of dissimilar bodies at a point of a path in proportion from zero."""
+class DissimilarSolution(PathSolution):
+    """The solution of dissimilar bodies at a point of a path, which depends on its loads alone."""
+
+    normal, pressure = Solution.normal, Solution.pressure  # type: ignore[assignment]
+    sheared, tangential = Solution.sheared, Solution.tangential
+    stick, energy_lost = Solution.stick, Solution.energy_lost
+
+
+class SceneSolution(DissimilarSolution):
+    """The same where P grows, or Q after it."""
+
+    route = "the state of a scene, that of its loads"
+
+    def __init__(self, history: History, index: int) -> None:
+        super().__init__(history, index)
+        self.__dict__.update(history.as_scenes[index].__dict__)
+
+
+class ProportionalSolution(DissimilarSolution):
+    """The same where P and Q grow in proportion from zero."""
+
+    route = "P and Q in proportion"
 
     @cached_property
     def coupled(self) -> tuple[Edges, ProportionalContact]:  # type: ignore[override]
         """The edges and the state."""
-        loads = self.history.turning_points[self.index].loads
-        if loads.P == 0.0:
-            raise LoadError("the path is at P = 0 here: nothing touches; ask for a later point")
         return proportional_contact(self.scene)
-
-    @cached_property
-    def normal(self) -> Normal:
-        """The contact, as of `Solution`."""
-        return Normal(self.coupled[0], False)
-
-    @property
-    def sheared(self) -> bool:
-        """Whether shear follows from a pressure that is known."""
-        return False
-
-    @cached_property
-    def pressure(self) -> TwoSidedTraction:  # type: ignore[override]
-        """The pressure p(x), a stress, as of `Solution`."""
-        return self.coupled[1].tractions[0]
-
-    @cached_property
-    def certificate(self) -> Certificate:
-        """The certificate that `check` returns."""
-        return sheared_certificate(self.coupled[1], self.scene, self.tol)
-
-    @property
-    def stick(self) -> tuple[tuple[float, float], ...]:
-        """The stick zone at this point."""
-        return self.coupled[1].stick
 
     @property
     def energy_lost(self) -> float:

@@ -367,8 +367,9 @@ class Solution(Frictionless, StressAnswers):
             when they are smaller than the rounding of the edges; 0 below 1e-15 of the half-width,
             where that is full stick.
         """
-        if self.scene.coupled and not self.scene.tangential_load:
-            return (self.coupled[1].slip_width,) * 2
+        state = self.coupled[1] if self.scene.coupled else None
+        if isinstance(state, CoupledContact | UnevenContact):
+            return state.slip_width, state.slip_width
         x1, x2 = self.edges
         stick = self.stick or ((x2, x1),)
         return stick[0][0] - x1, x2 - stick[-1][1]

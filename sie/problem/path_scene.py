@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from itertools import pairwise
 
 from sie.errors import ContactError
 from sie.numerics.interval import EPS
@@ -13,16 +14,32 @@ from .scene import Scene, refuse_no_scene
 
 def in_proportion(scene: Scene, path: Path) -> bool:
     """Whether P and Q of dissimilar bodies in partial slip grow in proportion from zero."""
-    if not (scene.beta and scene.friction) or scene.bonded or scene.sliding:
-        return False
-    if scene.coupling != "full" or scene.tilt or scene.moment or any(path.turns):
+    if not _dissimilar(scene) or scene.tilt or scene.moment or not _by_loads_alone(path):
         return False
     start, *points = path.points
-    if any(start) or any(sigma for _, _, sigma in points):
-        return False
     last, Q, _ = points[-1]
     growing = all(a[0] < b[0] for a, b in zip(path.points, points, strict=False))
-    return growing and all(abs(q * last - Q * p) <= 8.0 * EPS * abs(Q) * p for p, q, _ in points)
+    in_line = all(abs(q * last - Q * p) <= 8.0 * EPS * abs(Q) * p for p, q, _ in points)
+    return not any(start) and growing and in_line
+
+
+def as_scenes(scene: Scene, path: Path) -> bool:
+    """Whether P of dissimilar bodies grows, and then Q: each state is that of its loads."""
+    if not _dissimilar(scene) or not _by_loads_alone(path):
+        return False
+    one_way = len({Q > 0.0 for _, Q, _ in path.points if Q}) <= 1
+    pairs = pairwise([(P, abs(Q)) for P, Q, _ in path.points])
+    return one_way and all(p >= P and q >= Q and (p == P or not q) for (P, Q), (p, q) in pairs)
+
+
+def _dissimilar(scene: Scene) -> bool:
+    if not (scene.beta and scene.friction) or scene.bonded or scene.sliding:
+        return False
+    return scene.coupling == "full"
+
+
+def _by_loads_alone(path: Path) -> bool:
+    return not any(path.turns) and not any(sigma for _, _, sigma in path.points)
 
 
 def refuse_uncovered(scene: Scene) -> None:
@@ -36,11 +53,11 @@ def refuse_uncovered(scene: Scene) -> None:
     if scene.beta and scene.friction and not scene.sliding:
         raise ContactError(
             f"a path of dissimilar bodies (β = {scene.beta:.4g}) with friction is solved where P "
-            "and Q grow in proportion from (0, 0, 0) only: what sticks under another Q/P, or again "
-            "after unloading of P or a reversal of Q, keeps a slip gradient that depends on the "
-            "states before: as P falls slip goes on beside a zone that sticks again, and as Q "
-            "turns the contact gains what sticks at first. Solve P, then a Q that grows, as "
-            "scenes, or give dundurs = 0 to neglect β"
+            "grows and then Q at constant P, or both in proportion from (0, 0, 0): what sticks "
+            "under another Q/P, or again after unloading of P or a reversal of Q, keeps a slip "
+            "gradient that depends on the states before: as P falls slip goes on beside a zone "
+            "that sticks again, and as Q turns the contact gains what sticks at first. Let P grow "
+            "first and then Q, or give dundurs = 0 to neglect β"
         )
 
 
@@ -50,8 +67,8 @@ def unsheared(scene: Scene, path: Path) -> Scene:
     Raises ValueError or ContactError where a scene has no load paths, or the path is none, or one
     of them turns the indenter by tilt and the other by moment.
     """
-    known = isinstance(path, Path) and isinstance(scene, Scene) and in_proportion(scene, path)
-    if not known:
+    given = isinstance(path, Path) and isinstance(scene, Scene)
+    if not (given and (in_proportion(scene, path) or as_scenes(scene, path))):
         refuse_uncovered(scene)
     if not isinstance(path, Path):
         raise ValueError(f"{path!r} is not a path: give sie.Path([(P, Q, σ), ...])")

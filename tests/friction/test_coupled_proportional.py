@@ -164,13 +164,15 @@ def test_slip_zones_below_resolution_are_refused_where_the_shear_widens_them():
 @pytest.mark.parametrize(
     "points",
     [
-        [(1.0, 0.0), (1.0, 0.1)],
+        [(1.0, 0.0), (1.0, 0.1), (1.0, 0.05)],
+        [(1.0, 0.0), (1.0, 0.1), (1.0, -0.2)],
+        [(1.0, 0.1), (2.0, 0.1)],
         [(0.0, 0.0), (1.0, 0.1), (2.0, 0.1)],
         [(0.0, 0.0), (1.0, 0.1), (0.5, 0.05)],
     ],
 )
 def test_other_paths_of_dissimilar_bodies_are_refused(points):
-    with pytest.raises(sie.ContactError, match="in proportion from"):
+    with pytest.raises(sie.ContactError, match="both in proportion from"):
         sie.follow(scene(), sie.Path(points))
 
 
@@ -178,3 +180,22 @@ def test_the_beginning_of_the_path_has_no_contact():
     history = sie.follow(scene(), sie.Path([(0.0, 0.0), (1.0, 0.05)]))
     with pytest.raises(sie.ContactError, match="P = 0"):
         _ = history[0].edges
+
+
+def test_points_where_the_normal_load_grows_and_then_the_tangential_one_are_those_of_scenes():
+    path = sie.Path([(0.0, 0.0), (0.5, 0.0), (1.0, 0.0), (1.0, -0.05), (1.0, -0.2)])
+    history = sie.follow(scene(), path)
+    assert [row["energy_lost"] for row in history.rows()] == sorted(
+        row["energy_lost"] for row in history.rows()
+    )
+    for point, (P, Q, _) in list(zip(history, path.points, strict=True))[1:]:
+        alone = sie.solve(replace(scene(load=P), tangential_load=Q))
+        assert point.edges == pytest.approx(alone.edges, rel=1e-12)
+        assert point.stick[0] == pytest.approx(alone.stick[0], rel=1e-11)
+        assert point.slip(0.3) == pytest.approx(float(alone.slip(0.3)), rel=1e-9, abs=1e-15)
+        assert point.shear.resultant == Q and point.check().ok
+
+
+def test_a_path_of_scenes_is_refused_before_any_work_where_all_slides():
+    with pytest.raises(sie.LoadError, match="bodies slide"):
+        sie.follow(scene(), sie.Path([(1.0, 0.0), (1.0, 0.1), (1.0, 0.4)]))

@@ -76,8 +76,8 @@ def loads_of(path: Path) -> list[Loads]:
     return [Loads(*point, turn) for point, turn in zip(path.points, path.turns, strict=True)]
 
 
-def proportional_points(path: Path) -> tuple[TurningPoint, ...]:
-    """The points of a path in proportion from zero, at which nothing has to be remembered."""
+def points_of_loads(path: Path) -> tuple[TurningPoint, ...]:
+    """The points of a path at which nothing has to be remembered."""
     return tuple(TurningPoint(loads, LoadMemory(loads.P)) for loads in loads_of(path))
 
 
