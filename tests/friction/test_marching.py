@@ -292,6 +292,27 @@ def test_shear_in_slip_is_friction_as_near_to_an_edge_as_an_end_is_known(scene):
     assert solution.check().ok
 
 
+# A second zone of slip opens next to where slip in the step before has ended, some 1e-2 wide.
+NEAR_A_MARK = [(1, 0, 0), (1, 0.637, 0.205), (1, 0.63, 0.435), (1, 0.693, 0.23)]
+FROM_THE_RIGHT = [(P, -Q, sigma) for P, Q, sigma in NEAR_A_MARK]
+
+
+@pytest.mark.parametrize(
+    ("scene", "points"),
+    [
+        (LOPSIDED, NEAR_A_MARK),
+        (replace(LOPSIDED, profile=LOPSIDED.profile.mirrored()), FROM_THE_RIGHT),
+    ],
+    ids=["as it is", "mirrored"],
+)
+def test_a_narrow_zone_of_slip_at_a_mark_is_seen(scene, points):
+    """It is narrower than one place in thirty of the stick zone."""
+    solution = followed(scene, points)[-1]
+    (c1, b1), (a2, c2) = solution.stick
+    assert 0.0 < a2 - b1 < 0.01 * (c2 - c1)
+    assert solution.check().ok
+
+
 def test_an_end_that_has_arrived_at_an_edge_leaves_no_zone_of_slip_there():
     part = next(p for p in parts_of(followed(HERTZ, UNTIL_STUCK)[-1]) if isinstance(p, EndAdvances))
     assert 0.0 in (

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import math
 from abc import ABC, abstractmethod
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,6 +23,10 @@ from .panel_shear import SAME, PanelShear
 
 Array = NDArray[np.float64]
 
+# How near to the ends of a stick zone, and to marks in it, |q| <= f p is tested, of its width, how
+# far from them, of the way to the next one, and at how many places. A wedge has infinite p in the
+# middle; a zone of slip that has just opened at a mark is too short to be found.
+NEAREST, AT_MARK, FARTHEST, SCANNED = 1e-7, 1e-5, 0.49, 100
 MUCH, HALVINGS = 0.1, 12  # of a stick zone: what stuck for a while; how often a while is halved
 
 
@@ -224,6 +229,25 @@ class MarchedStep(ABC):
         whole = (x1, self.stick.x1, left), *self.gaps, (self.stick.x2, x2, right)
         return tuple(zone for zone in whole if zone[1] > zone[0])
 
+    @property
+    def scanned(self) -> tuple[Array, Array, Array]:
+        """Places in the stick zones, q there, and |q| - f p over the largest f p.
+
+        They are graded towards the marks but those of the profile, as slip that ended at one has
+        left q next to f p, and some are where |q| - f p is largest between them.
+        """
+        marks = sorted({*self.marks}.difference(self.pressure.breaks))
+
+        def values(x: Array) -> Array:
+            return np.stack((x, self.in_stick(x), self.friction * self.pressure(x)))
+
+        found = values(np.unique(np.concatenate([_graded(zone, marks) for zone in self.sticks])))
+        x, q, f_p = found
+        between = values(_tops(x, np.abs(q) - f_p))
+        both = np.concatenate((found, between), axis=1)
+        x, q, f_p = both[:, np.argsort(both[0])]
+        return x, q, (np.abs(q) - f_p) / f_p.max()
+
     # -- integrals ---------------------------------------------------------------------------------
 
     @property
@@ -263,6 +287,31 @@ def places(before: Held, pressure: SlopeDensity) -> tuple[float, ...]:
     """Where p at both ends of a step, and q at its start, may not be smooth."""
     ends = before.stick.x1, before.stick.x2, *before.pressure.interval, *pressure.interval
     return *before.marks, *ends, *pressure.breaks
+
+
+def _graded(zone: tuple[float, float], marks: Iterable[float]) -> Array:
+    """Places in a zone, graded towards its ends and ascending marks in it."""
+    (lo, hi), width = zone, zone[1] - zone[0]
+    ends = [lo]
+    for x in marks:
+        if ends[-1] + 3.0 * AT_MARK * width < x < hi - 3.0 * AT_MARK * width:
+            ends.append(x)
+    least = width * np.array([NEAREST, *[AT_MARK] * (len(ends) - 1), NEAREST])
+    places = []
+    for (a, b), near in zip(pairwise([*ends, hi]), pairwise(least), strict=True):
+        up, down = (np.geomspace(first, FARTHEST * (b - a), SCANNED) for first in near)
+        places += [a + up, b - down]
+    return np.concatenate(places)
+
+
+def _tops(x: Array, values: Array) -> Array:
+    """Where values at ascending places are largest between them, by parabolas."""
+    low, top, high = values[:-2], values[1:-1], values[2:]
+    here = np.flatnonzero((top >= low) & (top > high))
+    back, ahead = np.diff(x)[here], np.diff(x)[here + 1]
+    fall, drop = (top - low)[here] / back, (top - high)[here] / ahead
+    vertex: Array = x[here + 1] + 0.5 * (fall * ahead - drop * back) / (fall + drop)
+    return vertex
 
 
 def drag(start: Held, end: Held, stuck: Interval) -> float:

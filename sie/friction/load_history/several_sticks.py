@@ -33,9 +33,9 @@ from .stick_intervals import ROUNDING, StickIntervals, Zone, settled, zone
 Array = NDArray[np.float64]
 
 NONE = "no stick zones inside the contact balance the loads"
-PLACES = 240  # in each stick zone, at which |q| <= f p is tested ...
-EXCEEDED = 1e-9  # ... and by how much of the largest f p it may be missed, which is rounding
-LACKING = 3  # how often stick zones that a guess lacks, where slip opposes, are added to it
+EXCEEDED = 1e-9  # of the largest f p: by so much |q| <= f p may be missed, which is rounding
+# How often zones that a guess lacks are added: of stick where slip opposes, of slip beyond f p
+LACKING = 3
 KNOWN = 1e-2  # of a step: how well it is known when zones join
 TURNED = 1e-3  # of the largest slip: as well does a grid know it
 ADVANCES = "one of several stick zones grows at an end while it shrinks at others"
@@ -145,12 +145,20 @@ class SeveralSticks(Receded):
     @property
     def excess(self) -> float:
         """The largest |q| - f p where it sticks, over the largest f p."""
-        angle = np.pi * (np.arange(PLACES) + 0.5) / PLACES
-        x = np.concatenate(
-            [0.5 * (a + b) - 0.5 * (b - a) * np.cos(angle) for a, b in self.found.ends]
-        )
-        bound = self.friction * self.pressure(x)
-        return float((np.abs(self.in_stick(x)) - bound).max() / bound.max())
+        return float(self.scanned[2].max())
+
+    @property
+    def opened(self) -> Guess:
+        """A guess with zones of slip also where |q| exceeds f p in the stick zones."""
+        x, q, beyond = self.scanned
+        turns = np.diff((beyond > EXCEEDED).astype(int), prepend=0, append=0)
+        starts, stops = np.flatnonzero(turns == 1) - 1, np.flatnonzero(turns == -1)
+        starts, stops = np.maximum(starts, 0), np.minimum(stops, len(x) - 1)
+        ends = np.sort(np.concatenate((self.found.ends.ravel(), x[starts], x[stops])))
+        gaps = [(lo, sign) for lo, _, sign in self.gaps]
+        gaps += zip(x[starts].tolist(), np.sign(q[starts]).tolist(), strict=True)
+        inner = (sign for _, sign in sorted(gaps))
+        return Guess(ends.reshape(-1, 2), (self.signs[0], *inner, self.signs[1]))
 
 
 def stuck_in_several(
@@ -198,14 +206,15 @@ def stuck_in_several(
 
 
 def _settled(state: Callable[..., SeveralSticks], guess: Guess) -> SeveralSticks | None:
-    """The state near a guess, with the short stick zones that it lacks; None where it fails."""
+    """The state near a guess, with the short zones that it lacks; None where it fails."""
     for _ in range(LACKING):
         found = state(*guess)
-        if not (found.error < ROUNDING and found.excess <= EXCEEDED):
+        if not found.error < ROUNDING:
             return None
-        if found.opposing <= OPPOSING:
+        opened = found.excess > EXCEEDED
+        if not opened and found.opposing <= OPPOSING:
             return found
-        guess = found.cut
+        guess = found.opened if opened else found.cut
     return None
 
 

@@ -35,9 +35,7 @@ from .slip_rates import SlipRates
 
 Array = NDArray[np.float64]
 
-# Places in the stick zone at which |q| <= f p is tested, how near to and far from its ends, and by
-# how much of the largest f p it may be missed. A wedge has infinite p in the middle.
-SCANNED, NEAREST, FARTHEST, EXCEEDED = 200, 1e-7, 0.49, 1e-9
+EXCEEDED = 1e-9  # of the largest f p: by so much |q| <= f p may be missed
 LOCATED = 1e-7  # of a step: so well it is known where in it what is refused happens
 # So well it is known when an end of the stick zone stops, of a step and of the rate of slip: what
 # the end misses is of the second order.
@@ -295,11 +293,7 @@ def excess(state: MarchedStep, sticks: Interval) -> tuple[float, float]:
 
     The second is that of what sticks to the end, or slips in another direction than at the end.
     """
-    stick, width = state.stick, 2.0 * state.stick.r
-    near = width * np.geomspace(NEAREST, FARTHEST, SCANNED)
-    x = np.concatenate((stick.x1 + near, stick.x2 - near))
-    bound, q = state.friction * state.pressure(x), state.in_stick(x)
-    beyond = (np.abs(q) - bound) / bound.max()
+    x, q, beyond = state.scanned
     along = np.where(x < sticks.m, *state.signs) * q > 0.0
     slips = along & ((x < sticks.x1) | (x > sticks.x2))
     return float(beyond.max()), float(beyond[~slips].max(initial=-1.0))
