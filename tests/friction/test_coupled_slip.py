@@ -16,7 +16,7 @@ from oracles import spence
 from sie.certificate.coupled_check import coupled_certificate
 from sie.friction.coupled import flat as coupled_flat
 from sie.friction.coupled.flat import flat_punch
-from sie.friction.coupled.functions import flat_functions
+from sie.friction.coupled.functions import FlatFunctions, flat_functions
 from sie.friction.coupled.growth import power_law_moment
 from sie.friction.coupled.half_potential import DEGREE, HalfPotential, Panels
 from sie.friction.coupled.panels import graded
@@ -837,3 +837,19 @@ def test_surface_stress_where_a_parabola_touched_first_is_that_beside_it():
     solution = solved()
     beside = solution.stress(1e-9, 0.0).xx
     assert solution.stress(0.0, 0.0).xx == pytest.approx(float(beside), rel=1e-7)
+
+
+def test_slip_next_to_the_edge_takes_an_integral_over_the_contact_at_nodes_of_one_table_only(
+    monkeypatch,
+):
+    places, one = [], FlatFunctions._J
+
+    def counted(self, t, e, S):
+        places.append(len(t))
+        return one(self, t, e, S)
+
+    flat = FlatFunctions(flat_punch(0.3, 0.02))
+    assert flat._S_in_stick.size  # which takes it too
+    monkeypatch.setattr(FlatFunctions, "_J", counted)
+    regular, _ = flat.slip_near_edge
+    assert sum(places) == regular.series.size

@@ -131,6 +131,7 @@ class FlatFunctions:
         at = np.array([self.middle]), np.array([self.beyond])
         gap, power = self._beyond_c(*at), 1.0 - self.h
         strength = self.beta * (1.0 + self.friction**2) * self.sine
+        J = self._near_edge(lambda t, e: self._J(t, e, self._S_in_stick))
 
         def beyond(t: Array, e: Array, power: float) -> tuple[Any, ...]:
             """A rule from t to 1 for functions that are singular at c."""
@@ -146,8 +147,7 @@ class FlatFunctions:
 
         def regular(t: Array, e: Array) -> Array:
             owner, u, left, w = beyond(t, e, 0.0)
-            J = self._J(u.ravel(), left.ravel(), self._S_in_stick).reshape(u.shape)
-            return totals(owner, J * w, len(e))
+            return totals(owner, J(u.ravel(), left.ravel()).reshape(u.shape) * w, len(e))
 
         there = self.slip_near_c(*at) * gap ** (1.0 + self.h)
         start = (there - singular(*at) * at[1] ** (1.0 - self.h) - regular(*at))[0]
