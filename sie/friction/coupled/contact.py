@@ -25,10 +25,10 @@ from .flat import double_exponential
 from .functions import FlatFunctions
 from .growth import load_slope
 from .half_potential import Panels
-from .panels import graded, totals
+from .panels import INNERMOST, graded, totals
 from .profile import GrowthPanel, Kernel, Superposition
 from .tables import interpolated
-from .traction import CoupledTraction, resolved_panels
+from .traction import CoupledTraction, joined_panels
 
 Array = NDArray[np.float64]
 
@@ -94,7 +94,7 @@ class CoupledContact:
 
         @lru_cache(maxsize=1)
         def panels() -> tuple[Panels, ...]:
-            return resolved_panels(self.pressure_and_shear, self.marks, self.edge_power)
+            return joined_panels(self.pressure_and_shear, self.marks, self.edge_power)
 
         return (
             CoupledTraction(
@@ -189,6 +189,7 @@ class CoupledContact:
 
         values = np.zeros(len(y))
         inside = (y > 0.0) & (y <= self.b) if not self.flat_base else y <= self.b
+        y = np.maximum(y, INNERMOST * self.b)
         if not self.growth or len(self.marks) > FEW:
             values[inside] = direct(y[inside])
         else:
