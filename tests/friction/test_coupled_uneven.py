@@ -96,6 +96,17 @@ def test_both_equations_hold_for_other_pairs(beta, friction):
     assert max(found.residual, found.shear.residual) < 2e-12
 
 
+@pytest.mark.parametrize("tilt", [0.08, -0.12, 0.15])
+def test_both_equations_hold_where_one_edge_hardly_moves(tilt):
+    found = solved(sie.Wedge(0.2), 0.13, 3.0, load=0.012, tilt=tilt).check()
+    assert max(found.residual, found.shear.residual) < 1e-12
+
+
+def test_a_trial_that_moves_an_edge_back_gives_no_warning():
+    left, right = solved(sie.RoundedFlat(0.5, 1.0), 0.082, 0.384, 1.954, tilt=0.001427).edges
+    assert left < -0.5 < 0.5 < right
+
+
 def test_certificate_is_not_ok_for_another_mismatch():
     right = solved()
     wrong = sie.Solution(replace(right.scene, dundurs=0.3001))
