@@ -267,7 +267,7 @@ def joined_panels(
     at_ends = values(panels[0].lo)
     # At the last mark the last series has a factor
     at_ends = np.append(at_ends, np.full((len(at_ends), 1), np.inf), axis=1)
-    finite = np.isfinite(at_ends).all(axis=0)
+    finite = np.asarray(np.isfinite(at_ends).all(axis=0))
     signs, joined = (-1.0) ** np.arange(DEGREE), []
     for own, f in zip(panels, at_ends, strict=True):
         start = np.where(finite[:-1], f[:-1] - own.series @ signs, 0.0)
