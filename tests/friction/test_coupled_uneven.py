@@ -13,7 +13,7 @@ from oracles import spence
 from sie.contact.normal import normal_contact
 from sie.friction.coupled import uneven_march
 from sie.friction.coupled.functions import flat_functions
-from sie.friction.coupled.uneven_contact import uneven_contact
+from sie.friction.coupled.uneven_contact import UnevenContact, uneven_contact
 from sie.friction.coupled.uneven_growth import Equations, History, Side, UnevenPanel
 
 SKEW = sie.Polynomial((0.0, 0.0, 0.5, 0.1, 0.02))
@@ -108,6 +108,11 @@ def test_equations_of_a_trial_that_moves_an_edge_back_are_finite():
     trial = UnevenPanel(0.0, 1.0, 0.0, 0.0, np.ones(1), np.array([1.2]))
     equations = Equations(History(flat_functions(0.3, 0.3)), trial, Side(lambda rise: rise, -1.0))
     assert np.isfinite(equations.missed).all()
+
+
+def test_profiles_that_are_not_symmetric_in_a_narrow_strip_are_told_from_symmetric_ones():
+    sides = sie.RoundedFlat(0.5, 1.0) + sie.RoundedFlat(0.5, 2.0).shifted(1e-3)
+    assert isinstance(solved(sides, 0.06, 1.9, load=0.8).coupled[1], UnevenContact)
 
 
 def test_certificate_is_not_ok_for_another_mismatch():
