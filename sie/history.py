@@ -346,6 +346,10 @@ class PathSolution(Solution):
 class ProportionalSolution(PathSolution):
     """The solution of dissimilar bodies at a point of a path in proportion from zero."""
 
+    def __getstate__(self) -> dict[str, Any]:
+        """The question alone: the stages hold functions, which no pickle takes."""
+        return {name: vars(self)[name] for name in ("history", "index", "tol", "economy")}
+
     @cached_property
     def coupled(self) -> tuple[Edges, ProportionalContact]:  # type: ignore[override]
         """The edges and the state."""

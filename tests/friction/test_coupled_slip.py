@@ -833,6 +833,14 @@ def test_a_solution_of_dissimilar_bodies_survives_a_pickle(changes):
     assert again.edges == solution.edges and again.stress(0.1, 0.2).xx == stress
 
 
+def test_a_point_of_a_path_of_dissimilar_bodies_survives_a_pickle():
+    path = sie.Path(((0.0, 0.0), (1.0, 0.05)))
+    solution = sie.follow(scene(half_width=None, normal_load=1.0), path)[-1]
+    stress = solution.stress(0.1, 0.2).xx
+    again = pickle.loads(pickle.dumps(solution))
+    assert again.edges == solution.edges and again.stress(0.1, 0.2).xx == stress
+
+
 def test_surface_stress_where_a_parabola_touched_first_is_that_beside_it():
     solution = solved()
     beside = solution.stress(1e-9, 0.0).xx
