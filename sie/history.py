@@ -381,6 +381,10 @@ class ProportionalSolution(DissimilarSolution):
 
     route = "P and Q in proportion"
 
+    def __getstate__(self) -> dict[str, Any]:
+        """The question alone: the stages hold functions, which no pickle takes."""
+        return {name: vars(self)[name] for name in ("history", "index", "tol", "economy")}
+
     @cached_property
     def coupled(self) -> tuple[Edges, ProportionalContact]:  # type: ignore[override]
         """The edges and the state."""

@@ -147,11 +147,17 @@ def _of_coupled(scene: Scene, names: tuple[str, ...]) -> Plan:
     stages = {stage for name in names for stage in COUPLED[name]}
     how = f"β = {scene.beta:.4g}: p and q are one problem; the stick zone is that of a flat punch"
     growth = "dP/ds in closed form or by a Volterra equation; the edges from its integral"
+    inequalities = "dP/ds > 0 is verified: p > 0 and |q| <= f p follow"
+    if scene.profile.axis is None or scene.tilt:
+        growth = (
+            "dP/ds by a Volterra equation and, if the contact has no axis, its middle by a second "
+            "one; the edges from the integral of dP/ds"
+        )
+        inequalities += ", where the stick zone grows at both ends, which is verified too"
     steps = (
         Step("coupling", True, how, "coupled"),
         Step("edges", True, growth, "normal"),
     )
-    inequalities = "dP/ds > 0 is verified: p > 0 and |q| <= f p follow"
     return Plan(steps + _of_both("flats superposed", inequalities, stages, names))
 
 

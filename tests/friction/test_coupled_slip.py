@@ -16,7 +16,7 @@ from oracles import spence
 from sie.certificate.coupled_check import coupled_certificate
 from sie.friction.coupled import flat as coupled_flat
 from sie.friction.coupled.flat import flat_punch
-from sie.friction.coupled.functions import flat_functions
+from sie.friction.coupled.functions import FlatFunctions, flat_functions
 from sie.friction.coupled.growth import power_law_moment
 from sie.friction.coupled.half_potential import DEGREE, HalfPotential, Panels
 from sie.friction.coupled.panels import graded
@@ -365,6 +365,20 @@ def test_stick_zones_of_any_smallness_under_a_flat_are_certified(beta):
     q = solution.shear(x) / solution.pressure(x) / 0.01
     assert q[0] == pytest.approx(1.0 / 3.0, abs=2e-3) and q[1] == 1.0
     assert solution.check().ok
+
+
+@pytest.mark.parametrize("profile", [sie.Flat(1.0), sie.Parabola(1.0), sie.Wedge(0.1)])
+def test_a_stick_zone_of_any_smallness_has_the_stress_of_what_sticks(profile):
+    """In stick γ = 0 under a flat: the surface stress is -p (1 - 2 β) there, and q moves -2 β p."""
+    solution = solved(profile, 0.5, 0.01)
+    c = solution.stick[0][1]
+    assert c < 1e-36 * solution.half_width
+    if isinstance(profile, sie.Flat):
+        x = np.array([0.0, 0.5 * c])
+        p = solution.pressure(x)
+        assert solution.shear.hilbert(x) == pytest.approx(-0.5 * p, rel=1e-3)
+    stress = solution.stress(0.3 * solution.half_width, [0.0, 0.1])
+    assert np.isfinite(stress.xx).all() and solution.energy_lost > 0.0
 
 
 # -- the two equations -----------------------------------------------------------------------------
@@ -863,7 +877,31 @@ def test_a_solution_of_dissimilar_bodies_survives_a_pickle(changes):
     assert again.edges == solution.edges and again.stress(0.1, 0.2).xx == stress
 
 
+def test_a_point_of_a_path_of_dissimilar_bodies_survives_a_pickle():
+    path = sie.Path(((0.0, 0.0), (1.0, 0.05)))
+    solution = sie.follow(scene(half_width=None, normal_load=1.0), path)[-1]
+    stress = solution.stress(0.1, 0.2).xx
+    again = pickle.loads(pickle.dumps(solution))
+    assert again.edges == solution.edges and again.stress(0.1, 0.2).xx == stress
+
+
 def test_surface_stress_where_a_parabola_touched_first_is_that_beside_it():
     solution = solved()
     beside = solution.stress(1e-9, 0.0).xx
     assert solution.stress(0.0, 0.0).xx == pytest.approx(float(beside), rel=1e-7)
+
+
+def test_slip_next_to_the_edge_takes_an_integral_over_the_contact_at_nodes_of_one_table_only(
+    monkeypatch,
+):
+    places, one = [], FlatFunctions._J
+
+    def counted(self, t, e, S):
+        places.append(len(t))
+        return one(self, t, e, S)
+
+    flat = FlatFunctions(flat_punch(0.3, 0.02))
+    assert flat._S_in_stick.size  # which takes it too
+    monkeypatch.setattr(FlatFunctions, "_J", counted)
+    regular, _ = flat.slip_near_edge
+    assert sum(places) == regular.series.size

@@ -453,6 +453,12 @@ def test_gap_opens_as_the_profile_and_the_pressure_ask():
     assert (solution.gap([x1 - 1e-4, x2 + 1e-4]) > 0.0).all()
 
 
+def test_gap_is_small_one_double_beside_the_contact():
+    solution = solved(sie.Wedge(0.3), load=0.4)
+    beside = np.nextafter(solution.edges, (-np.inf, np.inf))
+    assert (np.abs(solution.gap(beside)) < 1e-14).all()
+
+
 def test_surface_stress_is_in_balance_with_the_tractions():
     solution = solved(sie.RoundedFlat(0.5, 1.0), poisson=0.3)
     x = np.linspace(*solution.edges, 11)[1:-1]

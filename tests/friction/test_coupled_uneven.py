@@ -12,7 +12,9 @@ import sie
 from oracles import spence
 from sie.contact.normal import normal_contact
 from sie.friction.coupled import uneven_march
-from sie.friction.coupled.uneven_contact import uneven_contact
+from sie.friction.coupled.functions import flat_functions
+from sie.friction.coupled.uneven_contact import UnevenContact, uneven_contact
+from sie.friction.coupled.uneven_growth import Equations, History, Side, UnevenPanel
 
 SKEW = sie.Polynomial((0.0, 0.0, 0.5, 0.1, 0.02))
 UNEVEN = {
@@ -96,6 +98,23 @@ def test_both_equations_hold_for_other_pairs(beta, friction):
     assert max(found.residual, found.shear.residual) < 2e-12
 
 
+@pytest.mark.parametrize("tilt", [0.08, -0.12, 0.15])
+def test_both_equations_hold_where_one_edge_hardly_moves(tilt):
+    found = solved(sie.Wedge(0.2), 0.13, 3.0, load=0.012, tilt=tilt).check()
+    assert max(found.residual, found.shear.residual) < 1e-12
+
+
+def test_equations_of_a_trial_that_moves_an_edge_back_are_finite():
+    trial = UnevenPanel(0.0, 1.0, 0.0, 0.0, np.ones(1), np.array([1.2]))
+    equations = Equations(History(flat_functions(0.3, 0.3)), trial, Side(lambda rise: rise, -1.0))
+    assert np.isfinite(equations.missed).all()
+
+
+def test_profiles_that_are_not_symmetric_in_a_narrow_strip_are_told_from_symmetric_ones():
+    sides = sie.RoundedFlat(0.5, 1.0) + sie.RoundedFlat(0.5, 2.0).shifted(1e-3)
+    assert isinstance(solved(sides, 0.06, 1.9, load=0.8).coupled[1], UnevenContact)
+
+
 def test_certificate_is_not_ok_for_another_mismatch():
     right = solved()
     wrong = sie.Solution(replace(right.scene, dundurs=0.3001))
@@ -164,6 +183,41 @@ def test_moment_and_shear_balance_by_a_plain_quadrature():
     for traction in (solution.pressure, solution.shear):
         plain = (traction(x) * weight / (z[:, None] - x)).sum(axis=1) / math.pi
         assert np.abs(traction.cauchy(z) - plain).max() < 1e-6
+
+
+@pytest.mark.parametrize("profile", [SKEW, SKEW.shifted(0.3), sie.Parabola(1.0)], ids=repr)
+def test_surfaces_touch_first_without_slip_gradient(profile):
+    solution = solved(profile)
+    first = np.array([0.3 if profile == SKEW.shifted(0.3) else 0.0])
+    gradient = solution.shear.hilbert(first) + 0.3 * solution.pressure(first)
+    assert abs(gradient) < 1e-9 * solution.pressure(first)
+
+
+@pytest.mark.parametrize("profile", [SKEW, sie.Parabola(1.0), sie.RoundedFlat(0.5, 1.0)], ids=repr)
+def test_slope_is_that_of_the_profile_at_the_ends_of_the_stick_zone_too(profile):
+    solution = solved(profile)
+    ends = np.array(solution.stick[0])
+    missed = solution.pressure.hilbert(ends) - 0.3 * solution.shear(ends) - profile.slope(ends)
+    assert np.abs(missed).max() < 1e-10 * solution.pressure(solution.centre)
+
+
+TIPS = pytest.mark.parametrize("profile", [sie.Wedge(0.3), sie.Wedge(0.3).tilted(0.1)], ids=repr)
+
+
+@TIPS
+def test_pressure_rises_like_the_logarithm_of_the_distance_towards_a_tip(profile):
+    rising = solved(profile).pressure(10.0 ** np.array([-14.0, -16.0, -100.0, -200.0]))
+    per_decade = np.diff(rising)[[0, 2]] / (2.0, 100.0)
+    assert per_decade[1] == pytest.approx(per_decade[0], rel=1e-11)
+
+
+@TIPS
+@pytest.mark.parametrize("distance", [5e-324, 1e-310, 1e-300])
+def test_tractions_and_slip_are_finite_at_any_distance_from_a_tip(profile, distance):
+    solution, x = solved(profile), np.array([-distance, distance])
+    values = np.array([solution.pressure(x), solution.shear(x), solution.slip(x)])
+    assert np.isfinite(values).all()
+    assert (values[0] > solution.pressure(np.sign(x) * 1e-200)).all()
 
 
 def test_the_body_yields_first_where_no_other_place_is_stressed_more():

@@ -166,6 +166,13 @@ def test_a_plan_gives_the_reason_why_the_shear_is_solved_for_or_not():
     assert "one direction or two" in said["both signs"]
 
 
+def test_a_plan_says_when_the_middle_of_a_contact_of_dissimilar_bodies_is_unknown():
+    pair = {"modulus": 2.0, "dundurs": 0.3, "friction": 0.3, "normal_load": 1.0}
+    even, tilted = (sie.Scene(profile=sie.Parabola(1.0), tilt=a, **pair) for a in (0.0, 0.1))
+    assert "its middle" not in str(sie.plan(even))
+    assert "its middle" in str(sie.plan(tilted))
+
+
 def test_a_plan_computes_nothing():
     """Not even the slope is called."""
     calls = []

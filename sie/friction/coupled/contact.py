@@ -25,10 +25,10 @@ from .flat import double_exponential
 from .functions import FlatFunctions
 from .growth import load_slope
 from .half_potential import Panels
-from .panels import graded, totals
+from .panels import INNERMOST, graded, totals
 from .profile import GrowthPanel, Kernel, Superposition
 from .tables import interpolated
-from .traction import CoupledTraction, resolved_panels
+from .traction import CoupledTraction, joined_panels
 
 Array = NDArray[np.float64]
 
@@ -99,7 +99,7 @@ class CoupledContact:
 
         @lru_cache(maxsize=1)
         def panels() -> tuple[Panels, ...]:
-            return resolved_panels(self.pressure_and_shear, self.marks, self.edge_power)
+            return joined_panels(self.pressure_and_shear, self.marks, self.edge_power)
 
         return (
             CoupledTraction(
@@ -194,6 +194,7 @@ class CoupledContact:
 
         values = np.zeros(len(y))
         inside = (y > 0.0) & (y <= self.b) if not self.flat_base else y <= self.b
+        y = np.maximum(y, INNERMOST * self.b / self.flat.c)
         if not self.growth or len(self.marks) > FEW:
             values[inside] = direct(y[inside])
         else:
@@ -281,7 +282,7 @@ class CoupledContact:
         """∫P' K ds over the wider contacts, for contacts of half-width origin + beyond."""
         flat, origin = self.flat, self.superposition.stack.origin
         edge, stick = tables_of_pair(flat)
-        out, back = flat.beyond / flat.middle, (flat.rest - flat.beyond) / (flat.c * flat.middle)
+        out, back = flat.beyond / flat.middle, flat.from_c_to_middle / (flat.c * flat.middle)
         kernels = (
             Kernel(lambda t, e, d: edge(t, e), flat.middle, 1.0, CLOSEST, back, out),
             Kernel(lambda t, e, d: stick(t, e), flat.c, flat.middle, out, span=back),

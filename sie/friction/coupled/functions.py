@@ -52,6 +52,7 @@ class FlatFunctions:
         self.sine, self.cosine = math.cos(math.pi * self.theta), math.sin(math.pi * self.theta)
         root = math.sqrt(self.c)  # as far from c as from 1 in the elliptic coordinate
         self.middle, self.beyond = root, self.rest / (1.0 + root)
+        self.from_c_to_middle = float(self.beyond_c(self.middle, self.beyond))
         self._scale = self.c ** (2.0 * self.theta) / math.pi
         self._masses = self._scale * punch.weight * punch.pressure
         self._a = punch.eigenvalue / ((1.0 - self.beta**2) * math.pi) * self._masses
@@ -70,14 +71,14 @@ class FlatFunctions:
             self.sine * self.weight(t[edge], e[edge], from_c[edge]) * self.Psi(t[edge], e[edge])
         )
         p[~edge] = self.A(t[~edge], e[~edge])
-        slip = ~edge & (self._beyond_c(t, e) > 0.0)
+        slip = ~edge & (self.beyond_c(t, e) > 0.0)
         chi = self.weight(t[slip], e[slip], from_c[slip])
         p[slip] -= self.sine * chi * self.S_beside_c(t[slip], e[slip])
         return p
 
     def shear_deficit(self, t: Array, e: Array, from_c: Array) -> Array:
         """f p - q."""
-        deficit, stick = np.zeros(t.shape), self._beyond_c(t, e) < 0.0
+        deficit, stick = np.zeros(t.shape), self.beyond_c(t, e) < 0.0
         chi = self.weight(t[stick], e[stick], from_c[stick])
         deficit[stick] = chi * self.S(t[stick], e[stick]) / self.beta
         return deficit
@@ -87,7 +88,7 @@ class FlatFunctions:
         regular, singular = self.slip_near_edge
         g, edge = np.zeros(t.shape), self._outer(t, e)
         g[edge] = regular(t[edge], e[edge]) + singular(t[edge], e[edge]) * e[edge] ** (1.0 - self.h)
-        near_c = ~edge & (self._beyond_c(t, e) > 0.0)
+        near_c = ~edge & (self.beyond_c(t, e) > 0.0)
         g[near_c] = self.slip_near_c(t[near_c], e[near_c]) * from_c[near_c] ** (1.0 + self.h)
         return g
 
@@ -116,7 +117,7 @@ class FlatFunctions:
         h, factor = self.h, (1.0 - self.beta**2) * self.sine / self.beta
 
         def mean(t: Array, e: Array) -> Array:
-            gap = self._beyond_c(t, e)
+            gap = self.beyond_c(t, e)
             owner, ahead, left, w = graded(gap, np.full(len(t), 2.0 * self.c), e, (h, 0.0))
             t, e = self.c + ahead, e[owner][:, None] + left
             S = self.S(t.ravel(), e.ravel()).reshape(t.shape)
@@ -129,25 +130,25 @@ class FlatFunctions:
     def slip_near_edge(self) -> tuple[Table, Table]:
         """g = regular + singular (1 - t)^(1-h) beyond c^(1/2), from γ = β (1 + f²) p - J."""
         at = np.array([self.middle]), np.array([self.beyond])
-        gap, power = self._beyond_c(*at), 1.0 - self.h
+        gap, power = self.beyond_c(*at), 1.0 - self.h
         strength = self.beta * (1.0 + self.friction**2) * self.sine
+        J = self._near_edge(lambda t, e: self._J(t, e, self._S_in_stick))
 
         def beyond(t: Array, e: Array, power: float) -> tuple[Any, ...]:
             """A rule from t to 1 for functions that are singular at c."""
             never = np.full(len(e), math.inf)
-            owner, ahead, left, w = graded(e, self._beyond_c(t, e), never, (0.0, power))
+            owner, ahead, left, w = graded(e, self.beyond_c(t, e), never, (0.0, power))
             return owner, t[owner][:, None] + ahead, left, w
 
         def singular(t: Array, e: Array) -> Array:
             owner, u, left, w = beyond(t, e, -self.h)
-            chi = self.weight(u, left, self._beyond_c(u, left))
+            chi = self.weight(u, left, self.beyond_c(u, left))
             Psi = self.Psi(u.ravel(), left.ravel()).reshape(u.shape)
             return -strength * totals(owner, chi * Psi * w, len(e)) / e**power
 
         def regular(t: Array, e: Array) -> Array:
             owner, u, left, w = beyond(t, e, 0.0)
-            J = self._J(u.ravel(), left.ravel(), self._S_in_stick).reshape(u.shape)
-            return totals(owner, J * w, len(e))
+            return totals(owner, J(u.ravel(), left.ravel()).reshape(u.shape) * w, len(e))
 
         there = self.slip_near_c(*at) * gap ** (1.0 + self.h)
         start = (there - singular(*at) * at[1] ** (1.0 - self.h) - regular(*at))[0]
@@ -168,14 +169,14 @@ class FlatFunctions:
 
     def _near_edge(self, function: Function) -> Table:
         """A table on c^(1/2) <= t <= 1 of a function that is singular at c and smooth at 1."""
-        from_c = float(self._beyond_c(*self._middle))
+        from_c = self.from_c_to_middle
         return Table(self._middle, ONE, (from_c, math.inf), function)
 
     def _outer(self, t: Array, e: Array) -> Any:
         """Where t > c^(1/2)."""
         return e < self.beyond if self.c > 0.5 else t > self.middle
 
-    def _beyond_c(self, t: Any, e: Any) -> Any:
+    def beyond_c(self, t: Any, e: Any) -> Any:
         """t - c, from that of t and 1 - t which tells it better."""
         return self.rest - e if self.c > 0.5 else t - self.c
 
@@ -185,7 +186,7 @@ class FlatFunctions:
         return sum_of_poles(e * (1.0 + t), t * t, self.punch.remainder, self._a)
 
     def _Psi(self, t: Array, e: Array) -> Array:
-        square = self._beyond_c(t, e) * (t + self.c)
+        square = self.beyond_c(t, e) * (t + self.c)
         Psi: Array = t * sum_of_poles(square, self.c**2, self.punch.remainder, self._masses)
         return Psi
 

@@ -55,11 +55,14 @@ def _axis(scene: Scene, bound: Edges) -> float | None:
         return profile.axis
     # Next to the edges too, as a light load only reaches the beginning of rounded edges
     part = np.append((np.arange(LOOKS) + 0.5) / LOOKS, 1.0 - 0.5 ** np.arange(2.0, 40.0))
-    y = contact.r * part
+    breaks = profile.pieces.breaks
+    # Between a place where h' is not smooth and the mirror image of another too
+    kinks = np.abs(breaks - contact.m)
+    kinks = np.unique(np.append(kinks[kinks < contact.r], (0.0, contact.r)))
+    y = np.append(contact.r * part, 0.5 * (kinks[:-1] + kinks[1:]))
     right, left = profile.slope(contact.m + y), profile.slope(contact.m - y)
     if float(np.abs(right + left).max()) > EVEN * float(np.abs(right).max()):
         return None
-    breaks = profile.pieces.breaks
     nearest = float(breaks[np.argmin(np.abs(breaks - contact.m))])
     # The axis of a symmetric trace is one of its points, or half-way between two
     return nearest if abs(nearest - contact.m) <= AXIS_ROUNDING * contact.r else contact.m

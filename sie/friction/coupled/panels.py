@@ -20,6 +20,9 @@ LONGEST = 4.0  # of a panel of v: with NODES the error is (π/2 + 1.86)^-32
 LONGER = 0.5  # of its depth in v: by how much a panel next to a singularity is longer
 GROWTH = 2.0  # a panel's length over its distance from the singularity; with 12 nodes that is 1e-13
 FAR = 1e300  # stands for no singularity
+# Of the half-width: what is nearer to the place of first contact has the values there, as quotients
+# of the half-width and that distance overflow
+INNERMOST = 1e-280
 
 
 @lru_cache(maxsize=64)

@@ -234,13 +234,13 @@ class Superposition:
     def _near_edge(self, value: Function, power: float, pole: float = 1.0) -> Kernel:
         """A function on c^(1/2) <= t <= 1."""
         f = self.flat
-        behind = (f.rest - f.beyond) / (f.c * f.middle)
+        behind = f.from_c_to_middle / (f.c * f.middle)
         return Kernel(value, f.middle, 1.0, 0.0, behind, f.beyond / f.middle, pole, power)
 
     def _beside_c(self, value: Function, at_c: float) -> Kernel:
         """A function on c <= t <= c^(1/2)."""
         f = self.flat
-        span = (f.rest - f.beyond) / (f.c * f.middle)
+        span = f.from_c_to_middle / (f.c * f.middle)
         return Kernel(value, f.c, f.middle, f.beyond / f.middle, span=span, at_c=at_c)
 
     @cached_property

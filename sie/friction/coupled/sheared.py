@@ -38,6 +38,7 @@ from .two_sided import Known, TwoSidedTraction, both_tractions
 Array = NDArray[np.float64]
 
 BESIDE = 1e-9  # half-widths from a corner of the profile, where values infinite there are evaluated
+ABREAST = 1e-12  # half-widths from the edge: nearer H p is a difference of large numbers
 # Parts of the way between two places next to which f p - q is small, or p infinite
 LOOKED_AT = 0.5 + 0.5 * np.tanh(np.linspace(-8.0, 8.0, 49))
 EDGE_DEGREE = 24  # of S on the outer half of a slip zone
@@ -334,9 +335,11 @@ class ShearedContact:
         """E*/2 times how far the surfaces part less than the profile rises, from an edge on."""
         side = math.copysign(1.0, float(u[0]) - edge)
         width = self.state.sliding.contact.r
-        return outwards(
-            lambda d: side * self.hilbert_outside(edge + side * d), np.abs(u - edge), width
-        )
+
+        def H(d: Array) -> Array:
+            return side * self.hilbert_outside(edge + side * np.maximum(d, ABREAST * width))
+
+        return outwards(H, np.abs(u - edge), width)
 
     # -- with their potentials ---------------------------------------------------------------------
 

@@ -27,6 +27,7 @@ Array = NDArray[np.float64]
 
 RESOLVED = 2e-14  # of the largest traction: the last coefficients of a panel
 FAINT = 1e-15  # of the largest traction times b: what a short panel may miss
+FAINTER = 1e-19  # the same where principal values at the panel's ends count
 # Tails below ROUGH that a cut leaves above SAME of what they were are rounding
 ROUGH, SAME = 1e-8, 0.8
 TOLD = 1e-12  # of the distance from 0: nodes of a shorter panel are few doubles apart
@@ -215,12 +216,14 @@ def resolved_panels(
     power: float,
     resolved: float = RESOLVED,
     short: float = 1.0,
+    *,
+    faint: float = FAINT,
 ) -> tuple[Panels, ...]:
     """Panels of several functions of 0 < y < b that are smooth between the marks, b the last.
 
     `values` has a row of each, at y and b - y, which next to b is known better than from y. Panels
     that are longer than `short`, of b, are resolved at every place; of others the force alone may
-    be what they are resolved to.
+    be what they are resolved to, `faint` of the largest.
     """
     b = marks[-1]
     part = 0.5 * (1.0 + chebyshev.points(DEGREE))
@@ -241,8 +244,9 @@ def resolved_panels(
         largest = np.maximum(largest, inner)
         series = chebyshev.transform(f)
         tail = np.abs(series[..., -2:]).max(axis=2) / np.maximum(sizes, largest + LEAST)
-        faint = (tail * (hi - lo) <= FAINT * b) & (hi - lo <= short * b)
-        settled = ((tail <= resolved) | faint).all(axis=0)
+        # A mark next to the axis is seen from as near as it is
+        of_force = (tail * (hi - lo) <= faint * np.where(lo > 0.0, hi, b)) & (hi - lo <= short * b)
+        settled = ((tail <= resolved) | of_force).all(axis=0)
         tail = tail.max(axis=0)
         settled |= (tail < ROUGH) & (tail > SAME * before)
         settled |= hi - lo <= TOLD * lo
@@ -255,3 +259,30 @@ def resolved_panels(
     lo, hi = (np.array([panel[j] for panel in done]) for j in (0, 1))
     series = np.stack([panel[2] for panel in done], axis=1)
     return tuple(Panels(lo, hi, s, power) for s in series)
+
+
+def joined_panels(
+    values: Callable[[Array, Array], Array], marks: tuple[float, ...], power: float
+) -> tuple[Panels, ...]:
+    """Panels as of `resolved_panels` that meet wherever all functions are finite.
+
+    Where two panels miss each other the principal value is infinite, like the logarithm: a straight
+    line is added to each series. At marks, where what the functions miss is largest, principal
+    values are as near as the series, so that even short panels have to be near.
+    """
+    panels = resolved_panels(values, marks, power, faint=FAINTER)
+    lo = panels[0].lo
+    at_ends = values(lo, marks[-1] - lo)
+    # At the last mark the last series has a factor
+    at_ends = np.append(at_ends, np.full((len(at_ends), 1), np.inf), axis=1)
+    finite = np.asarray(np.isfinite(at_ends).all(axis=0))
+    # Next to a mark as near to the edge as doubles tell values there are rounding
+    finite[:-1] &= marks[-1] - lo > TOLD * marks[-1]
+    signs, joined = (-1.0) ** np.arange(DEGREE), []
+    for own, f in zip(panels, at_ends, strict=True):
+        start = np.where(finite[:-1], f[:-1] - own.series @ signs, 0.0)
+        end = np.where(finite[1:], f[1:] - own.series.sum(axis=1), 0.0)
+        line = np.zeros(own.series.shape)
+        line[:, :2] = 0.5 * np.stack((start + end, end - start), axis=1)
+        joined.append(own._replace(series=own.series + line))
+    return tuple(joined)

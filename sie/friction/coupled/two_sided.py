@@ -18,7 +18,7 @@ from sie.numerics.interval import Interval
 from sie.traction.base import Complex, on_line
 
 from .half_potential import HalfPotential, Panels
-from .traction import OnHalves, resolved_panels
+from .traction import OnHalves, joined_panels
 
 Array = NDArray[np.float64]
 
@@ -118,7 +118,7 @@ def both_tractions(
 
     def half(side: float, power: float) -> tuple[Panels, ...]:
         ends = sorted(side * (x - split) for x in marks if side * (x - split) > 0.0)
-        return resolved_panels(lambda y, _: rows(split + side * y), tuple(ends), power)
+        return joined_panels(lambda y, _: rows(split + side * y), tuple(ends), power)
 
     @lru_cache(maxsize=1)
     def halves() -> tuple[tuple[Panels, ...], tuple[Panels, ...]]:

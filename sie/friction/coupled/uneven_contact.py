@@ -146,7 +146,7 @@ class UnevenContact:
         """Rows of p and q."""
         p, deficit = self.sums.pressure_and_deficit(x, np.full(len(x), self.b))
         q, finite = np.zeros(len(x)), np.isfinite(p)
-        q[finite] = (self.friction * p - deficit)[finite]
+        q[finite] = self.friction * p[finite] - deficit[finite]
         return np.stack((p, self.sign * self.sums.sides(x) * q))
 
     @cached_property

@@ -10,8 +10,10 @@ middle m(s), and at both edges of every contact equation (1) reads, with D = χ 
 two Volterra equations for P' and m', which are solved panel by panel from the place of first
 contact outwards, by collocation and Newton's method. P' = (s - a)^e times a polynomial on the first
 panel and both are polynomials on every other one; a panel whose series do not decay is cut towards
-its beginning. What stuck goes on to stick as long as both ends of the stick zone move outwards,
-|m'| < c.
+its beginning. An edge that hardly moves is close to what the contact was when it was small: the
+integrand is singular where τ = -1 next, at a σ before lo by half of lo and of the distance of x
+from m(lo), or more. What stuck goes on to stick as long as both ends of the stick zone move
+outwards, |m'| < c.
 
 docs/derivations/coupled_slip.md
 """
@@ -44,6 +46,7 @@ SHORT_STEP, ROUGH = 1e-3, 1e-7  # of a step: the matrix is kept below it; a long
 SHIFTED = 1e-4  # of the distance from the edge: steps of differences, in the matrix alone
 NEAR = 0.5  # of a panel's length: nearer it is integrated on panels that shrink towards x
 STEEP, LEAST_SHARE = 1.0 - 1e-9, 1e-3  # of m': steps beyond it are cut, to that part
+LEAST_RISE = 1e-18  # of the growth: how far an edge moves at least, in a trial too
 GRID = np.linspace(-1.0, 1.0, 33)  # where it is looked at
 
 
@@ -168,10 +171,11 @@ class History:
         between = beyond = 0.0
         for panel in reversed(self.panels):
             end = np.array([panel.length])
-            if beyond < NEAR * panel.length:
+            before = panel.lo + 0.5 * (rise + between + panel.spread(side))
+            if min(beyond, float(before.min())) < NEAR * panel.length:
                 after, powers = beyond + ahead, (panel.power, 0.0)
                 owner, inside, left, weight = graded(
-                    np.full(n, end[0]), np.full(n, np.inf), after, powers, longest=SHORTER, near=0.0
+                    np.full(n, end[0]), before, after, powers, longest=SHORTER, near=0.0
                 )
                 E = (rise[owner] + between)[:, None] + left - side * panel.moved(end, -left)
                 near.append((owner, E, panel.lo + inside + E, panel(inside) * weight))
@@ -263,12 +267,13 @@ class Equations:
         ahead = self.ahead = 0.5 * panel.length * (1.0 + chebyshev.points(n))
         to_c = (panel.lo + ahead) * (0.5 * flat.rest / flat.c)
         powers = panel.power, -flat.h
+        self.rise = np.maximum(ahead + sign * panel.moved(np.zeros(1), ahead), LEAST_RISE * ahead)
         self.owner, self.inside, left, self.weight = graded(
-            ahead, np.full(n, np.inf), to_c, powers, longest=SHORTER, near=0.0
+            ahead, panel.lo + 0.5 * self.rise, to_c, powers, longest=SHORTER, near=0.0
         )
-        self.E = left - sign * panel.moved(ahead[self.owner][:, None], -left)
+        E = left - sign * panel.moved(ahead[self.owner][:, None], -left)
+        self.E = np.maximum(E, LEAST_RISE * left)
         self.X = panel.lo + self.inside + self.E
-        self.rise = ahead + sign * panel.moved(np.zeros(1), ahead)
         self.known, self.change = history.slope(sign, ahead, self.rise)
         self.value = kernel(flat, self.E, self.X) * self.weight
 

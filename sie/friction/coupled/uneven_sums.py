@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .functions import FlatFunctions
-from .panels import graded, totals
+from .panels import INNERMOST, graded, totals
 from .uneven_growth import UnevenPanel
 
 Array = NDArray[np.float64]
@@ -167,7 +167,9 @@ class UnevenSums:
     def _stretches(self, x: Array, end: Array) -> Iterator[Stretch]:
         """All intervals of s, panel by panel."""
         side = self.sides(x)
-        E = self.base - np.abs(x - self.middle)
+        y = np.abs(x - self.middle)
+        y = np.where(y > 0.0, np.maximum(y, INNERMOST * end), 0.0)
+        E = self.base - y
         zone = np.full(len(x), STICK)
         for k in (NEAR_C, EDGE):
             zone[self.parts[k] * self.base > E] = k
@@ -274,8 +276,7 @@ class UnevenSums:
             after = np.where(part.ends, part.length, f.rest * hi - end)
         elif part.zone == STICK:
             after = 0.5 * ((1.0 + f.c) * hi - end)
-        nearest = NEAREST * hi
-        return np.maximum(before, nearest), np.maximum(after, nearest), near
+        return np.maximum(before, NEAREST * s), np.maximum(after, NEAREST * hi), near
 
     def _add_graded(
         self, total: Array, part: Stretch, kernel: Kernel, powers: tuple[float, float]
