@@ -1,7 +1,7 @@
 """Slip over a load path: a lazy sequence of solutions, one for each turning point.
 
-The first point is answered like a scene: P and the tilt alone, then Q and σ in proportion. From
-each point to the next all loads change in proportion to time. What is exact, and covered:
+On the way to the first point P and the tilt change alone, then Q and σ in proportion. From each
+point to the next all loads change in proportion to time. What is exact, and covered:
 
     constant P and tilt, Q alone       every unloading, reloading and nested loop
     P and Q in any way, σ constant     Mindlin & Deresiewicz (1953) and Jäger (1998): P grows with

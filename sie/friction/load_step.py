@@ -20,6 +20,7 @@ as long as its zones grow, which is tested on the way.
 from __future__ import annotations
 
 import math
+from contextlib import suppress
 from functools import cached_property
 from itertools import pairwise
 from typing import Protocol
@@ -33,7 +34,7 @@ from .load_history.turning_point import TurningPoint
 from .loads import Loads
 from .memory import BALANCED, LoadMemory, SlipEvent, in_proportion
 from .slip_state import Slip
-from .step_conditions import SLACK, TESTED, inside, opens
+from .step_conditions import SLACK, TESTED, inside, opens, reached
 
 
 class Contacts(Protocol):
@@ -133,9 +134,10 @@ class Step:
         """Refuse a change of direction after a first loading whose slip zones retreated."""
         depth, _ = self.memory.deepest
         if not self.contacts.first_loading(self.before.loads.normal, depth, True).advancing:
+            why = self.before.why or "it is followed in one patch only; lower Q or σ there"
             raise ContactError(
-                "zones of slip retreat on the way to the first point, which is answered like a "
-                "scene; begin the path with (P, 0, 0), from which that step is followed"
+                "zones of slip retreat on the way to the first point, and what they leave depends "
+                f"on that way: {why}"
             )
 
     def upright(self) -> TurningPoint:
@@ -217,26 +219,49 @@ class Step:
     def late(self) -> TurningPoint | None:
         """A new front that an edge of a shrinking contact holds up at first.
 
-        Slip beside the old stick zone may go on meanwhile: at the end of the step the front has
-        passed all of it.
+        Earlier slip goes on there meanwhile, and the new front has to pass all of it.
         """
         sign, contact = -self.k, self.contacts.contact(self.loads)
         front, ahead = sign * self.pull - self.rise, sign * (self.pull - self.k * self.rise)
         if abs(sign) != 1.0 or not self.rise:
             return None
-        old = self._zone(0.0, self.memory)
-        stopped = self._at_ends(self.k * self.pull - self.rise, old.r)
         whole = self.contacts.contact(self.before.loads)
-        if max(stopped) > 0.0 or not self._opens(front, whole, whole):
-            return None
-        if not self._opens(ahead, contact, contact):
+        if not (self._opens(front, whole, whole) and self._opens(ahead, contact, contact)):
             return None
         memory, slips = self._slipped(sign, 1.0)
         zone = self._zone(1.0, memory)
-        passed = inside(zone, contact) and inside(zone, old)
-        if not (passed and self._opens(front, zone, contact)):
+        if not (inside(zone, contact) and self._opens(front, zone, contact)):
+            return None
+        widest = Interval(min(whole.x1, contact.x1), max(whole.x2, contact.x2))
+        if not all(
+            inside(zone, self._out_of_reach(self.k * pull - rise, widest))
+            for rise, pull in self.parts
+        ):
             return None
         return self._reached(memory, tuple(slip._replace(timed=False) for slip in slips))
+
+    def _out_of_reach(self, change: complex, widest: Interval) -> Interval:
+        """What slip does not reach that goes on at an edge which holds up a new front.
+
+        `change` is κ dS - dΛ, which is positive at that edge.
+        """
+        reach, right = reached(change, widest, self.contacts.arm), change.imag < 0.0
+        old, edge = self._zone(0.0, self.memory), widest[not right]
+        room = old.x2 - edge if right else edge - old.x1
+        if not self.contacts.curved and reach < room:
+            # The end of the old stick zone recedes until the other edge has come nearer by the
+            # difference. Q alone that drove it as at the start would bring it farther.
+            near = (
+                share
+                for share in TESTED
+                if abs(self.contacts.contact(self._at(share))[not right] - edge) >= room - reach
+            )
+            drive = next(near, 1.0) * self._at_ends(change, 0.5 * room)[right]
+            with suppress(ContactError):
+                memory, _ = self.memory.changed(0.0, self.k * drive, self.k, self._within)
+                zone = self._zone(0.0, memory)
+                reach = max(reach, zone.x2 - edge if right else edge - zone.x1)
+        return Interval(edge, edge + reach) if right else Interval(edge - reach, edge)
 
     def _both_signs(self) -> TurningPoint:
         """Slip in opposite directions at the two edges, in one direction since nothing slipped."""

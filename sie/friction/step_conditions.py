@@ -29,3 +29,13 @@ def opens(front: complex, zone: Interval, contact: Interval, arm: float) -> bool
 def inside(one: Interval, other: Interval) -> bool:
     slack = SLACK * (other.r + abs(other.m))
     return one.x1 >= other.x1 - slack and one.x2 <= other.x2 + slack
+
+
+def reached(change: complex, contact: Interval, arm: float) -> float:
+    """How near to the other edge slip comes that goes on at an edge which holds up a new front.
+
+    The end of that slip advances, and the change of κ S - Λ is 0 at it: it comes no nearer than the
+    end of a zone from the other edge for which that holds.
+    """
+    width = 2.0 * arm / math.pi * abs(change.real / change.imag) if change.imag else math.inf
+    return min(width, 2.0 * contact.r)

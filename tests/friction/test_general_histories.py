@@ -182,6 +182,13 @@ def test_a_front_that_is_held_up_is_that_of_the_step_in_parts():
     assert parts.energy_lost == pytest.approx(whole.energy_lost, rel=1e-9)
 
 
+def test_a_front_that_is_held_up_passes_slip_that_went_on_outside_the_old_stick_zone():
+    """That slip has its end at 0.951; the stick zone before was [-0.732, 0.682]."""
+    *_, solution = history = followed(HERTZ, [(1, 0, 0), (1.1, 0.6, -0.05), (0.9, 0.2, -0.25)])
+    assert solution.stick[0] == pytest.approx(hertz_stick(0.8, -0.05), abs=1e-14)
+    assert "layers" in history.plan.steps[2].reason
+
+
 def test_a_trial_of_an_advancing_end_that_leaves_the_contact_gives_no_warning():
     points = [(1, 0, 0), (1.4031, 0.7101, 0.16746), (0.89323, -0.28385, -0.26637)]
     with pytest.raises(sie.ContactError, match="advance"):

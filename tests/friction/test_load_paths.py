@@ -483,22 +483,35 @@ def test_a_normal_load_that_grows_at_a_given_moment_locks_the_shear_in():
     assert second.energy_lost == first.energy_lost
 
 
-@pytest.mark.parametrize("more", [{}, {"moment": 0.02}], ids=["tilt", "moment"])
-def test_a_scene_and_a_path_to_its_loads_give_one_answer_where_zones_retreat(more):
-    """With the same remark; a return from there is refused, since it depends on the way."""
-    given = fields(HERTZ) | {"tilt": 0.0} | more
-    history = sie.follow(sie.Scene(**given), sie.Path([(P, 0.6 * FP, 0.5), (P, 0.0, 0.0)]))
-    scene = sie.solve(sie.Scene(**given, tangential_load=0.6 * FP, bulk_stress=0.5))
+RETREAT = (P, 0.6 * FP, 0.5)
+
+
+def test_zones_that_retreat_on_the_way_to_the_first_point_are_followed():
+    """As from (P, 0, 0), and on from there; a scene has the state in total displacements."""
+    first, then = sie.follow(HERTZ, sie.Path([RETREAT, (P, 0.0, 0.0)]))
+    later = sie.follow(HERTZ, sie.Path([(P, 0.0, 0.0), RETREAT]))[1]
+    scene = sie.solve(replace(HERTZ, tangential_load=RETREAT[1], bulk_stress=RETREAT[2]))
+    x = np.linspace(*first.edges, 21)
+    assert (first.shear(x) == later.shear(x)).all() and (first.slip(x) == later.slip(x)).all()
+    assert first.energy_lost == later.energy_lost and first.slip_notes == ()
+    assert first.check().ok and then.check().ok
+    assert first.stick != scene.stick and "retreat" in scene.notes[-1]
+
+
+def test_where_the_way_to_the_first_point_is_not_covered_it_is_answered_like_a_scene(monkeypatch):
+    """With the same remark, and no step from there; the reason is told."""
+
+    def refused(*_):
+        raise sie.ContactError("the stick zone would meet another one")
+
+    monkeypatch.setattr(sie.History, "march", refused)
+    scene = sie.solve(replace(HERTZ, tangential_load=RETREAT[1], bulk_stress=RETREAT[2]))
+    (point,) = sie.follow(HERTZ, sie.Path([RETREAT]))
     x = np.linspace(*scene.edges, 21)
-    assert history[0].stick == scene.stick and history[0].energy_lost == scene.energy_lost
-    assert (history[0].shear(x) == scene.shear(x)).all() and (
-        history[0].slip(x) == scene.slip(x)
-    ).all()
-    for solution in (history[0], scene):
-        assert "retreat" in str(solution.check())
-        assert "retreat" in solution.notes[-1]
-    with pytest.raises(sie.ContactError, match=r"step 1 .*retreat"):
-        _ = history[1].stick
+    assert (point.shear(x) == scene.shear(x)).all() and point.energy_lost == scene.energy_lost
+    assert point.notes == scene.notes and "retreat" in point.notes[-1]
+    with pytest.raises(sie.ContactError, match=r"step 1 .*retreat.*would meet another one"):
+        sie.follow(HERTZ, sie.Path([RETREAT, (P, 0.1 * FP, 0.5)]))
 
 
 @pytest.mark.parametrize(

@@ -66,10 +66,21 @@ def turning_points(scene: Scene, path: Path, contacts: Followable) -> tuple[Turn
     start = points[0]._replace(Q=0.0, sigma=0.0)
     state = TurningPoint(start, LoadMemory(contacts.level(start)))
     for k, loads in counted("load path", enumerate(points), len(points)):
-        step = stepped if k else _layered  # the first point is answered like a scene
-        state = named(k, loads, partial(step, contacts, state, loads))
+        state = named(k, loads, partial(stepped if k else _first, contacts, state, loads))
         found.append(state)
     return tuple(found)
+
+
+def _first(contacts: Followable, unsheared: TurningPoint, loads: Loads) -> TurningPoint:
+    """The first turning point: P and the tilt, then Q and σ in proportion.
+
+    Where zones of slip retreat on the way, and that is not covered, it is the state of a scene, in
+    total displacements.
+    """
+    try:
+        return stepped(contacts, unsheared, loads)
+    except ContactError as problem:
+        return replace(_layered(contacts, unsheared, loads), why=str(problem))
 
 
 def loads_of(path: Path) -> list[Loads]:

@@ -311,7 +311,8 @@ def step_shift(history: Followed, index: int) -> float:
     if any(any(o.surface) for event in state.slips for o in event.layers):
         return _shift_of_change(history, index)
     if state.marched:
-        if history.turning_points[index - 1].loads.normal != state.loads.normal:
+        before = history.turning_points[max(index - 1, 0)]
+        if before.loads.normal != state.loads.normal:
             return _shift_of_change(history, index)
         return sum(part.integrals.shift for part in state.marched)
 
