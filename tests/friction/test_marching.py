@@ -15,6 +15,7 @@ from sie.friction.load_history import marching
 from sie.friction.load_history.advancing_end import EndAdvances
 from sie.friction.load_history.joined_zones import joined
 from sie.friction.load_history.load_steps import loads_of, turning_points
+from sie.friction.load_history.slip_rates import SlipRates
 from sie.history import History
 
 P0, f = np.pi / 4.0, 0.3
@@ -427,6 +428,35 @@ def test_a_mesh_tends_to_the_energy_where_an_edge_catches_up_with_a_slip_zone(ca
         assert np.abs(caught_up.shear(mesh.x) - found.shear).mean() < 1e-3 * f
         errors.append(abs(found.energy - caught_up.energy_lost))
     assert errors[1] < 0.5 * errors[0] < 0.5 * 0.05 * caught_up.energy_lost
+
+
+# Loads that stick until they are back at the start (P 1), and slip beyond.
+DETOUR = [(1, 0, 0), (1.2, 0.1, 0.05), (0.9, -0.05, -0.025)]
+
+
+def test_a_detour_that_sticks_costs_no_energy_and_few_states(monkeypatch):
+    """The rest of the way slips as the straight way does, which layers answer."""
+    states, power = [], SlipRates.power
+
+    def counted(self, pressure, stick):
+        states.append(stick)
+        return power(self, pressure, stick)
+
+    monkeypatch.setattr(SlipRates, "power", counted)
+    detour, straight = (sie.follow(HERTZ, path_of(p)) for p in (DETOUR, DETOUR[::2]))
+    assert detour.turning_points[2].marched and not straight.turning_points[1].marched
+    assert detour[-1].energy_lost == pytest.approx(straight[-1].energy_lost, rel=1e-9)
+    assert len(states) < 300
+
+
+def test_an_end_next_to_the_mark_where_loads_return_balances_them_to_rounding():
+    """What the equations miss there has another slope beyond the mark."""
+    profile = sie.Polynomial((0.0, 0.05, 1.0, 0.4, 0.6))
+    scene = sie.Scene(profile=profile, modulus=2.0, normal_load=0.375, friction=0.5, tilt=0.02)
+    most, least = (0.3491272, -0.0438307, -0.1277112), (0.3724127, -0.00438307, -0.01277112)
+    path = sie.Path([(0.375, 0, 0), most, least, most])
+    part = sie.follow(scene, path).turning_points[-1].marched[-1]
+    assert max(part.until(part.share - rest).error for rest in (1e-7, 2.2e-8)) < 1e-13
 
 
 # -- a mesh ---------------------------------------------------------------------------------------

@@ -56,6 +56,7 @@ from .trial_step import (
 from .turning_point import TurningPoint
 
 MovedStep = EdgeSticks | BothStick | EndAdvances | Joined
+Passed = tuple[MarchedStep, float, Onset | None]
 
 MEETS = "slip stops at one edge of the contact, and the stick zone would meet a second one there"
 MOST_PARTS = 200  # of a step
@@ -148,21 +149,25 @@ def while_pressure_changes(trial: Trial) -> tuple[MarchedStep, ...]:
     while share < 1.0:
         trial = replace(trial, start=change.loads(share), begun=share)
         part, until, then = _passed(trial, edges, share, ways)
-        if until - share <= AT_ONCE:  # the rates say that the edge sticks, but for rounding
+        if then and until - share <= AT_ONCE:
+            # The rates say that the edge sticks, but for rounding.
             ways = tuple(then._replace(goes_on=way.goes_on) for way in ways)
         else:
             parts.append(part)
-            trial, ways = replace(trial, held=part.held), (then,)
+            held = part.held if then else replace(part.held, signs=(0.0, 0.0))
+            trial = replace(trial, held=held)
+            ways = (then,) if then else onsets(held, change, trial.friction)
         share = until
         if len(parts) > MOST_PARTS:
             raise ContactError(f"slip starts and stops at the edges more than {MOST_PARTS} times")
     return tuple(parts)
 
 
-def _passed(
-    trial: Trial, edges: SmoothEdges, share: float, ways: Iterable[Onset]
-) -> tuple[MarchedStep, float, Onset]:
-    """The part of a step from a share on that passes all tests, its end, and what slips then."""
+def _passed(trial: Trial, edges: SmoothEdges, share: float, ways: Iterable[Onset]) -> Passed:
+    """The part of a step from a share on that passes all tests, its end, and what slips then.
+
+    What slips is None where any way is to be tried, as nothing has slipped.
+    """
     problems = []
     for way in ways:
         now = trial.with_signs(way.signs, way.goes_on)
@@ -181,28 +186,34 @@ def _passed(
     raise max(problems, key=lambda problem: float(problem.reached["share"]))
 
 
-def _receding(trial: Trial, edges: SmoothEdges, share: float) -> tuple[MarchedStep, float, Onset]:
+def _receding(trial: Trial, edges: SmoothEdges, share: float) -> Passed:
     """The part of a step in which both ends recede, until one of them does no longer.
 
     It stops, and then advances; or an edge of contact catches up with it, and slip turns there.
+    Where nothing slipped on either side, it begins in any direction.
     """
     part, advances = trial.stop() or (1.0, 0.0)
     if part == 0.0:
         moved = _moving(trial, edges.at(share), share, advances)
         return moved, moved.share, moved.then
-    then = Onset(trial.signs, (True, True), advances)
+    then: Onset | None = Onset(trial.signs, (True, True), advances)
     try:
         passed = trial.passed(part)
     except ContactError:
         closed = None if advances else trial.closed()
         if closed is None:
             raise
-        part, k = closed
-        left, right = trial.signs
-        then = Onset((left, -right) if k else (-left, right), (k == 1, k == 0))
+        part, vanished = closed
         passed = trial.passed(part)
+        then = None if all(vanished) else _turned(trial.signs, vanished)
     until = 1.0 if part == 1.0 else share + part * (1.0 - share)
     return replace(passed, change=edges.change, begun=share, share=until), until, then
+
+
+def _turned(signs: Signs, vanished: tuple[bool, bool]) -> Onset:
+    """Slip that turns on the side where its zone has vanished."""
+    left, right = (-s if gone else s for s, gone in zip(signs, vanished, strict=True))
+    return Onset((left, right), (not vanished[0], not vanished[1]))
 
 
 def _moving(trial: Trial, edges: Course, share: float, advances: float) -> MovedStep:

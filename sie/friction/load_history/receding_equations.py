@@ -66,6 +66,8 @@ class Equations:
 
     def solution(self, guess: Array | None = None) -> tuple[float, float]:
         """The lengths. Raises ContactError where there are none, or Newton's method finds none."""
+        if self.least.all() and np.abs(self.missed(self.least)).max() <= BALANCED:
+            return float(self.least[0]), float(self.least[1])  # nothing slipped
         for first in chain((guess,), starmap(self._guess, GUESSES)):
             if first is None or not ((first > self.least).all() and self._leaves_stick(first)):
                 continue
@@ -122,8 +124,14 @@ class Equations:
         return lengths if found else None
 
     def _derivatives(self, lengths: Array, missed: Array) -> Array:
-        h = DIFFERENCE * lengths
-        columns = [self.missed(lengths + h * unit) - missed for unit in np.eye(2)]
+        # Beyond a mark the equations have another slope.
+        h = np.array(
+            [
+                0.5 * (f.breaks[f.breaks > d] - d).min(initial=2.0 * DIFFERENCE * d)
+                for f, d in zip(self.frames, lengths.tolist(), strict=True)
+            ]
+        )
+        columns = [self.missed(lengths + h_k * unit) - missed for h_k, unit in zip(h, np.eye(2))]
         matrix: Array = np.array(columns).T / h
         return matrix
 

@@ -14,6 +14,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
@@ -22,6 +23,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from sie.errors import ContactError
 from sie.friction.coupled.half_potential import Panels
 from sie.friction.coupled.traction import resolved_panels
 from sie.friction.slip_zones import Drive, SlipZones
@@ -34,7 +36,7 @@ from sie.traction.of_slope import SlopeDensity
 from .growing_contact import LoadChange
 from .marched_step import FrozenEdge, Held, MarchedStep, places
 from .panel_shear import SAME
-from .receding_equations import Equations
+from .receding_equations import NO_ZONE, Equations
 from .slip_rates import SlipRates
 from .stick_intervals import TINY, Zone, zone
 
@@ -206,17 +208,30 @@ def receded(
 # How well it is known when an end of the stick zone passes a mark, of a step and of a half-width,
 # and the shares of a step before and after which it does not matter.
 SURE, EARLY, LATE = 1e-7, 1e-2, 1e-6
+TRIED = 3  # states from which another one is searched for
+CLOSE = 0.1  # of the time since a part of a step began: two states are no closer than this
 
 
 def on_the_way(part: Receded) -> Callable[[float], Receded]:
-    """The states on the way, each searched for from the nearest one that is known."""
+    """The states on the way, each searched for from others that are known.
+
+    The nearest one may be on the wrong side of a mark, or have a zone of slip so short that an edge
+    of contact has passed it since. Where all are too far one between is found first.
+    """
     known = {part.share: part}
 
     def state(share: float) -> Receded:
-        if share not in known:
-            nearest = min(known, key=lambda other: abs(other - share))
-            known[share] = part.until(share, known[nearest])
-        return known[share]
+        if share in known:
+            return known[share]
+        near = sorted(known, key=lambda other: abs(other - share))[:TRIED]
+        for other in near:
+            with suppress(ContactError):
+                known[share] = part.until(share, known[other])
+                return known[share]
+        if abs(share - near[0]) <= CLOSE * (share - part.begun):
+            raise ContactError(NO_ZONE)
+        state(0.5 * (share + near[0]))
+        return state(share)
 
     return state
 
@@ -235,7 +250,7 @@ def moving_work(part: Receded, change: LoadChange) -> float:
         return rates.power(now.pressure, now.stick)
 
     cuts = sorted({begun, end, *_passages(part, state)})
-    scale, total = power(0.5 * (begun + end)), 0.0
+    scale, total = max(power(0.5 * (lo + hi)) for lo, hi in pairwise(cuts)), 0.0
     for lo, hi in pairwise(cuts):
 
         def rate(v: float, lo: float = lo, hi: float = hi) -> float:

@@ -41,7 +41,8 @@ LOCATED = 1e-7  # of a step: so well it is known where in it what is refused hap
 # the end misses is of the second order.
 SURE, STILL = 1e-10, 1e-9
 
-VANISHED = 1e-5  # of the half-width of contact: what is left of a zone of slip then
+# Of the half-width of contact: what is left of a zone of slip then, and where none was there before
+VANISHED, NOTHING = 1e-5, 1e-12
 
 ISLAND = "the shear in the stick zone reaches f p, and a second zone of slip opens there"
 TURNS = "slip next to an edge of contact turns while it goes on farther in"
@@ -158,11 +159,11 @@ class Trial:
         share = false_position(rate, low, high, (float(at_low[k]), float(at_high[k])), settled)
         return share, (-1.0, 1.0)[k]
 
-    def closed(self) -> tuple[float, int] | None:
+    def closed(self) -> tuple[float, tuple[bool, bool]] | None:
         """The share of the step at which a zone of slip vanishes at an edge that retreats.
 
-        With it 0 if it is the left one, and 1 if it is the right one; None where none vanishes. The
-        zone that is left has slipped in the wrong direction, which is of the second order.
+        With it whether the left one does, and the right one; None where none vanishes. The zone
+        that is left has slipped in the wrong direction, which is of the second order.
         """
         low, _ = narrowed(self._lost, 0.0, 1.0)
         if low == 0.0:
@@ -170,7 +171,10 @@ class Trial:
         last = self.state(low)
         stick, contact = last.stick, last.pressure.contact
         left = stick.x1 - contact.x1, contact.x2 - stick.x2
-        return (low, left.index(min(left))) if min(left) <= VANISHED * contact.r else None
+        if min(left) > VANISHED * contact.r:
+            return None
+        nothing = max(min(left), NOTHING * contact.r)
+        return low, (left[0] <= nothing, left[1] <= nothing)
 
     def _lost(self, share: float) -> bool:
         """Whether no state is found after a share of the step."""
