@@ -240,6 +240,10 @@ def goodman_certificate(state: GrownSlip, kind: str, tol: float) -> ShearCertifi
     x, weight = term.rule.x, term.rule.weight
     p, q = finite(state.friction * pressure(x)), finite(term.density(x))
     size, peak = float(weight @ np.abs(q)), float(np.abs(q).max())
+    contact = pressure.contact
+    # Nearer to an edge p and q are roots of distances that doubles do not tell
+    margin = ENDS * (contact.r + abs(contact.m))
+    known = (contact.from_left(x) > margin) & (contact.from_right(x) > margin)
     at = points(state.untouched, [term])
     force, gamma, of_force, of_gamma = integrals([term], at)
     due = np.zeros(len(at))
@@ -253,7 +257,7 @@ def goodman_certificate(state: GrownSlip, kind: str, tol: float) -> ShearCertifi
     return ShearCertificate(
         residual=float(np.abs(gamma - due).max(initial=0.0)) / peak,
         equilibrium=abs(force - state.step.Q) / size,
-        excess=excess(state, pressure.contact, x, p, q) / float(p.max()),
+        excess=excess(state, contact, x[known], p[known], q[known]) / float(p.max()),
         opposing=opposing(state, state.slip_now(x), x) if state.zones is None else 0.0,
         abscissae=max(of_force / size, (float(of_gamma.max(initial=0.0)) + of_p) / peak),
         condition=1.0,

@@ -34,11 +34,11 @@ DEGREE = 32
 DECAYED = 1e-14  # of a series, its last coefficients
 CARRIED = 1e-10  # of the load, at first touch: more than rounding
 NEGLIGIBLE = 1e-14  # of the load over the half-width: what a short panel may miss of the pressure
+NOISE = 16.0 * EPS  # of the half-width: to so much the places of edges are known
 MOST_BREAKS = 12  # each asks for panels of its own, and for minutes where they are many
 MOST = 200  # panels: beyond, none is cut
 NEAR = 1e-8  # of the way to the next break: where dm/dr is looked at, behind a break
-# of the first panel: what is cut further only if the middle moves by less than ASIDE of the growth
-SHORTEST, ASIDE = 1e-6, 0.9
+SHORTEST = 1e-6  # of the first panel: what is cut further may grow to one side alone
 NEWTONS, SETTLED = 60, 4.0 * EPS
 NOWHERE = 1e-300  # of a panel: v at its beginning
 
@@ -95,7 +95,7 @@ class Panel:
         half = 0.5 * (self.depths[1] - self.depths[0])
         v = self.depths[0] + half * (1.0 + y)
         rates = summed(self.turns, y) * half * self.scale * np.sinh(2.0 * v)
-        series: Array = chebyshev.antiderivative(chopped(chebyshev.transform(rates)))
+        series: Array = chebyshev.antiderivative(chopped(chebyshev.transform(rates), EPS))
         return series
 
     def moved(self, ahead: Array, by: Array) -> Array:
@@ -143,13 +143,19 @@ class ContactTable:
 
     start, end              half-widths at first touch and under the load
     first_centre, middle    centres of the contact then
+    stick                   the part of a contact that sticks
     corner_load             what the corners at both ends of a contact carry that no longer grows
     """
 
     def __init__(
-        self, search: Search, edges: Edge, breaks: list[float], law: PowerLaw | None
+        self,
+        search: Search,
+        edges: Edge,
+        breaks: list[float],
+        law: PowerLaw | None = None,
+        stick: float = 1.0,
     ) -> None:
-        self.search = search
+        self.search, self.stick = search, stick
         self.middle, self.end = edges.contact.m, edges.contact.r
         z1, z2 = self.search.touch()
         self.start = min(0.5 * (z2 - z1), self.end)
@@ -179,17 +185,20 @@ class ContactTable:
         # The weighted mean I0 of the slope rises with m: 0 lies between two contacts of this width
         # that both hold the place of first touch
         m, lo, hi = near, self.first_centre - r, self.first_centre + r
+        before, nearest = math.inf, SETTLED * max(self.end, abs(m))
         for _ in range(NEWTONS):
             m = m if lo <= m <= hi else 0.5 * (lo + hi)
             k = self.search.integrals(Interval(m - r, m + r))
             lo, hi = (m, hi) if k.I0 < 0.0 else (lo, m)
             # Where all of the contact is straight there is no tangent
             tangent = k.JL > 0.0 and k.JR > 0.0
-            step = -2.0 * k.I0 / (k.JL + k.JR) if tangent else 0.5 * (lo + hi) - m
-            m += step
+            step = -2.0 * k.I0 / (k.JL + k.JR) if tangent else math.inf
             # The slope of a trace is known to rounding of the whole contact
-            if tangent and abs(step) <= SETTLED * max(self.end, abs(m)):
-                return m, k
+            if abs(step) <= nearest or (tangent and hi - lo <= nearest):
+                return m + min(max(step, lo - m), hi - m), k
+            # Next to a corner tangents are steep, and lead back and forth
+            m = m + step if abs(step) <= 0.5 * before else 0.5 * (lo + hi)
+            before = abs(step)
         raise self._unsteady(r)
 
     @staticmethod
@@ -225,7 +234,7 @@ class ContactTable:
             while todo:
                 lo, hi = todo.pop()
                 panel, missed = self._panel(lo, hi, begin, scale)
-                if missed <= NEGLIGIBLE or len(done) + len(todo) > MOST:
+                if missed <= max(NEGLIGIBLE, NOISE * self.end / hi) or len(done) + len(todo) > MOST:
                     done.append(panel)
                     continue
                 if hi < SHORTEST * self.ends[1]:
@@ -233,6 +242,21 @@ class ContactTable:
                 middle = begin + scale * math.sinh(0.5 * sum(panel.depths)) ** 2
                 todo += [(middle, hi), (lo, middle)]
         return tuple(done)
+
+    def _refuse_one_sided(self, first: Panel) -> None:
+        """Raises ContactError where one edge stays behind as the contact begins to grow.
+
+        It does so where h' jumps on one side only, or has unlike powers on both: dm/dr is then ± 1.
+        """
+        moved = float(first.moved(np.zeros(1), np.array([first.length]))[0])
+        if abs(moved) > self.stick * first.length:
+            raise ContactError(
+                f"the profile rises with unlike powers of the distance on both sides of x = "
+                f"{self.first_centre:.6g}, where it touches first: the contact grows to one side "
+                "alone there, so that its stick zone would recede, which Goodman's approximation "
+                "does not solve; give a profile whose slope goes with one power on both sides, or "
+                "dundurs = 0 to neglect β"
+            )
 
     def _scale(self, begin: float, end: float) -> float:
         """A distance from the half-width at which an edge passes a break: dm/dr changes by one."""
@@ -245,21 +269,6 @@ class ContactTable:
         return float(
             np.clip(NEAR * length / max(far - near, near - far, NEAR) ** 2, NEAR * length, length)
         )
-
-    def _refuse_one_sided(self, first: Panel) -> None:
-        """Raises ContactError where one edge stays behind as the contact begins to grow.
-
-        It does so where h' jumps on one side only, or has unlike powers on both: dm/dr is then ± 1.
-        """
-        moved = first.moved(np.zeros(1), np.array([first.length]))[0]
-        if abs(moved) > ASIDE * first.length:
-            raise ContactError(
-                f"the profile rises with unlike powers of the distance on both sides of x = "
-                f"{self.first_centre:.6g}, where it touches first: the contact grows to one side "
-                "alone there, so that its stick zone would recede, which Goodman's approximation "
-                "does not solve; give a profile whose slope goes with one power on both sides, or "
-                "dundurs = 0 to neglect β"
-            )
 
     @cached_property
     def ends(self) -> list[float]:
@@ -295,12 +304,14 @@ class ContactTable:
             return 0.0
         from scipy.optimize import brentq  # noqa: PLC0415 -- heavy, and for few profiles only
 
-        def beyond(r: float) -> float:
-            if r <= self.start:
-                return side * (self.first_centre - x) + r
-            return side * (self.contact(r, self._near(r))[0] - x) + r
+        def mean_slope(r: float) -> float:
+            other = x - 2.0 * side * r
+            return self.search.integrals(Interval(min(x, other), max(x, other))).I0
 
-        return float(brentq(beyond, self.start, self.end, xtol=1e-300, rtol=SETTLED))
+        # This edge stays while the other one, which is told well, passes from the place of first
+        # touch to its last place
+        least, most = side * (x - self.first_centre), side * (x - self.middle) + self.end
+        return float(brentq(mean_slope, 0.5 * least, 0.5 * most, xtol=EPS * self.end, rtol=SETTLED))
 
     def _near(self, r: float) -> float:
         part = (r - self.start) / (self.end - self.start)
@@ -344,7 +355,12 @@ class ContactTable:
         back = [-sum(moves[k:]) for k in range(len(moves))]
         return *back, 0.0
 
-    @cached_property
+    @property
     def _mean_pressure(self) -> float:
+        return self.load / self.end
+
+    @cached_property
+    def load(self) -> float:
+        """What the contact carries without its corners."""
         contact = Interval(self.middle - self.end, self.middle + self.end)
-        return self.search.load(contact, self.search.integrals(contact)) / self.end
+        return self.search.load(contact, self.search.integrals(contact))

@@ -45,6 +45,7 @@ SHORT = 1.0  # where there is one ahead as well, at twice the distance
 TOGETHER = 256  # places at a time: more do not fit a processor's cache
 LOOKS = 24  # places on a panel at which the ends of the stick zone must move outwards
 TURNING = 1e-9  # of the half-width: an end that moves inwards by less is rounding
+FAINT = 1e-12  # of the load: what a lighter one does leaves no trace
 STEPS, SETTLED = 60, 1e-13  # of Newton's method for a half-width, which then takes one step more
 
 
@@ -215,6 +216,8 @@ class GoodmanGrowth:
         e, s = last.from_edge.copy(), last.from_stick.copy()
         for j, panel in reversed(list(enumerate(self.table.panels))):
             own = np.flatnonzero((last.panel >= j) & (e > 0.0))
+            if not own.size:
+                continue
             top = np.where(last.panel[own] == j, last.ahead[own], panel.length)
             first = np.maximum(e[own] - self._rise(panel, 1.0, np.zeros(len(own)), top), 0.0)
             length, inside = top.copy(), first == 0.0
@@ -241,6 +244,8 @@ class GoodmanGrowth:
         e, s = first.from_edge.copy(), first.from_stick.copy()
         for j, panel in enumerate(self.table.panels):
             own = np.flatnonzero(first.panel <= j)
+            if not own.size:
+                continue
             ahead = np.where(first.panel[own] == j, first.ahead[own], 0.0)
             length, r = panel.length - ahead, panel.lo + ahead
             # Both ends of the contact and of the stick zone: they move by 2 dr at most
@@ -288,16 +293,21 @@ class GoodmanGrowth:
 
     def _refuse_receding(self) -> None:
         """ContactError where an end of the stick zone moves inwards."""
+        carried = 0.0
         for panel in self.table.panels:
             ahead = panel.length * (np.arange(LOOKS + 1) / LOOKS) ** 2
-            ends = self._rise(panel, self.flat.k, np.zeros(1), ahead)
-            if (np.diff(ends) < -TURNING * self.table.end).any():
+            rise = np.diff(self._rise(panel, self.flat.k, np.zeros(1), ahead))
+            rates = panel.load_rate(ahead[1:])
+            load = carried + np.cumsum(rates * np.diff(ahead))
+            carried = float(load[-1])
+            receding = (rise < -TURNING * self.table.end) & (load > FAINT * self.table.load)
+            if receding.any():
                 raise ContactError(
                     "the contact moves aside faster than it grows: its stick zone, "
-                    f"{self.flat.k:.4g} of the width, would recede at one end on the way to a "
-                    f"half-width of {panel.hi:.6g}, and Goodman's approximation is solved for "
-                    "stick zones that only grow; raise the friction, reduce the tilt, or give "
-                    "dundurs = 0 to neglect β"
+                    f"{self.flat.k:.4g} of the width, would recede at one end at a half-width of "
+                    f"{panel.lo + float(ahead[1:][receding][-1]):.6g}, and Goodman's approximation "
+                    "is solved for stick zones that only grow; raise the friction, reduce the "
+                    "tilt, or give dundurs = 0 to neglect β"
                 )
 
 

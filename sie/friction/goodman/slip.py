@@ -229,9 +229,11 @@ class GoodmanSlip(GrownSlip):
             x = (x2 if frame.side > 0.0 else x1) - frame.side * distance
             f_p = self.friction * frame.edge.pressure(distance)
         q = self.along * self._tabulated_shear(np.clip(x, x1, x2))
+        q[~np.isfinite(q)] = 0.0
         against = (x <= c1) if self.along > 0.0 else (x >= c2)
-        d: Array = np.where(against, 2.0 * f_p, f_p - np.where(np.isfinite(q), q, 0.0))
-        return np.maximum(d, 0.0)
+        d: Array = np.where(against, 2.0 * f_p, f_p - q)
+        # A place next to a corner may be rounded to it
+        return np.maximum(np.where(np.isfinite(d), d, 0.0), 0.0)
 
     def _tabulated_shear(self, x: Array) -> Array:
         """`normal_shear` from its series: the zones are sought in many steps."""
@@ -250,7 +252,7 @@ class GoodmanSlip(GrownSlip):
             continues = side == self.along
             end = ahead if continues else behind
             distances = sorted(side * (end - x) for x in inner)
-            rest = self.flat.modulus.rest * self.contact.r if continues else self.contact.r
+            rest = self.flat.modulus.rest * self.contact.r
             edge = None if continues else edge_frame(self.step.pressure, self.step.slope, side)
             breaks = tuple(d for d in distances if d > SMALL * self.contact.r)
             frames.append(
@@ -344,7 +346,8 @@ def goodman_slip(step: Step, search: Search) -> GoodmanSlip:
         refuse_sliding(scene.friction, step.normal_load, step.Q)
         refuse_corner(step.normal.edges.sharp, step.Q)
     law = scene.profile.power_law
-    table = ContactTable(search, step.normal.edges, step.slope.breaks.tolist(), law)
-    state = GoodmanSlip(step, goodman_flat(abs(scene.beta), scene.friction), table)
+    flat = goodman_flat(abs(scene.beta), scene.friction)
+    table = ContactTable(search, step.normal.edges, step.slope.breaks.tolist(), law, flat.k)
+    state = GoodmanSlip(step, flat, table)
     _ = state.sides
     return state.under_tangential_load() if step.Q else state
