@@ -74,7 +74,7 @@ def test_certificate_holds_where_the_contact_is_not_symmetric(name):
 
 SKEW = sie.Polynomial((0.0, 0.0, 0.5, 0.151, 0.212))
 UNEVEN_WEDGE = sie.Piecewise((-3.0, 0.0, 3.0), ((-0.615,), (0.246,)))
-CORNER = sie.Piecewise((-3.0, 0.1, 3.0), ((0.0, 1.0), (0.168, 1.0)))
+CORNERS = sie.Piecewise((-3.0, -0.1, 0.1, 3.0), ((-0.17, 1.0), (0.0, 1.0), (0.17, 1.0)))
 UNLIKE_POWERS = sie.Piecewise((-3.0, 0.0, 3.0), ((0.0, 0.0, -1.0), (0.0, 1.0)))
 
 
@@ -85,7 +85,7 @@ UNLIKE_POWERS = sie.Piecewise((-3.0, 0.0, 3.0), ((0.0, 0.0, -1.0), (0.0, 1.0)))
         (SKEW, 0.02, 0.7, 1.2, -0.9),
         (SKEW, 0.1, 0.3, 0.5, 0.3),
         (UNEVEN_WEDGE, 0.1, 0.17, 0.03, 0.0),
-        (CORNER, 0.03, 1.0, 0.05, 0.8),  # Q moves an end of the stick zone past the corner
+        (UNEVEN_WEDGE, 0.1, 0.5, 0.03, 0.99),  # a stick zone narrower than sqrt(1 - Q/(f P))
     ],
 )
 def test_certificate_holds_to_rounding_without_symmetry(profile, beta, friction, load, part):
@@ -95,6 +95,12 @@ def test_certificate_holds_to_rounding_without_symmetry(profile, beta, friction,
     assert certificate.shear.residual < 1e-11
     assert certificate.shear.equilibrium < 1e-11
     assert certificate.shear.excess < 1e-11
+
+
+def test_tangential_load_moves_an_end_of_the_stick_zone_past_a_corner():
+    solution = solved(CORNERS, 0.03, 0.3, normal_load=0.05, tangential_load=0.012)
+    assert solution.stick[0][1] < 0.1 < solution.half_width
+    assert solution.check().ok
 
 
 def test_contact_that_grows_to_one_side_at_first_sticks_under_high_friction():

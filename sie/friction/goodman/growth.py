@@ -38,6 +38,7 @@ NOISE = 16.0 * EPS  # of the half-width: to so much the places of edges are know
 MOST_BREAKS = 12  # each asks for panels of its own, and for minutes where they are many
 MOST = 200  # panels: beyond, none is cut
 NEAR = 1e-8  # of the way to the next break: where dm/dr is looked at, behind a break
+SHORT = 1e-12  # of its half-width: such a panel is not cut
 SHORTEST = 1e-6  # of the first panel: what is cut further may grow to one side alone
 NEWTONS, SETTLED = 60, 4.0 * EPS
 NOWHERE = 1e-300  # of a panel: v at its beginning
@@ -49,6 +50,7 @@ class Panel:
 
     lo, hi          half-widths at its ends
     begin, scale    r = begin + scale sinh² v
+    corner          whether both edges have passed a corner there: dP/dr is the series over sinh v
     """
 
     lo: float
@@ -58,6 +60,7 @@ class Panel:
     power: float
     load_rates: Array = field(repr=False)
     turns: Array = field(repr=False)
+    corner: bool = False
 
     @property
     def length(self) -> float:
@@ -81,7 +84,10 @@ class Panel:
 
     def load_rate(self, ahead: Array) -> Array:
         """dP/dr at r = lo + ahead."""
-        rate = summed(self.load_rates, self._place(self._root(ahead)))
+        root = self._root(ahead)
+        rate = summed(self.load_rates, self._place(root))
+        if self.corner:
+            rate = rate / np.maximum(root, NOWHERE)
         return rate * (self.lo + ahead) ** self.power if self.power else rate
 
     def turn(self, ahead: Array) -> Array:
@@ -234,7 +240,12 @@ class ContactTable:
             while todo:
                 lo, hi = todo.pop()
                 panel, missed = self._panel(lo, hi, begin, scale)
-                if missed <= max(NEGLIGIBLE, NOISE * self.end / hi) or len(done) + len(todo) > MOST:
+                short = hi - lo <= SHORT * hi
+                if (
+                    short
+                    or missed <= max(NEGLIGIBLE, NOISE * self.end / hi)
+                    or len(done) + len(todo) > MOST
+                ):
                     done.append(panel)
                     continue
                 if hi < SHORTEST * self.ends[1]:
@@ -318,7 +329,8 @@ class ContactTable:
         return self.first_centre + part * (self.middle - self.first_centre)
 
     def _panel(self, lo: float, hi: float, begin: float, scale: float) -> tuple[Panel, float]:
-        panel = Panel(lo, hi, begin, scale, 0.0, np.zeros(1), np.zeros(1))
+        corner = self.search.axis is not None and begin > 0.0
+        panel = Panel(lo, hi, begin, scale, 0.0, np.zeros(1), np.zeros(1), corner)
         first, last = panel.depths
         v = first + 0.5 * (last - first) * (1.0 + chebyshev.points(DEGREE))
         half_widths = begin + scale * np.sinh(v) ** 2
@@ -333,6 +345,8 @@ class ContactTable:
                 turns[j] = (k.JL - k.JR) / (k.JL + k.JR)
         if not (rates >= 0.0).all():
             raise self._unsteady(float(half_widths[np.argmin(rates)]))
+        if corner:
+            rates = rates * np.sinh(v)
         series = chebyshev.transform(np.stack((rates, turns)))
         of_rate, of_turn = np.abs(series[:, -3:]).max(axis=1).tolist()
         if of_rate <= DECAYED * np.abs(series[0]).max():

@@ -34,6 +34,7 @@ from sie.errors import ContactError
 from sie.friction.coupled.panels import totals
 from sie.friction.coupled.profile import NEAREST
 from sie.numerics.gauss_jacobi import gauss_jacobi
+from sie.numerics.interval import EPS
 
 from .functions import GoodmanFlat
 from .growth import ContactTable, Panel
@@ -94,6 +95,7 @@ class GoodmanGrowth:
 
     def __init__(self, flat: GoodmanFlat, table: ContactTable, mirrored: bool = False) -> None:
         self.flat, self.table, self.side = flat, table, -1.0 if mirrored else 1.0
+        self._looks: dict[int, tuple[Array, Array]] = {}
         self._refuse_receding()
 
     def shear(self, y: Array) -> Array:
@@ -174,13 +176,26 @@ class GoodmanGrowth:
         for j, panel in enumerate(self.table.panels):
             own = number == j
             if own.any():
-                ahead[own] = self._reached(panel, k, np.zeros(1), y[own] - begin[j])
+                rise = y[own] - begin[j]
+                ahead[own] = self._reached(panel, k, np.zeros(1), rise, self._near(j, rise))
         rest = self.flat.modulus.rest * (lo[number] + ahead)
         stuck = np.maximum(begin[0] - y, 0.0) if self.table.start else np.zeros(len(y))
         edge = np.where(stuck > 0.0, centres[0] + lo[0] - y, rest)
         return Contacts(number, ahead, edge, stuck)
 
-    def _reached(self, panel: Panel, part: float, ahead: Array, rise: Array) -> Array:
+    def _near(self, number: int, rise: Array) -> Array:
+        """About where the end of the stick zone has moved so far on a panel."""
+        if number not in self._looks:
+            panel = self.table.panels[number]
+            ahead = panel.length * (np.arange(LOOKS + 1) / LOOKS) ** 2
+            risen = self._rise(panel, self.flat.k, np.zeros(1), ahead)
+            self._looks[number] = np.maximum.accumulate(risen), ahead
+        values: Array = np.interp(rise, *self._looks[number])
+        return values
+
+    def _reached(
+        self, panel: Panel, part: float, ahead: Array, rise: Array, near: Array | float = 0.0
+    ) -> Array:
         """By how much r has to grow from lo + ahead until m + part r has grown by so much.
 
         It may be negative, and does not lead out of the panel.
@@ -188,16 +203,17 @@ class GoodmanGrowth:
         limit = np.where(rise < 0.0, ahead, panel.length - ahead)
         rise, sign = np.abs(rise), np.copysign(1.0, rise)
         lo, hi = np.zeros(len(rise)), limit
-        found = np.zeros(len(rise))
+        found = np.minimum(near, limit)
         for _ in range(STEPS):
             by = sign * found
             missed = rise - part * found - sign * self.side * panel.moved(ahead, by)
             rate = part + self.side * panel.turn(ahead + by)
             lo, hi = np.where(missed > 0.0, found, lo), np.where(missed > 0.0, hi, found)
-            step = missed / np.maximum(rate, NEAREST)
+            rate = np.maximum(rate, NEAREST)
+            step = missed / rate
             inside = (found + step >= lo) & (found + step <= hi)
             moved = np.where(inside, found + step, 0.5 * (lo + hi))
-            settled = np.abs(moved - found) <= SETTLED * moved
+            settled = np.abs(moved - found) <= (SETTLED + 4.0 * EPS / rate) * moved
             found = moved
             if settled.all():
                 break

@@ -31,7 +31,7 @@ from sie.friction.coupled.two_sided import TwoSidedTraction
 from sie.friction.slip_state import GrownSlip, Step
 from sie.friction.slip_zones import Drive, SlipZones, edge_frame, slip_zones
 from sie.numerics.gauss_jacobi import gauss_jacobi
-from sie.numerics.interval import Interval
+from sie.numerics.interval import EPS, Interval
 from sie.problem.load_limit import refuse_corner, refuse_sliding, remaining
 
 from .frame import DeficitFrame
@@ -263,10 +263,10 @@ class GoodmanSlip(GrownSlip):
 
     @property
     def _narrow(self) -> float:
-        """A part of the contact that is shorter than the stick zone: half of sqrt(1 - Q/(f P))."""
+        """A part of the contact that is shorter than the stick zone: as of a wedge, 1 - Q/(f P)."""
         P = self.step.normal_load
         left = remaining(self.friction, P, self.step.Q) / P
-        return 0.5 * math.sqrt(max(left, 0.0))
+        return 0.5 * max(left, EPS)
 
     def under_tangential_load(self) -> GoodmanSlip:
         """The state after Q."""
