@@ -192,6 +192,22 @@ class CoupledTraction(OnHalves):
         return F - self.parity * G, dF + self.parity * dG
 
 
+def on_panels(panels: Panels, y: Array) -> Array:
+    """The values of the series at 0 <= y <= b."""
+    k = np.clip(np.searchsorted(panels.lo, y, side="right") - 1, 0, len(panels.lo) - 1)
+    length = (panels.hi - panels.lo)[k]
+    s = 2.0 * (y - panels.lo[k]) / length - 1.0
+    c = panels.series[k].T
+    high, higher = c[-1], np.zeros_like(s)
+    for a in c[-2:0:-1]:
+        high, higher = a + 2.0 * s * high - higher, high
+    values: Array = c[0] + s * high - higher
+    last = k == len(panels.lo) - 1
+    part = np.maximum((panels.hi[-1] - y[last]) / length[last], LEAST)
+    values[last] *= part**panels.power
+    return values
+
+
 def resolved_panels(
     values: Callable[[Array], Array],
     marks: tuple[float, ...],
