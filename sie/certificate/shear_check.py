@@ -13,7 +13,9 @@ max |γ - γ'| / max|q|, γ = 1/π PV∫q/(x - t) dt + β p, where they stuck un
 from __future__ import annotations
 
 import itertools
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
@@ -45,7 +47,7 @@ class Term(NamedTuple):
     """factor × density, a part of the shear, and the rule for its integrals."""
 
     factor: float
-    density: Density
+    density: Callable[[Array], Array]
     contact: Interval
     rule: Rule
 
@@ -226,7 +228,9 @@ def _on_own_rule(density: Density, contact: Interval, marks: Sequence[float], sl
 # -- while the normal load grows ------------------------------------------------------------------
 
 OF_SHEAR = 1e-10  # of the largest shear: what is promised of (12)
-NODES, RATIO, LEVELS = 12, 3.0, 17  # panels towards a mark, in the root of the distance
+NODES, RATIO = 12, 3.0  # panels towards a mark, in the root of the distance
+# ... and so many: at an edge the shear goes with a logarithm as well where the slip zone is narrow
+AT_EDGE, INSIDE = 17, 9
 P_ROUNDING = 16.0 * EPS  # of p, which q is balanced with in (12)
 
 
@@ -234,8 +238,12 @@ def goodman_certificate(state: GrownSlip, kind: str, tol: float) -> ShearCertifi
     """Measured on a state and on that under a lighter load; `kind` says what is neglected."""
     pressure, (term,) = state.step.pressure, _terms(state)
     x, weight = term.rule.x, term.rule.weight
-    p, q = finite(state.friction * pressure(x)), finite(state.shear(x))
+    p, q = finite(state.friction * pressure(x)), finite(term.density(x))
     size, peak = float(weight @ np.abs(q)), float(np.abs(q).max())
+    contact = pressure.contact
+    # Nearer to an edge p and q are roots of distances that doubles do not tell
+    margin = ENDS * (contact.r + abs(contact.m))
+    known = (contact.from_left(x) > margin) & (contact.from_right(x) > margin)
     at = points(state.untouched, [term])
     force, gamma, of_force, of_gamma = integrals([term], at)
     due = np.zeros(len(at))
@@ -249,7 +257,7 @@ def goodman_certificate(state: GrownSlip, kind: str, tol: float) -> ShearCertifi
     return ShearCertificate(
         residual=float(np.abs(gamma - due).max(initial=0.0)) / peak,
         equilibrium=abs(force - state.step.Q) / size,
-        excess=excess(state, pressure.contact, x, p, q) / float(p.max()),
+        excess=excess(state, contact, x[known], p[known], q[known]) / float(p.max()),
         opposing=opposing(state, state.slip_now(x), x) if state.zones is None else 0.0,
         abscissae=max(of_force / size, (float(of_gamma.max(initial=0.0)) + of_p) / peak),
         condition=1.0,
@@ -257,6 +265,21 @@ def goodman_certificate(state: GrownSlip, kind: str, tol: float) -> ShearCertifi
         kind=f"{state.kind}; {kind}",
         tol=max(tol, OF_SHEAR),
     )
+
+
+@dataclass(frozen=True, eq=False)
+class _Remembered:
+    """A shear with its values at the nodes of a rule, which are wanted again and again."""
+
+    density: Density
+    x: Array
+
+    @cached_property
+    def values(self) -> Array:
+        return self.density(self.x)
+
+    def __call__(self, x: Array) -> Array:
+        return self.values if x is self.x else self.density(x)
 
 
 def _terms(state: GrownSlip) -> list[Term]:
@@ -267,20 +290,25 @@ def _terms(state: GrownSlip) -> list[Term]:
         rule = composite_rule(contact, state.step.slope, inside)
     else:
         rule = _between(state.marks, contact)
-    return [Term(1.0, state.shear, contact, rule)]
+    return [Term(1.0, _Remembered(state.shear, rule.x), contact, rule)]
 
 
 def _between(marks: tuple[float, ...], contact: Interval) -> Rule:
     """Panels that shrink towards all marks, in roots of the distance from them."""
-    u = RATIO ** -np.arange(LEVELS, -0.5, -1.0)
     nodes, _, w = with_weight(NODES, 0.0, 0.0)
-    ends = np.append(0.0, u)
-    length = np.diff(ends)[:, None]
-    place, weight = (ends[:-1, None] + length * nodes).ravel(), (length * w).ravel()
+
+    def towards(end: float, middle: float) -> tuple[Array, Array]:
+        levels = AT_EDGE if end in (marks[0], marks[-1]) else INSIDE
+        ends = np.append(0.0, RATIO ** -np.arange(levels, -0.5, -1.0))
+        length = np.diff(ends)[:, None]
+        place, weight = (ends[:-1, None] + length * nodes).ravel(), (length * w).ravel()
+        return end + (middle - end) * place**2, 2.0 * abs(middle - end) * place * weight
+
     x, dx = [], []
     for lo, hi in itertools.pairwise(marks):
-        half = 0.5 * (hi - lo)
-        x += [lo + half * place**2, (hi - half * place**2)[::-1]]
-        dx += [2.0 * half * place * weight, (2.0 * half * place * weight)[::-1]]
+        middle = 0.5 * (lo + hi)
+        (left, rise), (right, fall) = towards(lo, middle), towards(hi, middle)
+        x += [left, right[::-1]]
+        dx += [rise, fall[::-1]]
     at = np.concatenate(x)
     return Rule(at, np.zeros_like(at), np.concatenate(dx), at[:0], slice(None), contact)

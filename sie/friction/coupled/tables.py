@@ -109,9 +109,9 @@ def _in_powers() -> Array:
     return matrix
 
 
-def chopped(c: Array) -> Array:
-    """A series without the last coefficients that are below rounding."""
-    kept = np.flatnonzero(np.abs(c) > CHOP * np.abs(c).max())
+def chopped(c: Array, least: float = CHOP) -> Array:
+    """A series without its last coefficients below this part of the largest one."""
+    kept = np.flatnonzero(np.abs(c) > least * np.abs(c).max())
     return c[: kept[-1] + 1] if kept.size else c[:1]
 
 

@@ -89,21 +89,9 @@ class UnevenPanel:
 
     def moved(self, place: Array, by: Array) -> Array:
         """m(lo + place + by) - m(lo + place), to relative accuracy however small `by` is."""
-        y, z = self.variable(place), self.variable(place + by)
-        c = self._chopped
-        twice, b, b_next = 2.0 * z, np.zeros_like(y), np.zeros_like(y)
-        quotient, before, spare = np.zeros_like(z), np.zeros_like(z), np.empty_like(z)
-        for a in c[:0:-1].tolist():
-            np.multiply(twice, quotient, out=spare)
-            spare -= before
-            spare += 2.0 * b
-            quotient, before, spare = spare, quotient, before
-            b, b_next = a + 2.0 * y * b - b_next, b
-        quotient *= z
-        quotient -= before
-        quotient += b
-        quotient *= 2.0 / self.length * by
-        return quotient
+        rise = chebyshev.quotient(self._chopped, self.variable(place), self.variable(place + by))
+        rise *= 2.0 / self.length * by
+        return rise
 
     @cached_property
     def _chopped(self) -> Array:

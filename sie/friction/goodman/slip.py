@@ -21,20 +21,18 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from sie.errors import ContactError
 from sie.friction.coupled.half_potential import Panels
 from sie.friction.coupled.profile import NEAREST
-from sie.friction.coupled.traction import CoupledTraction, on_panels, resolved_panels
-from sie.friction.shear_density import PotentialsOfParts
+from sie.friction.coupled.traction import resolved_panels
+from sie.friction.coupled.two_sided import TwoSidedTraction
 from sie.friction.slip_state import GrownSlip, Step
 from sie.friction.slip_zones import Drive, SlipZones, edge_frame, slip_zones
 from sie.numerics.gauss_jacobi import gauss_jacobi
-from sie.numerics.interval import Interval
+from sie.numerics.interval import EPS, Interval
 from sie.problem.load_limit import refuse_corner, refuse_sliding, remaining
-from sie.traction.base import on_line
-from sie.traction.combination import Combination
 
 from .frame import DeficitFrame
 from .functions import GoodmanFlat, goodman_flat
@@ -45,79 +43,10 @@ Array = NDArray[np.float64]
 
 ENERGY_NODES = 24
 LIGHTER = 0.8  # of the load: under it the zone that sticks is examined again
-SMALL = 1e-13  # of the half-width: marks nearer to each other are one
+SMALL = 1e-12  # of the half-width: marks nearer to each other are one
 FIRST_ZONE = 0.25  # of the half-width: where the search for the zones under Q begins
 KIND = "outwards on both sides while the normal load grew, β q neglected (Goodman)"
 KIND_UNDER_Q = "outwards under P, then along Q, β q neglected (Goodman)"
-
-
-@dataclass(frozen=True, eq=False)
-class GoodmanShear(PotentialsOfParts):
-    """q: values from the state, the potential from series of its even and its odd part."""
-
-    state: GoodmanSlip
-    resultant: float
-
-    @property
-    def interval(self) -> tuple[float, float]:
-        return self.state.step.pressure.interval
-
-    @cached_property
-    def moment(self) -> float:  # type: ignore[override]
-        return self.parts.moment
-
-    @property
-    def breaks(self) -> tuple[float, ...]:
-        return self.state.marks
-
-    @cached_property
-    def parts(self) -> Combination:
-        """The even and the odd part about the centre of the contact."""
-        odd = (1.0, self._part(-1.0, 0.0))
-        if self.state.symmetric:
-            return Combination((odd,))
-        return Combination((odd, (1.0, self._part(1.0, self.resultant))))
-
-    def _part(self, parity: float, load: float) -> CoupledTraction:
-        def values(y: Array) -> Array:
-            return np.asarray(0.5 * (self._half(y, 1.0) + parity * self._half(y, -1.0)))
-
-        def panels() -> Panels:
-            right, left = self._halves
-            return right._replace(series=0.5 * (right.series + parity * left.series))
-
-        return CoupledTraction(values, panels, parity, load, self._inner, self.state.contact)
-
-    def _half(self, y: Array, side: float) -> Array:
-        return self(np.clip(self.state.contact.m + side * y, *self.interval))
-
-    @cached_property
-    def _halves(self) -> tuple[Panels, Panels]:
-        """Series of q on both sides of the centre, relative to the largest values of both.
-
-        The even part may be rounding.
-        """
-        sides = (1.0,) if self.state.symmetric else (1.0, -1.0)
-        power = -0.5 if any(self.state.step.normal.edges.sharp) else 0.5
-
-        def halves(y: Array, _: Array) -> Array:
-            return np.stack([self._half(y, side) for side in sides])
-
-        right, *left = resolved_panels(halves, self._inner, power)
-        return right, left[0] if left else right._replace(series=-right.series)
-
-    @property
-    def _inner(self) -> tuple[float, ...]:
-        """Distances of the marks from the centre, and half the width of the contact."""
-        contact = self.state.contact
-        inner = [0.0]
-        for y in sorted(abs(x - contact.m) for x in self.state.marks):
-            if inner[-1] + SMALL * contact.r < y < (1.0 - SMALL) * contact.r:
-                inner.append(y)
-        return *inner[1:], contact.r
-
-    def __call__(self, x: ArrayLike) -> Array:
-        return on_line(self.state.traction, x)
 
 
 @dataclass(frozen=True, eq=False)
@@ -209,14 +138,39 @@ class GoodmanSlip(GrownSlip):
                 places |= {m + sign * end, m + sign * (end + (1.0 - k) * r)}
         if not self.table.start:
             places.add(self.table.first_centre)
-        inside = [x for x in places if x1 < x < x2]
-        return tuple(sorted({x1, x2, *inside}))
+        apart, marks = SMALL * self.contact.r, [x1]
+        for x in sorted(places):
+            if marks[-1] + apart < x < x2 - apart:
+                marks.append(x)
+        return *marks, x2
 
     # -- tractions ---------------------------------------------------------------------------------
 
     @cached_property
-    def shear(self) -> GoodmanShear:
-        return GoodmanShear(self, self.step.Q)
+    def shear(self) -> TwoSidedTraction:
+        contact = self.contact
+        return TwoSidedTraction(
+            self.traction, self._halves, contact.m, self.step.Q, self.marks, contact
+        )
+
+    def _halves(self) -> tuple[Panels, Panels]:
+        """Series of q on both sides of the centre."""
+        (x1, x2), contact = self.step.pressure.interval, self.contact
+        power = -0.5 if any(self.step.normal.edges.sharp) else 0.5
+
+        def half(side: float) -> Panels:
+            inner = [0.0]
+            for y in sorted(side * (x - contact.m) for x in self.marks):
+                if inner[-1] + SMALL * contact.r < y < (1.0 - SMALL) * contact.r:
+                    inner.append(y)
+
+            def row(y: Array, _: Array) -> Array:
+                return self.traction(np.clip(contact.m + side * y, x1, x2))[None]
+
+            return resolved_panels(row, (*inner[1:], contact.r), power)[0]
+
+        right = half(1.0)
+        return right, right._replace(series=-right.series) if self.symmetric else half(-1.0)
 
     def normal_shear(self, x: Array) -> Array:
         """q before Q, for β > 0, at x on the contact."""
@@ -275,19 +229,17 @@ class GoodmanSlip(GrownSlip):
             x = (x2 if frame.side > 0.0 else x1) - frame.side * distance
             f_p = self.friction * frame.edge.pressure(distance)
         q = self.along * self._tabulated_shear(np.clip(x, x1, x2))
+        q[~np.isfinite(q)] = 0.0
         against = (x <= c1) if self.along > 0.0 else (x >= c2)
-        d: Array = np.where(against, 2.0 * f_p, f_p - np.where(np.isfinite(q), q, 0.0))
-        return np.maximum(d, 0.0)
+        d: Array = np.where(against, 2.0 * f_p, f_p - q)
+        # A place next to a corner may be rounded to it
+        return np.maximum(np.where(np.isfinite(d), d, 0.0), 0.0)
 
     def _tabulated_shear(self, x: Array) -> Array:
-        """`normal_shear` from the series of its parts: the zones are sought in many steps."""
+        """`normal_shear` from its series: the zones are sought in many steps."""
         y = x - self.contact.m
-        total = np.zeros(x.shape)
-        for factor, part in self.shear.parts.terms:
-            assert isinstance(part, CoupledTraction)
-            values = factor * on_panels(part.panels, np.abs(y))
-            total += np.where(y < 0.0, part.parity * values, values)
-        return self.sign * total
+        right, left = self.shear.halves
+        return self.sign * np.where(y < 0.0, left.traction(np.abs(y)), right.traction(np.abs(y)))
 
     @property
     def frames(self) -> tuple[tuple[DeficitFrame, DeficitFrame], Interval]:
@@ -300,7 +252,7 @@ class GoodmanSlip(GrownSlip):
             continues = side == self.along
             end = ahead if continues else behind
             distances = sorted(side * (end - x) for x in inner)
-            rest = self.flat.modulus.rest * self.contact.r if continues else self.contact.r
+            rest = self.flat.modulus.rest * self.contact.r
             edge = None if continues else edge_frame(self.step.pressure, self.step.slope, side)
             breaks = tuple(d for d in distances if d > SMALL * self.contact.r)
             frames.append(
@@ -311,10 +263,10 @@ class GoodmanSlip(GrownSlip):
 
     @property
     def _narrow(self) -> float:
-        """A part of the contact that is shorter than the stick zone: half of sqrt(1 - Q/(f P))."""
+        """A part of the contact that is shorter than the stick zone: as of a wedge, 1 - Q/(f P)."""
         P = self.step.normal_load
         left = remaining(self.friction, P, self.step.Q) / P
-        return 0.5 * math.sqrt(max(left, 0.0))
+        return 0.5 * max(left, EPS)
 
     def under_tangential_load(self) -> GoodmanSlip:
         """The state after Q."""
@@ -372,9 +324,9 @@ class GoodmanSlip(GrownSlip):
         total = 0.0
         for growth in self.sides:
             for panel in self.table.panels:
-                length = panel.hi - panel.lo
-                lost = growth.dissipation(panel.lo + length * x * x)
-                total += 2.0 * length * float((w * x * panel.at(length * x * x)[0]) @ lost)
+                ahead = panel.length * x * x
+                lost = growth.dissipation(panel.lo + ahead)
+                total += 2.0 * panel.length * float((w * x * panel.load_rate(ahead)) @ lost)
             if self.table.corner_load:
                 b, P = self.contact.r, self.table.corner_load
                 total += P * float(growth.dissipation(np.array([b]))[0])
@@ -394,7 +346,8 @@ def goodman_slip(step: Step, search: Search) -> GoodmanSlip:
         refuse_sliding(scene.friction, step.normal_load, step.Q)
         refuse_corner(step.normal.edges.sharp, step.Q)
     law = scene.profile.power_law
-    table = ContactTable(search, step.normal.edges, step.slope.breaks.tolist(), law)
-    state = GoodmanSlip(step, goodman_flat(abs(scene.beta), scene.friction), table)
+    flat = goodman_flat(abs(scene.beta), scene.friction)
+    table = ContactTable(search, step.normal.edges, step.slope.breaks.tolist(), law, flat.k)
+    state = GoodmanSlip(step, flat, table)
     _ = state.sides
     return state.under_tangential_load() if step.Q else state
