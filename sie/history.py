@@ -16,9 +16,8 @@ point to the next all loads change in proportion to time. What is exact, and cov
                                        that travels; several stick zones, all of which recede
     from P = 0, P, Q, σ and    the same, from soon after the first contact on
     tilt in proportion
-    dissimilar bodies                  P that grows and then Q, each point as a scene; P and Q in
-                                       proportion from zero, under a power law
-                                       (`friction.coupled.proportional`)
+    dissimilar bodies                  P that grows and then Q; under a power law P and Q in
+                                       proportion from zero (`friction.coupled.proportional`)
 
 `path_contacts` has the contacts under the loads of the path. `friction.memory` computes the layers
 that a step changes, `friction.partial_slip` the slip of a single step, `load_history.path_slip` the
@@ -151,8 +150,7 @@ class History(PathContacts, Sequence[Solution]):
         self._points: dict[int, PathSolution] = {}
         self._energy = PathEnergy(self)
         self._shifts: dict[int, float] = {}
-        self._kind: type[PathSolution] = PathSolution
-        self.as_scenes: list[Solution] = []
+        self._kind, self.as_scenes = PathSolution, list[Solution]()
         if steps is turning_points and as_scenes(scene, path):
             self._kind, self.as_scenes = SceneSolution, self._solved_as_scenes()
         elif steps is turning_points and in_proportion(scene, path):
@@ -252,10 +250,8 @@ class History(PathContacts, Sequence[Solution]):
                 "no layers of the contact answer this step, and a contact with sharp edges is not "
                 "marched: the shear is infinite there; round its corners (sie.RoundedFlat)"
             )
-        if first is before.loads:
-            start = held(self, before, self.sheared_by(first))
-        else:
-            start = touched(self, first, loads)
+        begun = first is before.loads
+        start = held(self, before, self.sheared_by(first)) if begun else touched(self, first, loads)
         return march(self, start, first, loads)
 
     def energy(self, index: int) -> float:

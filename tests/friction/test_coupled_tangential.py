@@ -699,3 +699,9 @@ def test_paths_are_refused_with_what_is_missing():
     path = sie.Path([(1.0, 0.1), (1.0, 0.0)])
     with pytest.raises(sie.ContactError, match="unloading of P or a reversal of Q"):
         sie.follow(scene(part=0.0), path)
+
+
+def test_a_trace_of_a_parabola_has_no_corner_on_its_axis():
+    """Its slope jumps there, but only as much as samples are rounded."""
+    x = np.linspace(-3.0, 3.0, 61)
+    assert solved(sie.Sampled(x, 0.5 * x * x), 0.3, 0.3, 0.3).tangential_search.corners == ()

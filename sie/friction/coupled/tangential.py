@@ -355,8 +355,9 @@ class TangentialSearch:
 
     @cached_property
     def corners(self) -> tuple[float, ...]:
-        """Places where the slope jumps."""
-        return tuple(place for place, _ in self.slope.rises)
+        """Places where the slope jumps, by more than its rounding at the edge under P alone."""
+        rounding = EPS * abs(float(self.slope(np.array([self.normal.b]))[0]))
+        return tuple(place for place, rise in self.slope.rises if abs(rise) > rounding)
 
     def room(self, edges: Array) -> Array:
         """How far each edge may move either way, to the next edge or bound; not positive beyond."""
