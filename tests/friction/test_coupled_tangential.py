@@ -705,3 +705,12 @@ def test_a_trace_of_a_parabola_has_no_corner_on_its_axis():
     """Its slope jumps there, but only as much as samples are rounded."""
     x = np.linspace(-3.0, 3.0, 61)
     assert solved(sie.Sampled(x, 0.5 * x * x), 0.3, 0.3, 0.3).tangential_search.corners == ()
+
+
+@pytest.mark.parametrize("part", [0.0, 0.3])
+def test_the_gap_far_away_is_what_the_profile_rises(part):
+    solution = solved(None, 0.3, 0.3, part)
+    with np.errstate(all="raise", under="ignore"):
+        gaps = solution.gap(np.array([-1e300, -1e120, 1e120, 1e160]))
+    assert gaps[1] == pytest.approx(0.5e240, rel=1e-12) == gaps[2]
+    assert gaps[0] == gaps[3] == math.inf

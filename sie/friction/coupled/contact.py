@@ -24,7 +24,7 @@ from .dissipation import tables_of_pair, work_of_pair
 from .flat import double_exponential
 from .functions import FlatFunctions
 from .growth import load_slope
-from .half_potential import Panels
+from .half_potential import DISTANT, Panels
 from .panels import INNERMOST, graded, totals
 from .profile import GrowthPanel, Kernel, Superposition
 from .tables import interpolated
@@ -251,7 +251,8 @@ class CoupledContact:
 
         The surfaces part by so much less than the profile rises.
         """
-        ahead = y - self.b
+        # Beyond, it is nothing beside the profile's rise
+        ahead = np.minimum(y - self.b, DISTANT * self.b)
         none = np.full(len(y), np.inf)
         owner, places, _, weight = graded(
             ahead, np.full(len(y), NEAR_EDGE * self.b), none, near=0.0

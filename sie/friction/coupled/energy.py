@@ -197,8 +197,8 @@ def tangential_energy(state: ShearedContact, found: Callable[[float], ShearedCon
     if error > CERTIFIED * total:
         raise ContactError(
             f"the energy that dissimilar bodies dissipate under |Q| = {state.Q:.6g} is known to "
-            f"{error / total:.1g} of it only, as zones pass kinks of the profile on the way, or are "
-            "narrower there than is resolved; smooth the profile, give a larger |Q|, or set "
+            f"{error / total:.1g} of it only, as zones pass kinks of the profile on the way, or "
+            "are narrower there than is resolved; smooth the profile, give a larger |Q|, or set "
             "tangential_load = 0 for the energy under the normal load"
         )
     return total / growth.search.normal.half_modulus

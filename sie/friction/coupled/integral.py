@@ -11,6 +11,8 @@ from numpy.typing import NDArray
 
 from sie.numerics import chebyshev
 
+from .half_potential import DISTANT
+
 Array = NDArray[np.float64]
 
 DEGREE = 16
@@ -52,7 +54,8 @@ def towards_ends(lo: float, hi: float, inner: Array) -> Array:
 
 
 def outwards(function: Callable[[Array], Array], distances: Array, width: float) -> Array:
-    """∫f from 0 to each distance from an edge, where f has a power of the distance."""
+    """∫f from 0 to each distance from an edge, or DISTANT, where f has a power of the distance."""
+    distances = np.minimum(distances, DISTANT * width)
     far = float(distances.max())
     first = min(NEAR_EDGE * width, far)
     levels = math.ceil(math.log(far / first, FARTHER)) if far > first else 0
