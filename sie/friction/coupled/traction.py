@@ -217,13 +217,13 @@ def resolved_panels(
     resolved: float = RESOLVED,
     short: float = 1.0,
     *,
-    faint: float = FAINT,
+    principal: bool = False,
 ) -> tuple[Panels, ...]:
     """Panels of several functions of 0 < y < b that are smooth between the marks, b the last.
 
     `values` has a row of each, at y and b - y, which next to b is known better than from y. Panels
     that are longer than `short`, of b, are resolved at every place; of others the force alone may
-    be what they are resolved to, `faint` of the largest.
+    be what they are resolved to, or the principal values at their ends.
     """
     b = marks[-1]
     part = 0.5 * (1.0 + chebyshev.points(DEGREE))
@@ -245,7 +245,8 @@ def resolved_panels(
         series = chebyshev.transform(f)
         tail = np.abs(series[..., -2:]).max(axis=2) / np.maximum(sizes, largest + LEAST)
         # A mark next to the axis is seen from as near as it is
-        of_force = (tail * (hi - lo) <= faint * np.where(lo > 0.0, hi, b)) & (hi - lo <= short * b)
+        faint = FAINTER * np.where(lo > 0.0, hi, b) if principal else FAINT * b
+        of_force = (tail * (hi - lo) <= faint) & (hi - lo <= short * b)
         settled = ((tail <= resolved) | of_force).all(axis=0)
         tail = tail.max(axis=0)
         settled |= (tail < ROUGH) & (tail > SAME * before)
@@ -270,7 +271,7 @@ def joined_panels(
     line is added to each series. At marks, where what the functions miss is largest, principal
     values are as near as the series, so that even short panels have to be near.
     """
-    panels = resolved_panels(values, marks, power, faint=FAINTER)
+    panels = resolved_panels(values, marks, power, principal=True)
     lo = panels[0].lo
     at_ends = values(lo, marks[-1] - lo)
     # At the last mark the last series has a factor
