@@ -210,7 +210,8 @@ def joined(
     moves = (length, -grown.length) if near == 0 else (grown.length, -length)
     found = SlipZones(outer.moved(*moves), *(zones if near == 0 else zones[::-1]), drive)
     factor = s * f * float(zones[1].force[0] / grown.zone.force[0])
-    state = Joined(before, p, f, signs, *loads, found, 0.0, course, begun, share, factor)
+    frames = frame, frame  # of the one zone that slips
+    state = Joined(before, p, f, signs, *loads, found, 0.0, course, begun, share, frames, factor)
     bent = replace(equation, grown=replace(grown, bend=_bend(state, course)))
     apart = abs(bent.length(*bracket) - length) / state.stick.r
     force = float(np.abs(bent.zones(length)[1].force - zones[1].force).sum()) / p.resultant
