@@ -1,5 +1,8 @@
 """Steps of a load path that are small beside the loads, as noise in a recorded file is."""
 
+import warnings
+from contextlib import suppress
+
 import numpy as np
 import pytest
 
@@ -79,3 +82,12 @@ def test_an_energy_that_is_refused_names_its_step_and_loads(monkeypatch):
         ContactError, match=r"step 2 of the path, to \(P, Q, σ\) = \(1, 0\.1, 0\.06"
     ):
         _ = point.energy_lost
+
+
+@pytest.mark.parametrize(("sign", "size"), [(-1, 3e-13), (1, 3e-11)])
+def test_a_step_near_the_rounding_of_its_loads_is_answered_or_refused_without_warnings(sign, size):
+    step = (1 + size, 0.1 + sign * size, 0.05 - sign * size)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        with suppress(ContactError):
+            _ = after([*BEFORE, step]).stick

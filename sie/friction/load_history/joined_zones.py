@@ -203,6 +203,8 @@ def joined(
     frame = FrozenEdge(edges[near], side, 2.0 * outer.r, free, np.array(places(before, p)))
     drive = Drive((loads[0] - before.Q) / f, math.pi * (loads[1] - before.tau) / f, s, s)
     grown = NewContact(abs(new[1 - near] - old[1 - near]))
+    if not grown.length > 0.0:
+        raise ContactError(NO_END)
     equation = _Joining(near, outer, frame, drive, grown)
     bracket = equation.bracket(side * (edges[near] - before.stick[near]))
     length = equation.length(*bracket)

@@ -65,8 +65,9 @@ class Equations:
 
     @property
     def size(self) -> float:
-        """What the changes of the loads are, as a force."""
-        return abs(self.drive.load) + self.outer.r * abs(self.drive.strain) + self.pressed
+        """What the changes of the loads are, as a force, at least the rounding of the load."""
+        driven = abs(self.drive.load) + self.outer.r * abs(self.drive.strain) + self.pressed
+        return max(driven, EPS * self.bound.resultant)
 
     def missed(self, lengths: Sequence[float] | Array) -> Array:
         """By what lengths fail them; infinite where they leave no stick zone."""
