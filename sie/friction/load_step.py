@@ -348,8 +348,9 @@ class Step:
         return self.memory.changed(rise, share * self.pull, sign, self._within)
 
     def _zone(self, share: float, memory: LoadMemory) -> Interval:
-        """The stick zone below the uppermost layer."""
-        assert memory.top is not None
+        """The stick zone below the uppermost layer; all of the contact where there is none."""
+        if memory.top is None:
+            return self.contacts.contact(self._at(share))
         normal = self._at(share).normal
         return self.contacts.first_loading(normal, memory.top.thickness, False).stick_zone
 

@@ -168,10 +168,10 @@ class SlipZone:
         return 0.5 * self.length * (1.0 + u), strength
 
 
-def slip_zone(frame: SeenFromEdge, length: float) -> SlipZone:
+def slip_zone(frame: SeenFromEdge, length: float, at_edge: int = 0) -> SlipZone:
     """The slip zone of this length at an edge: s = edge - length cos²(ψ/2).
 
-    It is graded towards the stick zone and towards breaks.
+    It is graded towards the stick zone and towards breaks, and by so many levels towards the edge.
 
     In ψ a smooth edge and a sharp one are both harmless.
     """
@@ -185,8 +185,8 @@ def slip_zone(frame: SeenFromEdge, length: float) -> SlipZone:
     cuts = [marks]
     for k, (lo, hi) in enumerate(pairwise(marks)):
         cuts += [lo + (hi - lo) * ratios, lo + (hi - lo) * np.array([0.5, 0.75])]
-        if k < len(marks) - 2:
-            cuts.append(hi - (hi - lo) * ratios[:-1])
+        levels = LEVELS if k < len(marks) - 2 else at_edge
+        cuts.append(hi - (hi - lo) * graded(levels)[:-1])
     angle, step = on_panels(np.unique(np.concatenate(cuts)))
     half = 0.5 * angle.ravel()
     from_stick, from_edge = length * np.sin(half) ** 2, length * np.cos(half) ** 2

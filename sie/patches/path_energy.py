@@ -17,7 +17,6 @@ from sie.errors import ContactError
 from sie.friction.dissipation import Dissipation, dissipated
 from sie.friction.load_history import changing_contact
 from sie.friction.load_history.changing_contact import ChangingContact
-from sie.friction.load_history.marched_step import MarchedStep
 from sie.friction.load_history.moving_work import work
 from sie.friction.load_history.turning_point import TurningPoint
 from sie.friction.loads import Loads
@@ -87,15 +86,14 @@ class PathEnergy:
         return list(lost.values())
 
     def _of_march(self, index: int) -> float:
-        """The energy that a step dissipated, by marching."""
-        parts = self.path.turning_points[index].marched or self._march(index)
-        return sum(part.work for part in parts)
+        """The energy that a step dissipated, by marching.
 
-    def _march(self, index: int) -> tuple[MarchedStep, ...]:
-        """The parts of a step that layers answer at its end, but not on the way."""
-        before, state = self.path.turning_points[index - 1 : index + 1]
+        Layers may answer it at its end, but not on the way.
+        """
+        before, state = self.path.turning_points[max(index - 1, 0)], self.path.turning_points[index]
         try:
-            return self.path.march(before, state.loads).marched
+            parts = state.marched or self.path.march(before, state.loads).marched
+            return sum(part.work for part in parts)
         except ContactError as problem:
             raise ContactError(
                 f"step {index} of the path, to {state.loads}: the energy lost depends on the way, "

@@ -154,9 +154,11 @@ def end_advances(before: Held, course: Course, way: Onset, share: float) -> EndA
     first = zone.jump(start, share)
     zone = replace(zone, first=first, width=first - start)
 
+    lacking = before.lacking_from(s * f, direction * start, -direction)
+
     def missing(u: Array) -> Array:
         """q* where the end arrives."""
-        return before.lacking(s * f, direction * u) / (s * f)
+        return lacking(u - start)
 
     old, edge = before.pressure.contact, course.pressure(course.hi)
     marks = sorted({direction * x for x in places(before, edge)})

@@ -112,9 +112,11 @@ def edge_sticks(
     inner = before.stick if goes_on else old
     start = inner.x1 if direction > 0.0 else -inner.x2
 
+    lacking = before.lacking_from(s * f, direction * start, -direction)
+
     def missing(u: Array) -> Array:
         """q* where the end arrives."""
-        return before.lacking(s * f, direction * u) / (s * f)
+        return lacking(u - start)
 
     edge = course.pressure(course.hi)
     marks = sorted({direction * x for x in places(before, edge)})

@@ -203,6 +203,8 @@ def joined(
     frame = FrozenEdge(edges[near], side, 2.0 * outer.r, free, np.array(places(before, p)))
     drive = Drive((loads[0] - before.Q) / f, math.pi * (loads[1] - before.tau) / f, s, s)
     grown = NewContact(abs(new[1 - near] - old[1 - near]))
+    if not grown.length > 0.0:
+        raise ContactError(NO_END)
     equation = _Joining(near, outer, frame, drive, grown)
     bracket = equation.bracket(side * (edges[near] - before.stick[near]))
     length = equation.length(*bracket)
@@ -210,7 +212,8 @@ def joined(
     moves = (length, -grown.length) if near == 0 else (grown.length, -length)
     found = SlipZones(outer.moved(*moves), *(zones if near == 0 else zones[::-1]), drive)
     factor = s * f * float(zones[1].force[0] / grown.zone.force[0])
-    state = Joined(before, p, f, signs, *loads, found, 0.0, course, begun, share, factor)
+    frames = frame, frame  # of the one zone that slips
+    state = Joined(before, p, f, signs, *loads, found, 0.0, course, begun, share, frames, factor)
     bent = replace(equation, grown=replace(grown, bend=_bend(state, course)))
     apart = abs(bent.length(*bracket) - length) / state.stick.r
     force = float(np.abs(bent.zones(length)[1].force - zones[1].force).sum()) / p.resultant

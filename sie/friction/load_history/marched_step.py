@@ -15,7 +15,8 @@ from numpy.typing import NDArray
 from sie.errors import ContactError
 from sie.friction.slip_state import IntegralsOfSlip
 from sie.friction.slip_zones import SlipZone, slip_zone
-from sie.numerics.interval import Interval
+from sie.numerics import chebyshev
+from sie.numerics.interval import EPS, Interval
 from sie.traction.base import Density
 from sie.traction.of_slope import SlopeDensity
 
@@ -27,6 +28,10 @@ Array = NDArray[np.float64]
 # far from them, of the way to the next one, and at how many places. A wedge has infinite p in the
 # middle; a zone of slip that has just opened at a mark is too short to be found.
 NEAREST, AT_MARK, FARTHEST, SCANNED = 1e-7, 1e-5, 0.49, 100
+# Of a width, and terms: where a traction next to its place is the root of the distance times a
+# series in it.
+NEAR, TERMS = 1e-3, 20
+ROUNDINGS, TINY = 30.0, 1e-300  # of the largest traction: how many of them quadrature leaves
 MUCH, HALVINGS = 0.1, 12  # of a stick zone: what stuck for a while; how often a while is halved
 
 
@@ -65,6 +70,15 @@ class Held:
             lack[inside] = bound * self.pressure(at) - self.shear(at)
         return lack
 
+    def lacking_from(self, bound: float, place: float, side: float) -> Callable[[Array], Array]:
+        """What q lacks of ±f p, over ±f, at distances from a place; as `FrozenEdge` has sides."""
+
+        def lacking(x: Array) -> Array:
+            return self.lacking(bound, x) / bound
+
+        marks = np.array(places(self, self.pressure))
+        return FrozenEdge(place, side, 2.0 * self.pressure.contact.r, lacking, marks).pressure
+
 
 @dataclass(frozen=True, eq=False)
 class FrozenEdge:
@@ -84,7 +98,29 @@ class FrozenEdge:
     marks: Array
 
     def pressure(self, distance: Array) -> Array:
-        return self.values(self.place - self.side * distance)
+        traction = np.empty(distance.shape)
+        near = distance < self._near
+        traction[~near] = self.values(self.place - self.side * distance[~near])
+        d = distance[near]
+        traction[near] = np.sqrt(d) * chebyshev.evaluate(self._beside, 2.0 * d / self._near - 1.0)
+        return traction
+
+    @cached_property
+    def _near(self) -> float:
+        """How far a series in the distance holds; other marks are twice as far, on either side."""
+        apart = np.abs(self.place - self.marks)
+        others = apart[apart > SAME * self.width]
+        return min(NEAR * self.width, 0.5 * float(others.min(initial=np.inf)))
+
+    @cached_property
+    def _beside(self) -> Array:
+        """The traction next to the place over the root of the distance, as a series.
+
+        Doubles x do not resolve short distances, and a step asks for zones of any shortness.
+        """
+        d = 0.5 * self._near * (1.0 + chebyshev.points(TERMS))
+        over_root = self.values(self.place - self.side * d) / np.sqrt(d)
+        return chebyshev.transform(over_root)
 
     @cached_property
     def breaks(self) -> Array:
@@ -93,6 +129,17 @@ class FrozenEdge:
 
     def zone(self, length: float) -> SlipZone:
         return slip_zone(self, length)
+
+    def rounding(self, zone: SlipZone, bound: SlopeDensity) -> float:
+        """What rounding leaves of the traction in a zone, a difference of others like `bound`.
+
+        It is over the largest traction there. Where marks are near, places x are rounded too.
+        """
+        largest = float(np.abs(zone.force / zone.weight).max(initial=TINY))
+        rounded = EPS * bound.resultant / (bound.contact.r * largest)
+        if zone.length > self._near:
+            rounded += EPS * (abs(self.place) + self.width) / self._near
+        return ROUNDINGS * rounded
 
 
 @dataclass(frozen=True, eq=False)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import chain, product, starmap
@@ -13,6 +14,7 @@ from sie.errors import ContactError
 from sie.friction.slip_zones import Drive, SlipZone, excess
 from sie.numerics.interval import EPS, Interval
 from sie.progress_bar import step_done
+from sie.traction.of_slope import SlopeDensity
 
 from .marched_step import FrozenEdge
 
@@ -23,11 +25,12 @@ ROUNDING = 64.0 * EPS  # of the loads: what steps may no longer make smaller
 HALVINGS, FIRST, TRIED = (
     5,
     0.2,
-    (0.98, 0.8, 0.6, 0.45, 0.3, 0.2, 0.1, 0.05, 0.02, 5e-3, 1e-3, 1e-4, 1e-6, 1e-8, 1e-10),
+    (0.98, 0.8, 0.6, 0.45, 0.3, 0.2, 0.1, 0.05, 0.02, 5e-3, 1e-3, *10.0 ** -np.arange(4, 19, 2)),
 )
 GUESSES = ((2, 5), (5, 30))  # how often for each zone, and how many halvings of its length
 DIFFERENCE, MOST_STEPS, LEAST_SHARE, KEPT = 1e-6, 40, 1e-3, 0.05  # of Newton's method
 SETTLED = 1e-11  # of the loads: what is missed where no step makes it smaller
+ROUGHEST = 1e-2  # of the loads: what may be missed at most where places x are rounded
 TINY = 1e-300
 NO_ZONE = "no stick zone inside the contact balances the loads"
 # of the drive: a mark that misses its equation by less is the end of the stick zone
@@ -42,12 +45,29 @@ class Equations:
     outer     the interval between them
     drive     the changes of the loads
     least     by how much the edges of contact retreat from there, which is less than the lengths
+    pressed   the change of the pressure, as a force
+    bound     the pressure
     """
 
     frames: tuple[FrozenEdge, FrozenEdge]
     outer: Interval
     drive: Drive
     least: Array
+    pressed: float
+    bound: SlopeDensity
+
+    def _known(self, lengths: Sequence[float] | Array) -> float:
+        """How well places and tractions as doubles allow the equations to be fulfilled."""
+        return max(
+            frame.rounding(frame.zone(length), self.bound)
+            for frame, length in zip(self.frames, lengths, strict=True)
+        )
+
+    @property
+    def size(self) -> float:
+        """What the changes of the loads are, as a force, at least the rounding of the load."""
+        driven = abs(self.drive.load) + self.outer.r * abs(self.drive.strain) + self.pressed
+        return max(driven, EPS * self.bound.resultant)
 
     def missed(self, lengths: Sequence[float] | Array) -> Array:
         """By what lengths fail them; infinite where they leave no stick zone."""
@@ -61,8 +81,7 @@ class Equations:
 
     def _missed(self, zones: Sequence[SlipZone], k: int) -> float:
         zone, other = zones[k], zones[1 - k]
-        size = abs(self.drive.load) + self.outer.r * abs(self.drive.strain)
-        return excess(zone, other, self.outer.r, self.drive, k) / size
+        return excess(zone, other, self.outer.r, self.drive, k) / self.size
 
     def solution(self, guess: Array | None = None) -> tuple[float, float]:
         """The lengths. Raises ContactError where there are none, or Newton's method finds none."""
@@ -86,7 +105,9 @@ class Equations:
             for frame, least in zip(self.frames, self.least.tolist(), strict=True)
         ]
         for lengths in product(*places):
-            if np.abs(self.missed(lengths)).max() <= SETTLED:
+            if np.abs(self.missed(lengths)).max() <= max(
+                SETTLED, min(self._known(lengths), ROUGHEST)
+            ):
                 return lengths[0], lengths[1]
         raise ContactError(NO_ZONE)
 
@@ -96,7 +117,8 @@ class Equations:
         Derivatives are kept as long as a step with them makes what is missed much smaller.
         """
         missed, fresh = self.missed(lengths), False
-        matrix = self._derivatives(lengths, missed)
+        known = min(self._known(lengths), ROUGHEST)
+        matrix = self._derivatives(lengths, missed, known)
         for _ in range(MOST_STEPS):
             step_done(0)
             size = float(np.abs(missed).max())
@@ -117,17 +139,19 @@ class Equations:
                 break
             fresh = not left < KEPT * size
             if fresh:
-                matrix = self._derivatives(lengths, missed)
+                known = min(self._known(lengths), ROUGHEST)
+                matrix = self._derivatives(lengths, missed, known)
         # Where p falls a shorter zone may fulfil its equation too: it does not grow with its load.
         # Where all beyond the end slipped before, the derivative is rounding of 0.
-        found = size <= SETTLED and (np.diag(matrix) * lengths > -DIFFERENCE).all()
+        found = size <= max(SETTLED, known) and (np.diag(matrix) * lengths > -DIFFERENCE).all()
         return lengths if found else None
 
-    def _derivatives(self, lengths: Array, missed: Array) -> Array:
+    def _derivatives(self, lengths: Array, missed: Array, known: float) -> Array:
+        part = max(DIFFERENCE, math.sqrt(known) if known > SETTLED else 0.0)
         # Beyond a mark the equations have another slope.
         h = np.array(
             [
-                0.5 * (f.breaks[f.breaks > d] - d).min(initial=2.0 * DIFFERENCE * d)
+                0.5 * (f.breaks[f.breaks > d] - d).min(initial=2.0 * part * d)
                 for f, d in zip(self.frames, lengths.tolist(), strict=True)
             ]
         )

@@ -26,7 +26,7 @@ from numpy.typing import NDArray
 from sie.errors import ContactError
 from sie.friction.coupled.half_potential import Panels
 from sie.friction.coupled.traction import resolved_panels
-from sie.friction.slip_zones import Drive, SlipZones
+from sie.friction.slip_zones import LEVELS, Drive, SlipZones, slip_zone
 from sie.numerics import chebyshev
 from sie.numerics.halving import integral
 from sie.numerics.interval import Interval
@@ -44,6 +44,7 @@ Array = NDArray[np.float64]
 Side = tuple[float, float, float]
 
 OF_SLIP = 1e-11  # of the steepest slip, to which its steepness is resolved
+SEEN = np.linspace(-0.9, 0.9, 10)  # of a contact: where it is seen how far its pressure changes
 OPPOSING = 1e-8  # of the largest slip: what may be against the direction of its zone
 
 
@@ -70,6 +71,7 @@ class Receded(MarchedStep):
     change    the change of loads in the whole step, None at constant pressure
     begun     the share of the step at its start
     share     that at its end
+    frames    the places from which the zones begin, on the left and the right
     """
 
     found: SlipZones
@@ -77,6 +79,7 @@ class Receded(MarchedStep):
     change: LoadChange | None = None
     begun: float = 0.0
     share: float = 1.0
+    frames: tuple[FrozenEdge, ...] = ()
 
     @property
     def stick(self) -> Interval:
@@ -157,17 +160,49 @@ class Receded(MarchedStep):
         d = np.unique(side * (np.array([*self._places, *self.marks]) - end))
         apart = np.diff(d, prepend=0.0) > SAME * length
         inner = d[apart & (d > SAME * length) & (d < length * (1.0 - SAME))].tolist()
-
-        def steepness(distance: Array, _: Array) -> Array:
-            x = end + side * distance
-            change = self.shear.hilbert(x) - self.before.shear.hilbert(x)
-            steep: Array = side * (change - (self.tau - self.before.tau))
-            return steep
-
-        panels = resolved_panels(steepness, (*inner, length), 0.0, OF_SLIP)[0]
+        steepness = self._steepness(side, end)
+        resolved = max(OF_SLIP, self._rounding(side))
+        panels = resolved_panels(steepness, (*inner, length), 0.0, resolved)[0]
         sums = chebyshev.antiderivative(panels.series).T
         whole = 0.5 * (panels.hi - panels.lo) * chebyshev.evaluate(sums, np.ones(len(panels.lo)))
         return side, end, panels, np.cumsum(whole) - whole
+
+    def _rounding(self, side: float) -> float:
+        """What rounding leaves of Δq beside the stick zone, over its largest."""
+        k = int(side > 0.0)
+        zone_ = (self.found.left, self.found.right)[k]
+        return self.frames[k].rounding(zone_, self.pressure)
+
+    def _steepness(self, side: float, end: float) -> Callable[[Array, Array], Array]:
+        """E*/2 dΔg at distances from an end of the stick zone, without a difference of potentials.
+
+        It is |R|/π of the integral of Δq/(|R| (x - ξ)), of which the far zone is subtracted.
+        """
+        k = int(side > 0.0)
+        near, far = self.frames[k], (self.found.right, self.found.left)[k]
+        length, rho = (self.found.left, self.found.right)[k].length, self.found.stick.r
+        signs = self.found.drive.left, self.found.drive.right
+        strength, opposite = (self.friction * signs[j] for j in (k, 1 - k))
+        whole = slip_zone(near, length, LEVELS)
+        over = whole.force / (whole.weight * np.sqrt(whole.from_stick + 2.0 * rho))
+        each = whole.weight / np.sqrt(whole.from_stick)
+
+        def steepness(t: Array, _: Array) -> Array:
+            inside = t < length
+            own, rest = np.zeros(t.shape), np.maximum(length - t, TINY)[inside]
+            own[inside] = near.pressure(rest) / np.sqrt(t[inside] + 2.0 * rho)
+            apart = t[:, None] - whole.from_stick
+            quotient = np.divide(
+                over - own[:, None], apart, out=np.zeros(apart.shape), where=apart != 0.0
+            )
+            total = quotient @ each
+            reached = np.sqrt(length) + np.sqrt(t[inside])
+            total[inside] += own[inside] * np.log(reached * reached / rest) / np.sqrt(t[inside])
+            total = strength * total - opposite * far.pull(t + 2.0 * rho, rho)
+            steep: Array = np.sqrt(t * (t + 2.0 * rho)) / math.pi * total
+            return steep
+
+        return steepness
 
 
 def receded(
@@ -194,13 +229,15 @@ def receded(
     frames = beside(left, -1.0, signs[0]), beside(right, 1.0, signs[1])
     drive = Drive((Q - before.Q) / friction, math.pi * (tau - before.tau) / friction, *signs)
     least = np.maximum([new.x1 - left, right - new.x2], 0.0)
-    equations = Equations(frames, outer, drive, least)
+    x = outer.m + outer.r * SEEN
+    pressed = outer.r * float(np.abs(pressure(x) - before.pressure(x)).max())
+    equations = Equations(frames, outer, drive, least, pressed, pressure)
     guess = None if near is None else np.array([near.x1 - left, right - near.x2])
     lengths = equations.at_marks(equations.solution(guess))
     zones = frames[0].zone(lengths[0]), frames[1].zone(lengths[1])
     found = SlipZones(outer.moved(lengths[0], -lengths[1]), *zones, drive)
     error = float(np.abs(equations.missed(lengths)).max())
-    return Receded(before, pressure, friction, signs, Q, tau, found, error)
+    return Receded(before, pressure, friction, signs, Q, tau, found, error, frames=frames)
 
 
 # -- energy while the pressure changes -------------------------------------------------------------

@@ -120,6 +120,18 @@ class SeveralSticks(Receded):
     def _beside(self) -> tuple[Side, ...]:
         return *super()._beside, *((1.0, lo, hi) for lo, hi, _ in self.gaps)
 
+    def _rounding(self, side: float) -> float:
+        return 0.0
+
+    def _steepness(self, side: float, end: float) -> Callable[[Array], Array]:
+        def steepness(distance: Array) -> Array:
+            x = end + side * distance
+            change = self.shear.hilbert(x) - self.before.shear.hilbert(x)
+            steep: Array = side * (change - (self.tau - self.before.tau))
+            return steep
+
+        return steepness
+
     @cached_property
     def integrals(self) -> IntegralsOfSlip:
         """Integrals of Δg."""

@@ -207,7 +207,9 @@ def settled(
             moved = [beside(ends + d.reshape(ends.shape)).missed(*change) for d in np.diag(h)]
             matrix = (np.array(moved) - missed).T / h
             size = np.abs(matrix).max(axis=1)
-            if not (np.isfinite(matrix).all() and abs(np.linalg.det(matrix.T / size)) > 0.0):
+            if not (np.isfinite(matrix).all() and size.min() > 0.0):
+                break
+            if not abs(np.linalg.det(matrix.T / size)) > 0.0:
                 break
             inverse = np.linalg.inv(matrix.T / size).T / size
         step = -inverse @ missed
