@@ -33,7 +33,7 @@ from .load_history.turning_point import TurningPoint
 from .loads import Loads
 from .memory import BALANCED, LoadMemory, SlipEvent, in_proportion
 from .slip_state import Slip
-from .step_conditions import SLACK, TESTED, inside, opens
+from .step_conditions import SLACK, TESTED, Zones, inside
 
 
 class Contacts(Protocol):
@@ -41,20 +41,17 @@ class Contacts(Protocol):
 
     level            Λ, counted from the tilt of the first point
     shear            S
-    contact          the contact under P at a tilt, in one patch
-    half_width       of the whole contact
-    first_loading    the state of a contact that was never sheared before S rose to a depth
-    arm              π r₀
+    zones            the zones of contact under loads
+    sticking         the stick zones of a contact that was never sheared before S rose to a depth
+    first_loading    the state of such a contact
     curved           whether the tilt follows from a moment, and not in proportion to time in a step
     """
 
     def level(self, loads: Loads) -> complex: ...
     def shear(self, loads: Loads) -> complex: ...
-    def contact(self, loads: Loads) -> Interval: ...
-    def half_width(self, loads: Loads) -> float: ...
+    def zones(self, loads: Loads) -> Zones: ...
+    def sticking(self, normal: tuple[float, float], depth: complex) -> Zones: ...
     def first_loading(self, normal: tuple[float, float], depth: complex, turned: bool) -> Slip: ...
-    @property
-    def arm(self) -> float: ...
     @property
     def curved(self) -> bool: ...
 
@@ -108,8 +105,8 @@ class Step:
         """Whether the bulk stress pulls the two edges in opposite directions."""
         if not self.pull.imag:
             return False
-        left, right = self._at_ends(self.pull, self.contacts.half_width(self.loads))
-        return left * right < 0.0
+        contact = self.contacts.zones(self.loads)
+        return contact.two_signed and bool(np.prod(contact.at_ends(self.pull)) < 0.0)
 
     def reversed(self, sign: float) -> TurningPoint:
         """Slip of this sign after slip of the other one, in a steady cycle."""
@@ -149,13 +146,13 @@ class Step:
 
     def one_sign(self, signs: tuple[float, ...] = (1.0, -1.0)) -> TurningPoint | None:
         """Slip in one direction from the start of the step to its end."""
-        contact, (rise, pull) = self.contacts.contact(self.before.loads), self.parts[0]
+        contact, (rise, pull) = self.contacts.zones(self.before.loads), self.parts[0]
         for sign in signs:
             start = self._zone(0.0, self.memory) if self.k == sign else contact
-            if not self._opens(sign * pull - rise, start, contact):
+            if not start.opens(sign * pull - rise, contact):
                 continue
             ahead = sign * (pull - self.k * rise) if self.rise and self.k != sign else 0.0
-            if not self._opens(ahead, contact, contact):
+            if not contact.opens(ahead, contact):
                 continue
             memory, slips = self._slipped(sign, 1.0)
             if self.rise:
@@ -181,8 +178,9 @@ class Step:
     def bares(self) -> bool:
         """Whether layers are taken off as they were added, and both edges retreat."""
         balanced = abs(self.pull - self.k * self.rise) <= BALANCED * abs(self.rise)
-        retreats = max(self._at_ends(self.rise, self._widest)) < 0.0
-        return bool(self.rise) and balanced and retreats and not self.contacts.curved
+        if not (self.rise and balanced) or self.contacts.curved:
+            return False
+        return all(contact.at_ends(self.rise).max() < 0.0 for contact in self._contacts)
 
     @property
     def bared(self) -> float:
@@ -203,16 +201,16 @@ class Step:
     def sticks(self) -> bool:
         """Whether both edges grow, and neither slips."""
         for rise, pull in self.parts:
-            limits, pulls = self._at_ends(rise, self._widest), self._at_ends(pull, self._widest)
-            for limit, p in zip(limits, pulls, strict=True):
-                if not (limit > 0.0 and abs(p) <= limit * (1.0 + SLACK)):
+            for contact in self._contacts:
+                limits, pulls = contact.at_ends(rise), contact.at_ends(pull)
+                if not (limits > 0.0).all() or (np.abs(pulls) > limits * (1.0 + SLACK)).any():
                     return False
         return True
 
-    @property
-    def _widest(self) -> float:
-        """The larger half-width of the contact, of its start and its end."""
-        return max(self.contacts.contact(loads).r for loads in (self.before.loads, self.loads))
+    @cached_property
+    def _contacts(self) -> tuple[Zones, Zones]:
+        """The zones of contact at the start and at the end."""
+        return self.contacts.zones(self.before.loads), self.contacts.zones(self.loads)
 
     def late(self) -> TurningPoint | None:
         """A new front that an edge of a shrinking contact holds up at first.
@@ -220,21 +218,21 @@ class Step:
         Slip beside the old stick zone may go on meanwhile: at the end of the step the front has
         passed all of it.
         """
-        sign, contact = -self.k, self.contacts.contact(self.loads)
+        sign = -self.k
         front, ahead = sign * self.pull - self.rise, sign * (self.pull - self.k * self.rise)
         if abs(sign) != 1.0 or not self.rise:
             return None
+        whole, contact = self._contacts
         old = self._zone(0.0, self.memory)
-        stopped = self._at_ends(self.k * self.pull - self.rise, old.r)
-        whole = self.contacts.contact(self.before.loads)
-        if max(stopped) > 0.0 or not self._opens(front, whole, whole):
+        stopped = old.at_ends(self.k * self.pull - self.rise)
+        if stopped.max() > 0.0 or not whole.opens(front, whole):
             return None
-        if not self._opens(ahead, contact, contact):
+        if not contact.opens(ahead, contact):
             return None
         memory, slips = self._slipped(sign, 1.0)
         zone = self._zone(1.0, memory)
-        passed = inside(zone, contact) and inside(zone, old)
-        if not (passed and self._opens(front, zone, contact)):
+        passed = zone.lie_in(contact) and zone.lie_in(old)
+        if not (passed and zone.opens(front, contact)):
             return None
         return self._reached(memory, tuple(slip._replace(timed=False) for slip in slips))
 
@@ -244,7 +242,9 @@ class Step:
         total = self.contacts.shear(self.loads)
         sign = math.copysign(1.0, total.imag)
         begun = top is None or (self.before.turned and top.below is None and top.k == sign)
-        if not (begun and total.imag):
+        if top is None and not self._contacts[0].two_signed:
+            raise NotLayered("slip would have opposite directions at the edges of the patches")
+        if not (begun and total.imag and self._contacts[0].two_signed):
             raise NotLayered(self._why())
         memory, slips = self.memory.changed(self.rise, self.pull, sign)
         states = [
@@ -252,22 +252,14 @@ class Step:
             for share in (0.0, *TESTED)
         ]
         for share, earlier, state in zip(TESTED, states, states[1:], strict=False):
-            contact = self.contacts.contact(self._at(share))
-            if not (inside(state.stick_zone, contact) and _grown(earlier, state)):
+            (contact,) = self.contacts.zones(self._at(share)).intervals
+            if not (inside(state.stick_zone, Interval(*contact)) and _grown(earlier, state)):
                 raise NotLayered(
                     "zones of slip in opposite directions would retreat at one end on the way"
                 )
         return TurningPoint(self.loads, memory, slips, turned=True, straight=False)
 
     # -- conditions --------------------------------------------------------------------------------
-
-    def _at_ends(self, change: complex, r: float) -> tuple[float, float]:
-        """The effect of a change of Λ or S at the two ends of a zone of half-width r."""
-        turn = math.pi * r / self.contacts.arm * change.imag if change.imag else 0.0
-        return change.real + turn, change.real - turn
-
-    def _opens(self, front: complex, zone: Interval, contact: Interval) -> bool:
-        return opens(front, zone, contact, self.contacts.arm)
 
     def _test_on_the_way(self, sign: float) -> None:
         parts = self.parts if self.contacts.curved else self.parts * len(TESTED)
@@ -276,36 +268,35 @@ class Step:
                 memory, _ = self._slipped(sign, share)
             except ContactError:
                 continue  # one end is at a corner: the state at the end of the step is judged
-            zone, contact = self._zone(share, memory), self.contacts.contact(self._at(share))
-            if not inside(zone, contact):
+            zone, contact = self._zone(share, memory), self.contacts.zones(self._at(share))
+            if not zone.lie_in(contact):
                 raise NotLayered("an edge of the contact overtakes the slip")
-            if not self._opens(sign * pull - rise, zone, contact):
+            if not zone.opens(sign * pull - rise, contact):
                 raise NotLayered("slip next to an edge would turn while it goes on farther in")
 
     def _within(self, first: complex, second: complex) -> bool:
         """Whether the contact at one depth lies within that at another."""
         normal = self.before.loads.normal
-        loaded = self.contacts.first_loading
-        one, other = (loaded(normal, depth, False).stick_zone for depth in (first, second))
-        if inside(one, other):
+        one, other = (self.contacts.sticking(normal, depth) for depth in (first, second))
+        if one.lie_in(other):
             return True
-        if inside(other, one):
+        if other.lie_in(one):
             return False
         raise NotLayered(
             f"one end of the stick zone passes that of an earlier one, and the other does not: "
-            f"{_shown(one)} and {_shown(other)}"
+            f"{one} and {other}"
         )
 
     def _reached(self, memory: LoadMemory, slips: tuple[SlipEvent, ...]) -> TurningPoint:
         """The turning point, if its layers lie within the contact and |κ| <= 1 bounds |q|."""
         top = memory.top
         tilted = top and isinstance(top.depth, complex) and self.loads.P < self.before.loads.P
-        if tilted and not inside(self._zone(1.0, memory), self.contacts.contact(self.loads)):
+        if tilted and not self._zone(1.0, memory).lie_in(self.contacts.zones(self.loads)):
             raise NotLayered("an edge of the contact overtakes the slip")
         crossed = top and top.below and any(not slip.timed for slip in slips)
         if top and top.below and crossed:
-            r = self._zone(1.0, memory).r
-            if min(self._at_ends(top.below.thickness, r)) < 0.0:
+            thinnest = self._zone(1.0, memory).at_ends(top.below.thickness).min()
+            if thinnest < 0.0:
                 raise NotLayered(
                     "between the stick zone and an earlier one the shear may exceed f p"
                 )
@@ -322,11 +313,10 @@ class Step:
         rise = self.contacts.level(loads) - self.memory.level
         return self.memory.changed(rise, share * self.pull, sign, self._within)
 
-    def _zone(self, share: float, memory: LoadMemory) -> Interval:
-        """The stick zone below the uppermost layer."""
+    def _zone(self, share: float, memory: LoadMemory) -> Zones:
+        """The stick zones below the uppermost layer."""
         assert memory.top is not None
-        normal = self._at(share).normal
-        return self.contacts.first_loading(normal, memory.top.thickness, False).stick_zone
+        return self.contacts.sticking(self._at(share).normal, memory.top.thickness)
 
     def _state(self, share: float, depth: complex) -> Slip:
         """The state after first loading to a depth, with slip in both directions."""
@@ -334,12 +324,10 @@ class Step:
 
     def _why(self) -> str:
         """What happens in a step that no superposition covers."""
-        start = self.contacts.contact(self.before.loads)
-        reverse = self.pull - self.k * self.rise
-        left, right = self._at_ends(reverse, start.r)
+        effects = self._contacts[0].at_ends(self.pull - self.k * self.rise)
         if self.before.turned:
             return "slip in opposite directions at the two edges changes its proportion"
-        if left * right < 0.0:
+        if effects.min() * effects.max() < 0.0:
             return "slip turns at one edge and goes on, or stops, at the other"
         return "one end of the stick zone recedes and the other does not"
 
@@ -348,10 +336,6 @@ UNSTEADY = (
     "the steady state is not that of one stick zone, which is all that is covered; change P, Q, σ "
     "and tilt in other proportions"
 )
-
-
-def _shown(zone: Interval) -> str:
-    return f"[{zone.x1:.6g}, {zone.x2:.6g}]"
 
 
 def _grown(earlier: Slip, later: Slip) -> bool:

@@ -95,6 +95,11 @@ class PathEnergy:
         """The parts of a step that layers answer at its end, but not on the way."""
         before, state = self.path.turning_points[index - 1 : index + 1]
         try:
+            if not self.path.in_one_patch:
+                raise ContactError(
+                    "one end of a stick zone is held up; that is followed only in a "
+                    "contact that is one patch under every load"
+                )
             return self.path.march(before, state.loads).marched
         except ContactError as problem:
             raise ContactError(
@@ -112,7 +117,8 @@ class PathEnergy:
         if not any(o.surface):
             return self._of_depth(state, o.lower) - self._of_depth(state, o.upper)
         step = ChangingContact(path, index)
-        step.refuse("the energy lost meanwhile depends on the way; the state at its end does not")
+        if path.in_one_patch or path.curved:
+            step.refuse("the energy lost meanwhile depends on the way, not so the state at its end")
         first, last = step.shares(o)
         load = (last - first) * (state.loads.P - path.turning_points[index - 1].loads.P)
 
