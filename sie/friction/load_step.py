@@ -10,6 +10,7 @@ whose effect at an edge is Re ∓ (ρ/r₀) Im (right, left; ρ the half-width o
     a new front runs ahead of the edge        s (dS - κ dΛ) >= 0 at both edges
     the contacts are nested                   stick zone, corners and contact, by their edges
 
+On several patches the effect at an edge is that of `patches.step_zones`, and >= 0 at all of them.
 They are tested at the start, where the stick zone is widest, and during a step in which P or the
 tilt changes. Where both edges grow and neither slips, |dS| <= dΛ there, a layer is added.
 
