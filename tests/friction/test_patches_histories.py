@@ -57,6 +57,11 @@ def test_a_path_of_one_point_is_the_scene(scene):
     assert (followed.slip(x) == alone.slip(x)).all()
 
 
+@pytest.mark.parametrize("name", ["row", "period"])
+def test_a_path_is_certified_also_where_nothing_is_sheared_yet(name):
+    assert at_constant_load(SCENES[name], 0.0, 0.5)[0].check().ok
+
+
 @each
 def test_unloading_is_half_of_the_first_loading_twice(scene):
     """q = q(Q_max) - 2 q((Q_max - Q)/2), Mindlin & Deresiewicz 1953, and so is the slip."""
