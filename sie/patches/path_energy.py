@@ -8,6 +8,7 @@ and an integral over time where the pressure changes (`friction.moving_work`).
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from itertools import accumulate
 from typing import Protocol
 
@@ -23,6 +24,7 @@ from sie.friction.load_history.turning_point import TurningPoint
 from sie.friction.loads import Loads
 from sie.friction.memory import SlippedLayer
 from sie.friction.slip_state import Slip
+from sie.friction.step_conditions import TESTED
 from sie.numerics.interval import Interval
 from sie.progress_bar import reported, step_done
 
@@ -125,6 +127,9 @@ class PathEnergy:
         def on_the_way(time: float) -> Slip:
             return step.state_at(o, sign, first + time * (last - first))
 
+        if not path.in_one_patch:
+            _refuse_births(step, on_the_way)
+
         def strain(contact: Interval) -> float:
             return (last - first) * step.strain(contact)
 
@@ -136,6 +141,22 @@ class PathEnergy:
             return 0.0
         found = self.path.first_loading(state.loads.normal, depth, state.turned)
         return dissipated(found)
+
+
+def _refuse_births(step: ChangingContact, on_the_way: Callable[[float], Slip]) -> None:
+    """Refuse a front on the way of which stick zones appear, merge or vanish.
+
+    The power of friction has a kink there, next to which it is found in halves of the time only.
+    """
+    numbers = [len(on_the_way(time).stick) for time in TESTED]
+    if len(set(numbers)) > 1:
+        raise ContactError(
+            f"step {step.index} of the path, to {step.end}: the number of stick zones changes on "
+            f"the way, from {numbers[0]} to {numbers[-1]}, while P, bulk stress or tilt changes "
+            "too: the energy lost then is not solved, but the state at the end of the step is; "
+            "change bulk stress and tilt at another time than P",
+            step=step.index,
+        )
 
 
 def _untimed(state: TurningPoint) -> bool:

@@ -150,6 +150,14 @@ def test_what_is_not_solved_on_several_patches_is_refused_with_what_is_missing(a
         ask()
 
 
+def test_energy_is_refused_where_stick_zones_vanish_while_all_loads_change():
+    path = sie.Path([(0.4, 0.0, 0.0), (0.41, 0.1225, 0.0005)])
+    last = sie.follow(scene(TWO, 0.4), path)[-1]
+    assert len(last.stick) == 1
+    with pytest.raises(sie.ContactError, match=r"from 2 to 1, .* the state at the end"):
+        _ = last.energy_lost
+
+
 def test_patches_that_have_merged_between_dissimilar_bodies_are_refused_as_such():
     profile = sie.Polynomial([0.0, 0.0, -0.01, 0.0, 0.01])
     pair = {"body": sie.Elastic(70e3, 0.3), "indenter": sie.Elastic(200e3, 0.3)}
