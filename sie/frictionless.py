@@ -105,12 +105,17 @@ class Frictionless:
         found = self.normal
         if isinstance(found, Normal):
             return found
+        number, period = len(found.patches), self.scene.profile.period
+        where = f"in {number} patches" if number > 1 else "in one patch, merged from several"
+        if np.isfinite(period):
+            where, remedy = f"that repeats every {period:.6g}", "without its period"
+        else:
+            remedy = "that is convex"
         raise ContactError(
-            "a contact that repeats: this is covered for one patch on the line only; give the "
-            "profile without its period"
-            if np.isfinite(self.scene.profile.period)
-            else f"contact in {len(found.patches)} patches: this is covered for one patch only; "
-            "give a load under which the patches have merged"
+            f"contact {where}: what is asked for depends on how the contact grew with the load, "
+            "which is solved where it was one patch from the first touch on; give a profile "
+            f"{remedy}, or ask for what does not depend on that: with friction = 0, or of similar "
+            "bodies (dundurs = 0)"
         )
 
     @cached_property

@@ -21,10 +21,13 @@ from .friction.load_history.known_zones import KnownZones
 from .friction.loads import Loads
 from .friction.slip_state import NoSlip, Slip
 from .friction.states import OneSignedSlip
+from .friction.step_conditions import OneZone, Zones
 from .numerics.interval import EPS, Interval
 from .patches.answer import SeveralPatches
 from .patches.dissipation import PatchDissipation, Untouched
+from .patches.friction import PatchSlip, refuse_stretch
 from .patches.full import FullContact
+from .patches.step_zones import PatchZones
 from .problem.load_path import Path
 from .problem.path_scene import unsheared
 from .problem.scene import Scene
@@ -117,9 +120,23 @@ class PathContacts(ABC):
         """The contact under these loads, which is one patch."""
         return self.plain(*loads.normal).as_one_patch.edges.contact
 
-    def half_width(self, loads: Loads) -> float:
-        """The half-width of the contact under these loads."""
-        return self.plain(*loads.normal).half_width
+    def zones(self, loads: Loads) -> Zones:
+        """The zones of contact under these loads, for changes of bulk stress and tilt."""
+        return self._zones(self.plain(*loads.normal).normal)
+
+    def sticking(self, normal: Under, depth: complex) -> Zones:
+        """The stick zones of a contact that was never sheared after S has risen to a depth."""
+        state = self.first_loading(normal, depth, False)
+        if isinstance(state, PatchSlip):
+            return self._zones(state.corrective)
+        return OneZone(state.stick_zone, self.arm)
+
+    def _zones(self, contact: Normal | SeveralPatches | FullContact | Untouched) -> Zones:
+        if isinstance(contact, Normal):
+            return OneZone(contact.edges.contact, self.arm)
+        refuse_stretch(self.period)
+        assert not isinstance(contact, FullContact)  # which is periodic
+        return PatchZones(contact, self.arm)
 
     def plain(self, P: float, turn: float = 0.0) -> Any:
         """The contact under P and what is added to the scene's tilt or moment, without shear."""
@@ -168,7 +185,7 @@ class PathContacts(ABC):
         """The same between two turning points; it is not kept."""
         plain = self._plain.get(normal) or self._frictionless(*normal)
         if not depth:
-            return NoSlip(plain.as_one_patch.edges.contact, self.scene.friction)
+            return NoSlip(plain.normal.edges.contact, self.scene.friction)
         return self._loaded(plain, depth, turned)
 
     def _loaded(

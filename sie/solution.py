@@ -207,7 +207,8 @@ class Solution(Frictionless, StressAnswers):
         """Zones of stick and slip, and the shear."""
         if self.scene.goodman:
             if self._several is not None:
-                where = f"in {len(self.patches)} patches"
+                number = len(self.patches)
+                where = f"in {number} patches" if number > 1 else "in a patch merged from several"
                 if self.scene.profile.period < float("inf"):
                     where = f"that repeats every {self.scene.profile.period:.6g}"
                 raise ContactError(

@@ -28,7 +28,9 @@ from .errors import ContactError
 from .friction.load_history.changing_contact import ChangingContact
 from .friction.load_history.load_steps import steady_points
 from .friction.load_history.path_slip import step_slip
+from .friction.load_history.turning_point import TurningPoint
 from .friction.loads import Loads
+from .friction.memory import LoadMemory
 from .friction.slip_state import Slip
 from .history import History
 from .numerics.zones import within
@@ -77,7 +79,8 @@ def steady_cycle(
         For values that are no loads, or a scene of full stick.
     ContactError
         Where the steady state is not that of one permanent stick zone which both ends of the slip
-        reach at once. In several patches, or per period, it is that of P and Q alone.
+        reach at once; in several patches where slip has opposite directions at the same time; per
+        period where σ changes.
 
     Examples
     --------
@@ -243,14 +246,30 @@ class SteadyCycle(Sequence["SteadyState"]):
         if not (rise or pull):
             return superposed()
         if pull and (abs((pull / rise).imag) > 1e-12 * abs(pull / rise)):
-            raise ContactError(
-                "nothing slips in this cycle, while Q, bulk stress and tilt do not change in "
-                "proportion to P: the shear that comes and goes is no multiple of the pressure, "
-                "which is not covered"
-            )
+            return self._grown
         k = self.history.scene.friction * (pull / rise).real
         on = [self.history.plain(*p.loads.normal).slope_density for p in self._ends]
         return superposed((k, on[0]), (-k, on[1]))
+
+    @property
+    def _grown(self) -> Density:
+        """q_A - q_B where nothing slips, of a contact that grows and sticks from one to the other.
+
+        What it was sheared by before does not matter: the rates of q follow from those of the loads
+        alone where all of the contact sticks.
+        """
+        if not self.history.in_one_patch:
+            raise ContactError(
+                "nothing slips in this cycle, while Q, bulk stress and tilt do not change in "
+                "proportion to P: the shear that comes and goes is solved in a contact that is one "
+                "patch under every load; change them in proportion"
+            )
+        small, large = sorted((end.loads for end in self._ends), key=lambda loads: loads.P)
+        start = small._replace(Q=0.0, sigma=0.0)
+        end = large._replace(Q=large.Q - small.Q, sigma=large.sigma - small.sigma)
+        level = self.history.level(start)
+        grown = self.history.march(TurningPoint(start, LoadMemory(level)), end).marched[-1].shear
+        return superposed((1.0 if large is self._ends[0].loads else -1.0, grown))
 
     @property
     def _ends(self) -> tuple[Any, Any]:

@@ -75,7 +75,9 @@ def shear_certificate(
     parts = [_part(factor, d, slope) for factor, d in state.shear.bases]
     own = next((t for t in parts if t.density is pressure), _part(f, pressure, slope))
     p, q = f * own.p, finite(np.asarray(sum(_values(t, own) for t in parts)) + np.zeros(own.x.size))
-    size, peak = float(own.weight @ np.abs(q)), float(np.abs(q).max())
+    # without shear what is missed is compared with f p
+    scale = np.abs(q) if q.any() else p
+    size, peak = float(own.weight @ scale), float(scale.max())
     at = _places(parts, chord)
     missed = np.full(len(at), -loads[1])
     for part in parts:

@@ -10,6 +10,7 @@ whose effect at an edge is Re ∓ (ρ/r₀) Im (right, left; ρ the half-width o
     a new front runs ahead of the edge        s (dS - κ dΛ) >= 0 at both edges
     the contacts are nested                   stick zone, corners and contact, by their edges
 
+On several patches the effect at an edge is that of `patches.step_zones`, and >= 0 at all of them.
 They are tested at the start, where the stick zone is widest, and during a step in which P or the
 tilt changes. Where both edges grow and neither slips, |dS| <= dΛ there, a layer is added.
 
@@ -34,7 +35,7 @@ from .load_history.turning_point import TurningPoint
 from .loads import Loads
 from .memory import BALANCED, LoadMemory, SlipEvent, in_proportion
 from .slip_state import Slip
-from .step_conditions import SLACK, TESTED, inside, opens, reached
+from .step_conditions import SLACK, TESTED, OneZone, Zones, inside, reached
 
 
 class Contacts(Protocol):
@@ -42,20 +43,17 @@ class Contacts(Protocol):
 
     level            Λ, counted from the tilt of the first point
     shear            S
-    contact          the contact under P at a tilt, in one patch
-    half_width       of the whole contact
-    first_loading    the state of a contact that was never sheared before S rose to a depth
-    arm              π r₀
+    zones            the zones of contact under loads
+    sticking         the stick zones of a contact that was never sheared before S rose to a depth
+    first_loading    the state of such a contact
     curved           whether the tilt follows from a moment, and not in proportion to time in a step
     """
 
     def level(self, loads: Loads) -> complex: ...
     def shear(self, loads: Loads) -> complex: ...
-    def contact(self, loads: Loads) -> Interval: ...
-    def half_width(self, loads: Loads) -> float: ...
+    def zones(self, loads: Loads) -> Zones: ...
+    def sticking(self, normal: tuple[float, float], depth: complex) -> Zones: ...
     def first_loading(self, normal: tuple[float, float], depth: complex, turned: bool) -> Slip: ...
-    @property
-    def arm(self) -> float: ...
     @property
     def curved(self) -> bool: ...
 
@@ -109,8 +107,8 @@ class Step:
         """Whether the bulk stress pulls the two edges in opposite directions."""
         if not self.pull.imag:
             return False
-        left, right = self._at_ends(self.pull, self.contacts.half_width(self.loads))
-        return left * right < 0.0
+        contact = self.contacts.zones(self.loads)
+        return contact.two_signed and bool(np.prod(contact.at_ends(self.pull)) < 0.0)
 
     def reversed(self, sign: float) -> TurningPoint:
         """Slip of this sign after slip of the other one, in a steady cycle."""
@@ -151,13 +149,13 @@ class Step:
 
     def one_sign(self, signs: tuple[float, ...] = (1.0, -1.0)) -> TurningPoint | None:
         """Slip in one direction from the start of the step to its end."""
-        contact, (rise, pull) = self.contacts.contact(self.before.loads), self.parts[0]
+        contact, (rise, pull) = self.contacts.zones(self.before.loads), self.parts[0]
         for sign in signs:
             start = self._zone(0.0, self.memory) if self.k == sign else contact
-            if not self._opens(sign * pull - rise, start, contact):
+            if not start.opens(sign * pull - rise, contact):
                 continue
             ahead = sign * (pull - self.k * rise) if self.rise and self.k != sign else 0.0
-            if not self._opens(ahead, contact, contact):
+            if not contact.opens(ahead, contact):
                 continue
             memory, slips = self._slipped(sign, 1.0)
             if self.rise:
@@ -183,8 +181,9 @@ class Step:
     def bares(self) -> bool:
         """Whether layers are taken off as they were added, and both edges retreat."""
         balanced = abs(self.pull - self.k * self.rise) <= BALANCED * abs(self.rise)
-        retreats = max(self._at_ends(self.rise, self._widest)) < 0.0
-        return bool(self.rise) and balanced and retreats and not self.contacts.curved
+        if not (self.rise and balanced) or self.contacts.curved:
+            return False
+        return all(contact.at_ends(self.rise).max() < 0.0 for contact in self._contacts)
 
     @property
     def bared(self) -> float:
@@ -205,63 +204,75 @@ class Step:
     def sticks(self) -> bool:
         """Whether both edges grow, and neither slips."""
         for rise, pull in self.parts:
-            limits, pulls = self._at_ends(rise, self._widest), self._at_ends(pull, self._widest)
-            for limit, p in zip(limits, pulls, strict=True):
-                if not (limit > 0.0 and abs(p) <= limit * (1.0 + SLACK)):
+            for contact in self._contacts:
+                limits, pulls = contact.at_ends(rise), contact.at_ends(pull)
+                if not (limits > 0.0).all() or (np.abs(pulls) > limits * (1.0 + SLACK)).any():
                     return False
         return True
 
-    @property
-    def _widest(self) -> float:
-        """The larger half-width of the contact, of its start and its end."""
-        return max(self.contacts.contact(loads).r for loads in (self.before.loads, self.loads))
+    @cached_property
+    def _contacts(self) -> tuple[Zones, Zones]:
+        """The zones of contact at the start and at the end."""
+        return self.contacts.zones(self.before.loads), self.contacts.zones(self.loads)
 
     def late(self) -> TurningPoint | None:
         """A new front that an edge of a shrinking contact holds up at first.
 
         Earlier slip goes on there meanwhile, and the new front has to pass all of it.
         """
-        sign, contact = -self.k, self.contacts.contact(self.loads)
+        sign = -self.k
         front, ahead = sign * self.pull - self.rise, sign * (self.pull - self.k * self.rise)
         if abs(sign) != 1.0 or not self.rise:
             return None
-        whole = self.contacts.contact(self.before.loads)
-        if not (self._opens(front, whole, whole) and self._opens(ahead, contact, contact)):
+        whole, contact = self._contacts
+        if not (whole.opens(front, whole) and contact.opens(ahead, contact)):
             return None
         memory, slips = self._slipped(sign, 1.0)
         zone = self._zone(1.0, memory)
-        if not (inside(zone, contact) and self._opens(front, zone, contact)):
-            return None
-        widest = Interval(min(whole.x1, contact.x1), max(whole.x2, contact.x2))
-        if not all(
-            inside(zone, self._out_of_reach(self.k * pull - rise, widest))
-            for rise, pull in self.parts
-        ):
+        if not (zone.lie_in(contact) and zone.opens(front, contact) and self._passes(zone)):
             return None
         return self._reached(memory, tuple(slip._replace(timed=False) for slip in slips))
 
-    def _out_of_reach(self, change: complex, widest: Interval) -> Interval:
-        """What slip does not reach that goes on at an edge which holds up a new front.
+    def _passes(self, zone: Zones) -> bool:
+        """Whether a front that ends at this zone has passed slip that went on meanwhile."""
+        old, contacts = self._zone(0.0, self.memory), self._contacts
+        if not (isinstance(zone, OneZone) and isinstance(old, OneZone)):
+            stopped = old.at_ends(self.k * self.pull - self.rise)
+            return bool(stopped.max() <= 0.0) and zone.lie_in(old)
+        ends = [end for contact in contacts for interval in contact.intervals for end in interval]
+        widest = Interval(min(ends), max(ends))
+        return all(
+            inside(zone.zone, self._out_of_reach(self.k * pull - rise, old, widest))
+            for rise, pull in self.parts
+        )
 
-        `change` is κ dS - dΛ, which is positive at that edge.
+    def _out_of_reach(self, change: complex, old: OneZone, widest: Interval) -> Interval:
+        """What slip beside an old stick zone does not reach that goes on at one edge.
+
+        `change` is κ dS - dΛ, which is positive at the edge that holds up a new front.
         """
-        reach, right = reached(change, widest, self.contacts.arm), change.imag < 0.0
-        old, edge = self._zone(0.0, self.memory), widest[not right]
-        room = old.x2 - edge if right else edge - old.x1
+        reach, right = reached(change, widest, old.arm), change.imag < 0.0
+        edge = widest[not right]
+        room = old.zone.x2 - edge if right else edge - old.zone.x1
         if not self.contacts.curved and reach < room:
             # The end of the old stick zone recedes until the other edge has come nearer by the
             # difference. Q alone that drove it as at the start would bring it farther.
             near = (
                 share
                 for share in TESTED
-                if abs(self.contacts.contact(self._at(share))[not right] - edge) >= room - reach
+                if abs(self._edges_at(share)[not right] - edge) >= room - reach
             )
-            drive = next(near, 1.0) * self._at_ends(change, 0.5 * room)[right]
+            receding = OneZone(Interval(0.0, room), old.arm)
+            drive = next(near, 1.0) * float(receding.at_ends(change)[right])
             with suppress(ContactError):
                 memory, _ = self.memory.changed(0.0, self.k * drive, self.k, self._within)
-                zone = self._zone(0.0, memory)
-                reach = max(reach, zone.x2 - edge if right else edge - zone.x1)
+                ((lo, hi),) = self._zone(0.0, memory).intervals
+                reach = max(reach, hi - edge if right else edge - lo)
         return Interval(edge, edge + reach) if right else Interval(edge - reach, edge)
+
+    def _edges_at(self, share: float) -> tuple[float, float]:
+        intervals = self.contacts.zones(self._at(share)).intervals
+        return intervals[0][0], intervals[-1][1]
 
     def _both_signs(self) -> TurningPoint:
         """Slip in opposite directions at the two edges, in one direction since nothing slipped."""
@@ -269,7 +280,9 @@ class Step:
         total = self.contacts.shear(self.loads)
         sign = math.copysign(1.0, total.imag)
         begun = top is None or (self.before.turned and top.below is None and top.k == sign)
-        if not (begun and total.imag):
+        if top is None and not self._contacts[0].two_signed:
+            raise NotLayered("slip would have opposite directions at the edges of the patches")
+        if not (begun and total.imag and self._contacts[0].two_signed):
             raise NotLayered(self._why())
         memory, slips = self.memory.changed(self.rise, self.pull, sign)
         states = [
@@ -277,22 +290,14 @@ class Step:
             for share in (0.0, *TESTED)
         ]
         for share, earlier, state in zip(TESTED, states, states[1:], strict=False):
-            contact = self.contacts.contact(self._at(share))
-            if not (inside(state.stick_zone, contact) and _grown(earlier, state)):
+            (contact,) = self.contacts.zones(self._at(share)).intervals
+            if not (inside(state.stick_zone, Interval(*contact)) and _grown(earlier, state)):
                 raise NotLayered(
                     "zones of slip in opposite directions would retreat at one end on the way"
                 )
         return TurningPoint(self.loads, memory, slips, turned=True, straight=False)
 
     # -- conditions --------------------------------------------------------------------------------
-
-    def _at_ends(self, change: complex, r: float) -> tuple[float, float]:
-        """The effect of a change of Λ or S at the two ends of a zone of half-width r."""
-        turn = math.pi * r / self.contacts.arm * change.imag if change.imag else 0.0
-        return change.real + turn, change.real - turn
-
-    def _opens(self, front: complex, zone: Interval, contact: Interval) -> bool:
-        return opens(front, zone, contact, self.contacts.arm)
 
     def _test_on_the_way(self, sign: float) -> None:
         parts = self.parts if self.contacts.curved else self.parts * len(TESTED)
@@ -301,36 +306,35 @@ class Step:
                 memory, _ = self._slipped(sign, share)
             except ContactError:
                 continue  # one end is at a corner: the state at the end of the step is judged
-            zone, contact = self._zone(share, memory), self.contacts.contact(self._at(share))
-            if not inside(zone, contact):
+            zone, contact = self._zone(share, memory), self.contacts.zones(self._at(share))
+            if not zone.lie_in(contact):
                 raise NotLayered("an edge of the contact overtakes the slip")
-            if not self._opens(sign * pull - rise, zone, contact):
+            if not zone.opens(sign * pull - rise, contact):
                 raise NotLayered("slip next to an edge would turn while it goes on farther in")
 
     def _within(self, first: complex, second: complex) -> bool:
         """Whether the contact at one depth lies within that at another."""
         normal = self.before.loads.normal
-        loaded = self.contacts.first_loading
-        one, other = (loaded(normal, depth, False).stick_zone for depth in (first, second))
-        if inside(one, other):
+        one, other = (self.contacts.sticking(normal, depth) for depth in (first, second))
+        if one.lie_in(other):
             return True
-        if inside(other, one):
+        if other.lie_in(one):
             return False
         raise NotLayered(
             f"one end of the stick zone passes that of an earlier one, and the other does not: "
-            f"{_shown(one)} and {_shown(other)}"
+            f"{one} and {other}"
         )
 
     def _reached(self, memory: LoadMemory, slips: tuple[SlipEvent, ...]) -> TurningPoint:
         """The turning point, if its layers lie within the contact and |κ| <= 1 bounds |q|."""
         top = memory.top
         tilted = top and isinstance(top.depth, complex) and self.loads.P < self.before.loads.P
-        if tilted and not inside(self._zone(1.0, memory), self.contacts.contact(self.loads)):
+        if tilted and not self._zone(1.0, memory).lie_in(self.contacts.zones(self.loads)):
             raise NotLayered("an edge of the contact overtakes the slip")
         crossed = top and top.below and any(not slip.timed for slip in slips)
         if top and top.below and crossed:
-            r = self._zone(1.0, memory).r
-            if min(self._at_ends(top.below.thickness, r)) < 0.0:
+            thinnest = self._zone(1.0, memory).at_ends(top.below.thickness).min()
+            if thinnest < 0.0:
                 raise NotLayered(
                     "between the stick zone and an earlier one the shear may exceed f p"
                 )
@@ -347,12 +351,11 @@ class Step:
         rise = self.contacts.level(loads) - self.memory.level
         return self.memory.changed(rise, share * self.pull, sign, self._within)
 
-    def _zone(self, share: float, memory: LoadMemory) -> Interval:
-        """The stick zone below the uppermost layer; all of the contact where there is none."""
+    def _zone(self, share: float, memory: LoadMemory) -> Zones:
+        """The stick zones below the uppermost layer; all of the contact where there is none."""
         if memory.top is None:
-            return self.contacts.contact(self._at(share))
-        normal = self._at(share).normal
-        return self.contacts.first_loading(normal, memory.top.thickness, False).stick_zone
+            return self.contacts.zones(self._at(share))
+        return self.contacts.sticking(self._at(share).normal, memory.top.thickness)
 
     def _state(self, share: float, depth: complex) -> Slip:
         """The state after first loading to a depth, with slip in both directions."""
@@ -360,12 +363,10 @@ class Step:
 
     def _why(self) -> str:
         """What happens in a step that no superposition covers."""
-        start = self.contacts.contact(self.before.loads)
-        reverse = self.pull - self.k * self.rise
-        left, right = self._at_ends(reverse, start.r)
+        effects = self._contacts[0].at_ends(self.pull - self.k * self.rise)
         if self.before.turned:
             return "slip in opposite directions at the two edges changes its proportion"
-        if left * right < 0.0:
+        if effects.min() * effects.max() < 0.0:
             return "slip turns at one edge and goes on, or stops, at the other"
         return "one end of the stick zone recedes and the other does not"
 
@@ -374,10 +375,6 @@ UNSTEADY = (
     "the steady state is not that of one stick zone, which is all that is covered; change P, Q, σ "
     "and tilt in other proportions"
 )
-
-
-def _shown(zone: Interval) -> str:
-    return f"[{zone.x1:.6g}, {zone.x2:.6g}]"
 
 
 def _grown(earlier: Slip, later: Slip) -> bool:

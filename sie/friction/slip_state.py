@@ -7,7 +7,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable, Collection, Iterable
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -57,6 +57,14 @@ class Step:
     @property
     def normal_load(self) -> float:
         return self.normal.edges.normal_load
+
+
+class WorkOfSlip(Protocol):
+    """The work of f p on the slip, and of what other loads add to f p."""
+
+    @property
+    def work(self) -> float: ...
+    def work_of(self, dP: float, strain: float) -> float: ...
 
 
 class Slip(ABC):
@@ -112,6 +120,11 @@ class Slip(ABC):
     def energy(self) -> float:
         """The dissipated energy; that of the states on one patch is found in `dissipation`."""
         return 0.0
+
+    @property
+    def integrals(self) -> WorkOfSlip | None:
+        """Integrals over the zones of slip; None where nothing slips."""
+        return None
 
     @property
     def slipped(self) -> tuple[tuple[float, float, float], ...]:

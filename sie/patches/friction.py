@@ -19,6 +19,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from dataclasses import replace
 from functools import cached_property
 
 import numpy as np
@@ -75,17 +76,13 @@ class PatchSlip(Slip):
         """p* and its gap; the untouched profile in full sliding."""
         edges, f = self.full.edges, self.friction
         tilt = edges.tilt - self.sign * self.tau / (f * 0.5 * self.scene.Estar)
-        if self.tau != 0.0 and math.isfinite(self.period):
-            raise ContactError(
-                f"bulk_stress = {self.scene.bulk_stress:g} in one of two bodies that meet "
-                "periodically has no periodic answer: leave it out, or give it to both bodies as a "
-                "stress afterwards"
-            )
+        if self.tau != 0.0:
+            refuse_stretch(self.period)
         if self.Q == 0.0 != self.tau:
             raise ContactError(
-                f"bulk_stress = {self.scene.bulk_stress:g} without tangential_load makes the "
-                "patches slip both ways: "
-                "that is not covered on several patches; give tangential_load"
+                f"{self._stretch} without tangential_load makes patches slip to either side, and "
+                "zones of stick between slip in opposite directions are solved on one patch only; "
+                "give a tangential load with the bulk stress"
             )
         if abs(self.Q) == f * edges.normal_load:
             return Untouched(self.scene.profile, tilt, self.full.patches)
@@ -93,6 +90,11 @@ class PatchSlip(Slip):
         if self.tau != 0.0:
             self._verify(reduced)
         return reduced
+
+    @property
+    def _stretch(self) -> str:
+        unit = replace(self.scene, bulk_stress=1.0).tau
+        return f"bulk_stress = {self.tau / unit:.6g}"
 
     def _verify(self, reduced: Contact) -> None:
         """Refuse stick zones beyond the patches, or |q| > f p there."""
@@ -102,10 +104,10 @@ class PatchSlip(Slip):
         p, p_star = self.full.pressure(x), reduced.pressure(x)
         if left_over(reduced.patches, wider) or (p_star > 2.0 * p + WITHIN * p.max()).any():
             raise ContactError(
-                f"bulk_stress = {self.scene.bulk_stress:g} makes the patches slip both ways under "
-                f"tangential_load = {self.scene.tangential_load or self.Q:g}: that is not covered "
-                "on several patches; "
-                "lower the bulk stress or raise the tangential load"
+                f"{self._stretch} makes patches slip to either side under tangential_load = "
+                f"{self.Q:g}, and zones of stick between slip in opposite directions are solved on "
+                "one patch only; lower the bulk stress, or what the tilt changes by, or raise the "
+                "tangential load"
             )
 
     @cached_property
@@ -167,19 +169,59 @@ class PatchSlip(Slip):
     @cached_property
     def shift(self) -> float:
         """∫ slip dμ, μ the pressure of a flat punch on all patches under a unit load."""
+        return self.against(1.0, 0.0)
+
+    @cached_property
+    def integrals(self) -> WorkOnPatches:
+        """The work of f p on the slip, and of what other loads add to f p."""
+        return WorkOnPatches(self)
+
+    def against(self, load: float, strain: float) -> float:
+        """∫ slip dμ, μ the pressure of a flat punch on all patches under a load, with a tilt.
+
+        `strain` is E*/2 times the tilt.
+        """
         points, weight = slip_rule(self.full, self.stick, self.period)
         slip = self.slip(points.x)
         if isinstance(self.full, FullContact):
-            return float(weight @ slip) / self.period
+            return load * float(weight @ slip) / self.period
         o = self.full.found.operator
         P = o.patches
         _, k, _ = self.full.pressure.placed(points.x)
         T, _ = o.root(k, points)
         rho = edge_ratio(P, np.arange(P.number))[k]
         apart = P.chord.apart(points.anchor[:, None] - P.edges, points.offset[:, None])
-        punch = edge_charges(o, moment=False).of(loaded(self.full.found.state, 1.0))[:-1, 0]
+        changes = loaded(self.full.found.state, load)
+        changes[-1] = strain
+        punch = edge_charges(o, moment=False).of(changes)[:-1, 0]
         D = -(punch * rho / apart).sum(axis=1)
         return float((weight * np.abs(T) * D / np.pi) @ slip)
+
+
+class WorkOnPatches:
+    """Integrals of slip over all patches, as `IntegralsOfSlip` over the zones of one."""
+
+    def __init__(self, state: PatchSlip) -> None:
+        self.state = state
+
+    @property
+    def work(self) -> float:
+        """∫f p |slip| dx."""
+        return self.state.energy
+
+    def work_of(self, dP: float, strain: float) -> float:
+        """f ∫|slip| dp dx for a change of P, and of E*/2 times the tilt."""
+        return self.state.sign * self.state.friction * self.state.against(dP, strain)
+
+
+def refuse_stretch(period: float) -> None:
+    """Refuse a bulk stress in a contact that repeats: the bodies fit in one period alone."""
+    if math.isfinite(period):
+        raise ContactError(
+            f"a bulk stress stretches one of two bodies that meet every {period:.6g}, so that they "
+            "fit in no other period and there is no periodic answer: leave it out, or add it as a "
+            "stress afterwards where it strains both bodies alike"
+        )
 
 
 def _places(zones: Zones) -> Array:

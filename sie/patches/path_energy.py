@@ -8,6 +8,7 @@ and an integral over time where the pressure changes (`friction.moving_work`).
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from itertools import accumulate
 from typing import Protocol
 
@@ -22,6 +23,7 @@ from sie.friction.load_history.turning_point import TurningPoint
 from sie.friction.loads import Loads
 from sie.friction.memory import SlippedLayer
 from sie.friction.slip_state import Slip
+from sie.friction.step_conditions import TESTED
 from sie.numerics.interval import Interval
 from sie.progress_bar import reported, step_done
 
@@ -92,6 +94,11 @@ class PathEnergy:
         """
         before, state = self.path.turning_points[max(index - 1, 0)], self.path.turning_points[index]
         try:
+            if not (state.marched or self.path.in_one_patch):
+                raise ContactError(
+                    "one end of a stick zone is held up; that is followed only in a "
+                    "contact that is one patch under every load"
+                )
             parts = state.marched or self.path.march(before, state.loads).marched
             return sum(part.work for part in parts)
         except ContactError as problem:
@@ -110,12 +117,16 @@ class PathEnergy:
         if not any(o.surface):
             return self._of_depth(state, o.lower) - self._of_depth(state, o.upper)
         step = ChangingContact(path, index)
-        step.refuse("the energy lost meanwhile depends on the way; the state at its end does not")
+        if path.in_one_patch or path.curved:
+            step.refuse("the energy lost meanwhile depends on the way, not so the state at its end")
         first, last = step.shares(o)
         load = (last - first) * (state.loads.P - path.turning_points[index - 1].loads.P)
 
         def on_the_way(time: float) -> Slip:
             return step.state_at(o, sign, first + time * (last - first))
+
+        if not path.in_one_patch:
+            _refuse_births(step, on_the_way)
 
         def strain(contact: Interval) -> float:
             return (last - first) * step.strain(contact)
@@ -128,6 +139,22 @@ class PathEnergy:
             return 0.0
         found = self.path.first_loading(state.loads.normal, depth, state.turned)
         return dissipated(found)
+
+
+def _refuse_births(step: ChangingContact, on_the_way: Callable[[float], Slip]) -> None:
+    """Refuse a front on the way of which stick zones appear, merge or vanish.
+
+    The power of friction has a kink there, next to which it is found in halves of the time only.
+    """
+    numbers = [len(on_the_way(time).stick) for time in TESTED]
+    if len(set(numbers)) > 1:
+        raise ContactError(
+            f"step {step.index} of the path, to {step.end}: the number of stick zones changes on "
+            f"the way, from {numbers[0]} to {numbers[-1]}, while P, bulk stress or tilt changes "
+            "too: the energy lost then is not solved, but the state at the end of the step is; "
+            "change bulk stress and tilt at another time than P",
+            step=step.index,
+        )
 
 
 def _untimed(state: TurningPoint) -> bool:

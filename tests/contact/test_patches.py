@@ -403,7 +403,7 @@ def test_stick_zones_lie_in_patches_and_slip_goes_one_way(Q):
             {**SCENES["wave"], "friction": 0.5, "tangential_load": 0.1, "bulk_stress": 0.1},
             "no periodic answer",
         ),
-        ({**SCENES["row"], "friction": 0.5, "bulk_stress": 0.1}, "slip both ways"),
+        ({**SCENES["row"], "friction": 0.5, "bulk_stress": 0.1}, "slip to either side"),
         ({**SCENES["row"], "friction": float("inf")}, "full stick"),
     ],
 )

@@ -156,8 +156,9 @@ def stepped(contacts: Followable, before: TurningPoint, loads: Loads) -> Turning
     except NotLayered as problem:
         if not contacts.in_one_patch:
             raise ContactError(
-                f"{problem}: what is locked in then depends on the way, which is covered in one "
-                "patch only"
+                f"{problem}: what is locked in then depends on the way, which is followed only in "
+                "a contact that is one patch under every load; change P, Q, σ and tilt in one "
+                "proportion, or bulk stress and tilt less"
             ) from None
         return replace(contacts.march(before, loads), why=str(problem))
     if found.turned and found.straight and contacts.in_one_patch:

@@ -38,11 +38,7 @@ def work(state: Callable[[float], Slip], dP: float, strain: Callable[[Interval],
 
     def rate(time: float) -> float:
         found = state(time)
-        return (
-            found.integrals.work_of(dP, strain(found.contact))
-            if isinstance(found, Slipping)
-            else 0.0
-        )
+        return found.integrals.work_of(dP, strain(found.contact)) if found.integrals else 0.0
 
     cuts = sorted({0.0, *_turns(state), 1.0})
     return whole - sum(integral(rate, abs(whole), part) for part in pairwise(cuts))
@@ -74,4 +70,4 @@ def _turn(state: Callable[[float], Slip], k: int, before: float, after: float) -
 
 
 def _held(state: Slip) -> float:
-    return state.integrals.work if isinstance(state, Slipping) else 0.0
+    return state.integrals.work if state.integrals else 0.0

@@ -162,7 +162,8 @@ class Receded(MarchedStep):
         inner = d[apart & (d > SAME * length) & (d < length * (1.0 - SAME))].tolist()
         steepness = self._steepness(side, end)
         resolved = max(OF_SLIP, self._rounding(side))
-        panels = resolved_panels(steepness, (*inner, length), 0.0, resolved)[0]
+        ends = (*inner, length)
+        panels = resolved_panels(lambda t, _: steepness(t), ends, 0.0, resolved)[0]
         sums = chebyshev.antiderivative(panels.series).T
         whole = 0.5 * (panels.hi - panels.lo) * chebyshev.evaluate(sums, np.ones(len(panels.lo)))
         return side, end, panels, np.cumsum(whole) - whole
@@ -173,7 +174,7 @@ class Receded(MarchedStep):
         zone_ = (self.found.left, self.found.right)[k]
         return self.frames[k].rounding(zone_, self.pressure)
 
-    def _steepness(self, side: float, end: float) -> Callable[[Array, Array], Array]:
+    def _steepness(self, side: float, end: float) -> Callable[[Array], Array]:
         """E*/2 dΔg at distances from an end of the stick zone, without a difference of potentials.
 
         It is |R|/π of the integral of Δq/(|R| (x - ξ)), of which the far zone is subtracted.
@@ -187,7 +188,7 @@ class Receded(MarchedStep):
         over = whole.force / (whole.weight * np.sqrt(whole.from_stick + 2.0 * rho))
         each = whole.weight / np.sqrt(whole.from_stick)
 
-        def steepness(t: Array, _: Array) -> Array:
+        def steepness(t: Array) -> Array:
             inside = t < length
             own, rest = np.zeros(t.shape), np.maximum(length - t, TINY)[inside]
             own[inside] = near.pressure(rest) / np.sqrt(t[inside] + 2.0 * rho)
