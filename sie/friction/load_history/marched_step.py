@@ -27,6 +27,7 @@ Array = NDArray[np.float64]
 # far from them, of the way to the next one, and at how many places. A wedge has infinite p in the
 # middle; a zone of slip that has just opened at a mark is too short to be found.
 NEAREST, AT_MARK, FARTHEST, SCANNED = 1e-7, 1e-5, 0.49, 100
+AT_EDGE = 1e-13  # of the contact: how well it is known when an edge passes a place
 MUCH, HALVINGS = 0.1, 12  # of a stick zone: what stuck for a while; how often a while is halved
 
 
@@ -91,8 +92,8 @@ class FrozenEdge:
         d = np.unique(self.side * (self.place - self.marks))
         return d[(d > SAME * self.width) & (d < self.width)]
 
-    def zone(self, length: float) -> SlipZone:
-        return slip_zone(self, length)
+    def zone(self, length: float, at_edge: bool = False) -> SlipZone:
+        return slip_zone(self, length, at_edge)
 
 
 @dataclass(frozen=True, eq=False)
@@ -152,9 +153,20 @@ class MarchedStep(ABC):
             return np.zeros(x.shape)
         if share <= begun:
             return self.slip(x)
-        first = self.until(share)
-        slip: Array = self.slip(x) - first.slip(np.clip(x, *first.pressure.interval))
+        first, slip = self.until(share), self.slip(x)
+        contact = first.pressure.contact
+        apart = np.stack((contact.from_left(x), contact.from_right(x)))
+        at_edges = apart <= AT_EDGE * contact.r
+        for k in np.flatnonzero(at_edges.any(axis=1)).tolist():
+            slip[at_edges[k]] -= first.slip_at_edge(k)
+        inside = ~at_edges.any(axis=0)
+        if inside.any():
+            slip[inside] -= first.slip(x[inside])
         return slip
+
+    def slip_at_edge(self, k: int) -> float:
+        """The slip in this step at the left edge of contact, k = 0, or the right one."""
+        return float(self.slip(np.array([self.pressure.interval[k]]))[0])
 
     def kept_in(self, contact: Interval) -> tuple[tuple[float, float], ...]:
         """The zones that stuck since the contact was this one in the step."""
