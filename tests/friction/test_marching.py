@@ -42,6 +42,8 @@ UNTIL_TURNED = [(1, 0, 0), (1.2, -0.6, -0.4), (1.17, 0.15, 0.41)]
 JUMPS = [(1, 0, 0, 0), (0.981, 0.565, -0.091, 0.01), (1.026, 0.563, 0.327, 0.024)]
 JUMPS += [(0.953, 0.389, 0.396, -0.005)]
 TOGETHER = [(1, 0, 0, 0), (1.2, 0.55, 0.1, -0.02), (0.9, -0.3, -0.1, 0.02), (1.2, 0.55, 0.1, -0.02)]
+# Slip in two directions while the contact grows.
+APART = [(1, 0, 0), (1.1, 0.05, 0.9)]
 
 
 def followed(scene, points, parts=1):
@@ -492,19 +494,20 @@ def test_a_mesh_tends_to_the_slip_of_new_points_and_the_shift(points):
     assert finer_shift < 0.7 * shift < 0.7 * 0.05
 
 
-@pytest.mark.parametrize("points", [TOGETHER, OPPOSITE, LAYERED["held up"], LAYERED["all grow"]])
-@pytest.mark.parametrize("share", [1e-3, 0.3, 0.9])
-def test_the_slip_at_an_edge_is_the_integral_over_the_zone_of_slip(points, share):
-    part = all_marched(LOPSIDED, points).turning_points[-1].marched[-1]
-    begun, end = part.span
-    state = part.until(begun + share * (end - begun))
-    along = state.slip(np.array(state.pressure.interval))
-    found = [state.slip_at_edge(k) for k in (0, 1)]
-    assert found == pytest.approx(along, rel=1e-10)
+@pytest.mark.parametrize(
+    ("run", "points"),
+    [(followed, TOGETHER), (all_marched, APART)],
+    ids=["one direction", "two directions"],
+)
+def test_the_slip_at_an_edge_is_the_integral_over_the_zone_of_slip(run, points):
+    part = run(LOPSIDED, points).turning_points[-1].marched[-1]
+    for state in (part.until(0.01), part.until(0.9)):
+        along = state.slip(np.array(state.pressure.interval))
+        assert [state.slip_at_edge(k) for k in (0, 1)] == pytest.approx(along, rel=1e-10)
 
 
 def test_no_zone_of_slip_on_the_way_is_opened_for_points_that_come_into_contact(monkeypatch):
-    history = sie.follow(LOPSIDED, path_of(TOGETHER))
+    history = followed(LOPSIDED, TOGETHER)
     opened, on_one_side = [], Receded._on_one_side
     monkeypatch.setattr(Receded, "_on_one_side", lambda *at: opened.append(at) or on_one_side(*at))
     (_, x2), (_, wider) = history[2].edges, history[3].edges
