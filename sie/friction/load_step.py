@@ -251,7 +251,7 @@ class Step:
 
         `change` is κ dS - dΛ, which is positive at the edge that holds up a new front.
         """
-        reach, right = reached(change, widest, old.arm), change.imag < 0.0
+        reach, right = reached(change, widest, old.arm), int(change.imag < 0.0)
         edge = widest[not right]
         room = old.zone.x2 - edge if right else edge - old.zone.x1
         if not self.contacts.curved and reach < room:

@@ -54,6 +54,7 @@ ROWS = 4096  # abscissae at a time
 GATHERED = 22  # terms of 1/(d + s), 0 <= s <= length <= d: they fall like (3 + sqrt 8)^-n
 MAX_SWEEPS = 60
 SETTLED, STALLED = 8.0 * EPS, 1e-12
+TINY = 1e-300
 
 
 # -- the contact seen from one of its edges --------------------------------------------------------
@@ -292,3 +293,26 @@ def excess(zone: SlipZone, other: SlipZone, r: float, drive: Drive, k: int) -> f
     return zone.strong(rho) + sign * (
         others * other.weak(rho) - drive.load - outward * rho * drive.strain
     )
+
+
+def opening(zone: SlipZone, other: SlipZone, rho: float) -> tuple[float, float]:
+    """E*/(2f) times the slip at the edge where a zone begins: the shares of both, over their signs.
+
+    With y and t the distances of x and of a force from the end of the zone, t and R(t) negative
+    across the stick zone, and L = ∫dy/R, a share is the sum of the forces p ds over π R(t) times
+
+        PV∫R(y)/(y - t) dy = R(d) + (t + ρ) L + R(t) ln|(U - V)/(U + V)|
+
+    from y = 0 to d, the length of the zone, U² = d/(d + 2ρ) and V² = t/(t + 2ρ). The logarithm is
+    infinite at t = d, towards which the zone has to be graded.
+    """
+    a, d = 2.0 * rho, zone.length
+    until, U, L = np.sqrt(d * (d + a)), np.sqrt(d / (d + a)), 2.0 * np.arcsinh(np.sqrt(d / a))
+    s, t = zone.from_stick, other.from_stick
+    near, far = np.sqrt(s / (s + a)), np.sqrt(t / (t + a))
+    own = (until + (s + rho) * L) / np.sqrt(s * (s + a))
+    across = (until - (t + rho) * L) / np.sqrt(t * (t + a))
+    # (U - V)/(U + V) is (U² - V²)/(U + V)², without cancellation
+    own += np.log(np.maximum(a / (d + a) * zone.from_edge / (s + a) / (U + near) ** 2, TINY))
+    across -= np.log(a / (d + a) * (d + t + a) / (t + a) / (1.0 + U * far) ** 2)
+    return float(zone.force @ own) / np.pi, -float(other.force @ across) / np.pi

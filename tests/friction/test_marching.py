@@ -15,6 +15,7 @@ from sie.friction.load_history import marching
 from sie.friction.load_history.advancing_end import EndAdvances
 from sie.friction.load_history.joined_zones import joined
 from sie.friction.load_history.load_steps import loads_of, turning_points
+from sie.friction.load_history.receding_step import Receded
 from sie.friction.load_history.slip_rates import SlipRates
 from sie.history import History
 
@@ -41,6 +42,8 @@ UNTIL_TURNED = [(1, 0, 0), (1.2, -0.6, -0.4), (1.17, 0.15, 0.41)]
 JUMPS = [(1, 0, 0, 0), (0.981, 0.565, -0.091, 0.01), (1.026, 0.563, 0.327, 0.024)]
 JUMPS += [(0.953, 0.389, 0.396, -0.005)]
 TOGETHER = [(1, 0, 0, 0), (1.2, 0.55, 0.1, -0.02), (0.9, -0.3, -0.1, 0.02), (1.2, 0.55, 0.1, -0.02)]
+# Slip in two directions while the contact grows.
+APART = [(1, 0, 0), (1.1, 0.05, 0.9)]
 
 
 def followed(scene, points, parts=1):
@@ -489,6 +492,29 @@ def test_a_mesh_tends_to_the_slip_of_new_points_and_the_shift(points):
     (slip, shift), (finer_slip, finer_shift) = errors
     assert finer_slip < 0.7 * slip < 0.7 * 0.02
     assert finer_shift < 0.7 * shift < 0.7 * 0.05
+
+
+@pytest.mark.parametrize(
+    ("run", "points"),
+    [(followed, TOGETHER), (all_marched, APART)],
+    ids=["one direction", "two directions"],
+)
+def test_the_slip_at_an_edge_is_the_integral_over_the_zone_of_slip(run, points):
+    part = run(LOPSIDED, points).turning_points[-1].marched[-1]
+    for state in (part.until(0.01), part.until(0.9)):
+        along = state.slip(np.array(state.pressure.interval))
+        assert [state.slip_at_edge(k) for k in (0, 1)] == pytest.approx(along, rel=1e-10)
+
+
+def test_no_zone_of_slip_on_the_way_is_opened_for_points_that_come_into_contact(monkeypatch):
+    history = followed(LOPSIDED, TOGETHER)
+    opened, on_one_side = [], Receded._on_one_side
+    monkeypatch.setattr(Receded, "_on_one_side", lambda *at: opened.append(at) or on_one_side(*at))
+    (_, x2), (_, wider) = history[2].edges, history[3].edges
+    history[3].slip(x2 + (wider - x2) * np.linspace(0.1, 0.9, 5))
+    assert {part for part, *_ in opened} <= {
+        part for point in history.turning_points for part in point.marched
+    }
 
 
 # -- what is told ---------------------------------------------------------------------------------

@@ -32,8 +32,9 @@ from sie.friction.slip_zones import Drive, SlipZone, SlipZones, excess, slip_zon
 from sie.numerics.interval import EPS, Interval
 from sie.numerics.root_finding import false_position
 
+from .frozen_edge import FrozenEdge
 from .growing_contact import Course
-from .marched_step import FrozenEdge, Held, places
+from .marched_step import Held, places
 from .receding_step import Receded, Side
 from .slip_onset import Onset
 from .sticking_zone import StickingZone

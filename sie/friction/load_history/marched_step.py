@@ -14,13 +14,12 @@ from numpy.typing import NDArray
 
 from sie.errors import ContactError
 from sie.friction.slip_state import IntegralsOfSlip
-from sie.friction.slip_zones import SlipZone, slip_zone
-from sie.numerics import chebyshev
-from sie.numerics.interval import EPS, Interval
+from sie.numerics.interval import Interval
 from sie.traction.base import Density
 from sie.traction.of_slope import SlopeDensity
 
-from .panel_shear import SAME, PanelShear
+from .frozen_edge import FrozenEdge
+from .panel_shear import PanelShear
 
 Array = NDArray[np.float64]
 
@@ -28,10 +27,7 @@ Array = NDArray[np.float64]
 # far from them, of the way to the next one, and at how many places. A wedge has infinite p in the
 # middle; a zone of slip that has just opened at a mark is too short to be found.
 NEAREST, AT_MARK, FARTHEST, SCANNED = 1e-7, 1e-5, 0.49, 100
-# Of a width, and terms: where a traction next to its place is the root of the distance times a
-# series in it.
-NEAR, TERMS = 1e-3, 20
-ROUNDINGS, TINY = 30.0, 1e-300  # of the largest traction: how many of them quadrature leaves
+AT_EDGE = 1e-13  # of the contact: how well it is known when an edge passes a place
 MUCH, HALVINGS = 0.1, 12  # of a stick zone: what stuck for a while; how often a while is halved
 
 
@@ -78,68 +74,6 @@ class Held:
 
         marks = np.array(places(self, self.pressure))
         return FrozenEdge(place, side, 2.0 * self.pressure.contact.r, lacking, marks).pressure
-
-
-@dataclass(frozen=True, eq=False)
-class FrozenEdge:
-    """A place from which a slip zone begins, and the traction beside it.
-
-    place     the place
-    side      +1 on the right of the stick zone
-    width     of all that may slip from here on
-    values    the traction at x
-    marks     places where it is not smooth
-    """
-
-    place: float
-    side: float
-    width: float
-    values: Callable[[Array], Array]
-    marks: Array
-
-    def pressure(self, distance: Array) -> Array:
-        traction = np.empty(distance.shape)
-        near = distance < self._near
-        traction[~near] = self.values(self.place - self.side * distance[~near])
-        d = distance[near]
-        traction[near] = np.sqrt(d) * chebyshev.evaluate(self._beside, 2.0 * d / self._near - 1.0)
-        return traction
-
-    @cached_property
-    def _near(self) -> float:
-        """How far a series in the distance holds; other marks are twice as far, on either side."""
-        apart = np.abs(self.place - self.marks)
-        others = apart[apart > SAME * self.width]
-        return min(NEAR * self.width, 0.5 * float(others.min(initial=np.inf)))
-
-    @cached_property
-    def _beside(self) -> Array:
-        """The traction next to the place over the root of the distance, as a series.
-
-        Doubles x do not resolve short distances, and a step asks for zones of any shortness.
-        """
-        d = 0.5 * self._near * (1.0 + chebyshev.points(TERMS))
-        over_root = self.values(self.place - self.side * d) / np.sqrt(d)
-        return chebyshev.transform(over_root)
-
-    @cached_property
-    def breaks(self) -> Array:
-        d = np.unique(self.side * (self.place - self.marks))
-        return d[(d > SAME * self.width) & (d < self.width)]
-
-    def zone(self, length: float) -> SlipZone:
-        return slip_zone(self, length)
-
-    def rounding(self, zone: SlipZone, bound: SlopeDensity) -> float:
-        """What rounding leaves of the traction in a zone, a difference of others like `bound`.
-
-        It is over the largest traction there. Where marks are near, places x are rounded too.
-        """
-        largest = float(np.abs(zone.force / zone.weight).max(initial=TINY))
-        rounded = EPS * bound.resultant / (bound.contact.r * largest)
-        if zone.length > self._near:
-            rounded += EPS * (abs(self.place) + self.width) / self._near
-        return ROUNDINGS * rounded
 
 
 @dataclass(frozen=True, eq=False)
@@ -199,9 +133,20 @@ class MarchedStep(ABC):
             return np.zeros(x.shape)
         if share <= begun:
             return self.slip(x)
-        first = self.until(share)
-        slip: Array = self.slip(x) - first.slip(np.clip(x, *first.pressure.interval))
+        first, slip = self.until(share), self.slip(x)
+        contact = first.pressure.contact
+        apart = np.stack((contact.from_left(x), contact.from_right(x)))
+        at_edges = apart <= AT_EDGE * contact.r
+        for k in np.flatnonzero(at_edges.any(axis=1)).tolist():
+            slip[at_edges[k]] -= first.slip_at_edge(k)
+        inside = ~at_edges.any(axis=0)
+        if inside.any():
+            slip[inside] -= first.slip(x[inside])
         return slip
+
+    def slip_at_edge(self, k: int) -> float:
+        """The slip in this step at the left edge of contact, k = 0, or the right one."""
+        return float(self.slip(np.array([self.pressure.interval[k]]))[0])
 
     def kept_in(self, contact: Interval) -> tuple[tuple[float, float], ...]:
         """The zones that stuck since the contact was this one in the step."""

@@ -16,7 +16,7 @@ from sie.numerics.interval import EPS, Interval
 from sie.progress_bar import step_done
 from sie.traction.of_slope import SlopeDensity
 
-from .marched_step import FrozenEdge
+from .frozen_edge import FrozenEdge
 
 Array = NDArray[np.float64]
 

@@ -26,15 +26,16 @@ from numpy.typing import NDArray
 from sie.errors import ContactError
 from sie.friction.coupled.half_potential import Panels
 from sie.friction.coupled.traction import resolved_panels
-from sie.friction.slip_zones import LEVELS, Drive, SlipZones, slip_zone
+from sie.friction.slip_zones import LEVELS, Drive, SlipZones, opening, slip_zone
 from sie.numerics import chebyshev
 from sie.numerics.halving import integral
 from sie.numerics.interval import Interval
 from sie.numerics.root_finding import false_position
 from sie.traction.of_slope import SlopeDensity
 
+from .frozen_edge import FrozenEdge
 from .growing_contact import LoadChange
-from .marched_step import FrozenEdge, Held, MarchedStep, places
+from .marched_step import Held, MarchedStep, places
 from .panel_shear import SAME
 from .receding_equations import NO_ZONE, Equations
 from .slip_rates import SlipRates
@@ -115,6 +116,18 @@ class Receded(MarchedStep):
             grown = chebyshev.evaluate(chebyshev.antiderivative(panels.series[k]).T, s)
             out[beside] = (until[k] + 0.5 * length * grown) / self.pressure.half_modulus
         return out
+
+    def slip_at_edge(self, k: int) -> float:
+        found, edge = self.found, self.pressure.interval[k]
+        signs, zones = (found.drive.left, found.drive.right), (found.left, found.right)
+        length, other = zones[k].length, zones[1 - k]
+        apart = abs(edge - (found.stick.x1, found.stick.x2)[k])
+        if not self.signs[k] or abs(length - apart) > SAME * self.pressure.contact.r:
+            return super().slip_at_edge(k)  # the zone whose shear changes does not end there
+        frames = frames_beside(self.before, self.pressure, self.friction, self.signs)
+        own, across = opening(frames[k].zone(length, at_edge=LEVELS), other, found.stick.r)
+        moved = self.friction * (signs[k] * own + signs[1 - k] * across)
+        return moved / self.pressure.half_modulus
 
     @cached_property
     def _in_zones(self) -> tuple[tuple[Zone, Array], ...]:
@@ -206,6 +219,29 @@ class Receded(MarchedStep):
         return steepness
 
 
+def frames_beside(
+    before: Held,
+    pressure: SlopeDensity,
+    friction: float,
+    signs: tuple[float, float],
+    goes_on: tuple[bool, bool] = (False, False),
+) -> tuple[FrozenEdge, FrozenEdge]:
+    """The places from which the zones begin in which the shear changes, left and right."""
+    old, new = before.pressure.contact, pressure.contact
+    left = before.stick.x1 if goes_on[0] else min(old.x1, new.x1)
+    right = before.stick.x2 if goes_on[1] else max(old.x2, new.x2)
+    marks = np.array(places(before, pressure))
+
+    def beside(place: float, side: float, sign: float) -> FrozenEdge:
+        def free(x: Array) -> Array:
+            p: Array = pressure(x) - (sign / friction) * before.shear(x)
+            return p
+
+        return FrozenEdge(place, side, right - left, free, marks)
+
+    return beside(left, -1.0, signs[0]), beside(right, 1.0, signs[1])
+
+
 def receded(
     before: Held,
     pressure: SlopeDensity,
@@ -215,25 +251,14 @@ def receded(
 ) -> Receded:
     """The state under a pressure and the loads Q and τ. Raises ContactError where there is none."""
     (signs, goes_on, near), (Q, tau) = ends, loads
-    old, new = before.pressure.contact, pressure.contact
-    left = before.stick.x1 if goes_on[0] else min(old.x1, new.x1)
-    right = before.stick.x2 if goes_on[1] else max(old.x2, new.x2)
-    outer, marks = Interval(left, right), np.array(places(before, pressure))
-
-    def beside(place: float, side: float, sign: float) -> FrozenEdge:
-        def free(x: Array) -> Array:
-            p: Array = pressure(x) - (sign / friction) * before.shear(x)
-            return p
-
-        return FrozenEdge(place, side, 2.0 * outer.r, free, marks)
-
-    frames = beside(left, -1.0, signs[0]), beside(right, 1.0, signs[1])
+    frames, new = frames_beside(before, pressure, friction, signs, goes_on), pressure.contact
+    outer = Interval(frames[0].place, frames[1].place)
     drive = Drive((Q - before.Q) / friction, math.pi * (tau - before.tau) / friction, *signs)
-    least = np.maximum([new.x1 - left, right - new.x2], 0.0)
+    least = np.maximum([new.x1 - outer.x1, outer.x2 - new.x2], 0.0)
     x = outer.m + outer.r * SEEN
     pressed = outer.r * float(np.abs(pressure(x) - before.pressure(x)).max())
     equations = Equations(frames, outer, drive, least, pressed, pressure)
-    guess = None if near is None else np.array([near.x1 - left, right - near.x2])
+    guess = None if near is None else np.array([near.x1 - outer.x1, outer.x2 - near.x2])
     lengths = equations.at_marks(equations.solution(guess))
     zones = frames[0].zone(lengths[0]), frames[1].zone(lengths[1])
     found = SlipZones(outer.moved(lengths[0], -lengths[1]), *zones, drive)

@@ -26,7 +26,7 @@ from sie.traction.of_slope import SlopeDensity
 
 from .grid_zones import Guess, cells, guess, stepped
 from .growing_contact import LoadChange
-from .marched_step import Held, places
+from .marched_step import Held, MarchedStep, places
 from .receding_step import OPPOSING, Ends, Receded, Side, on_the_way, receded
 from .stick_intervals import ROUNDING, StickIntervals, Zone, settled, zone
 
@@ -115,6 +115,9 @@ class SeveralSticks(Receded):
             else:
                 total += replace(_in_one_zone(last), change=change, begun=begun, share=end).work
         return total
+
+    def slip_at_edge(self, k: int) -> float:
+        return MarchedStep.slip_at_edge(self, k)
 
     @property
     def _beside(self) -> tuple[Side, ...]:

@@ -26,8 +26,8 @@ from sie.friction.slip_zones import SlipZone
 from sie.numerics.interval import EPS, Interval
 from sie.traction.of_slope import SlopeDensity
 
+from .frozen_edge import FrozenEdge
 from .growing_contact import Rates
-from .marched_step import FrozenEdge
 
 Array = NDArray[np.float64]
 
