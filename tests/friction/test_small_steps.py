@@ -8,7 +8,8 @@ import pytest
 
 import sie
 from sie.errors import ContactError
-from sie.friction.load_history import receding_step
+from sie.friction.load_history import grid_zones, receding_step
+from sie.numerics.interval import Interval
 
 HERTZ = sie.Scene(profile=sie.Parabola(1.0), modulus=1.0, friction=0.3, normal_load=1.0)
 BEFORE = [(1, 0, 0), (1, 0.1, 0.05)]
@@ -91,3 +92,20 @@ def test_a_step_near_the_rounding_of_its_loads_is_answered_or_refused_without_wa
         warnings.simplefilter("error")
         with suppress(ContactError):
             _ = after([*BEFORE, step]).stick
+
+
+def test_cells_that_close_in_on_a_place_stay_wider_than_the_rounding_of_their_ends(monkeypatch):
+    """Their matrix is singular otherwise, with some builds of BLAS."""
+    seen, stepped = [], grid_zones.stepped
+    monkeypatch.setattr(
+        grid_zones, "stepped", lambda edges, *rest: seen.append(edges) or stepped(edges, *rest)
+    )
+
+    def bound(x):
+        return np.sqrt(np.maximum(1.0 - x * x, 0.0))
+
+    marks = 0.3 + 2.0**-53 * np.arange(5.0)
+    loads = 0.3, 1e-13  # ΔQ and Δτ
+    for _ in grid_zones.guess(Interval(-1.0, 1.0), np.zeros_like, bound, loads, marks):
+        pass
+    assert min(np.diff(edges).min() for edges in seen) > 1e-13

@@ -23,6 +23,7 @@ Array = NDArray[np.float64]
 Values = Callable[[Array], Array]
 
 CELLS = 160  # of equal angles: short ones at the edges
+SHORTEST = 1e-13  # of the contact: shorter cells are few roundings wide, and their matrix singular
 PARTS = 4  # of a cell beside the end of a zone, or beside a mark, in the next round
 ROUNDS, UNUSED = 6, 2  # how often cells are cut, and how many of the first rounds are no guess
 MOST = 60
@@ -47,7 +48,7 @@ def guess(
     edges = cells(contact)
     inside = marks[(marks > edges[0]) & (marks < edges[-1])]
     for number in range(ROUNDS):
-        edges = np.unique(np.concatenate((edges, inside)))
+        edges = _apart(np.concatenate((edges, inside)))
         at, _ = stepped(edges, shear, bound, loads)
         if number >= UNUSED:
             yield _zones(edges, at)
@@ -56,6 +57,13 @@ def guess(
         cut = np.unique(np.clip(np.add.outer(near, (-2, -1, 0, 1)), 0, len(at) - 1))
         parts = np.arange(1, PARTS) / PARTS
         edges = np.append(edges, (edges[cut, None] + np.diff(edges)[cut, None] * parts).ravel())
+
+
+def _apart(edges: Array) -> Array:
+    """The ends of cells in ascending order, without cells of a few roundings."""
+    edges = np.unique(edges)
+    kept = np.diff(edges, prepend=-np.inf) > SHORTEST * (edges[-1] - edges[0])
+    return edges[kept]
 
 
 def _zones(edges: Array, at: Array) -> Guess:
