@@ -2,48 +2,23 @@
 computed that is not asked for.
 """
 
-import tracemalloc
 from functools import cache
 
 import numpy as np
 import pytest
 import strategies
 from hypothesis import given
+from stress_cases import PUNCH, SCENES, SHARP, STEEL, F, sliding
 
 import sie
 from analytic import rounded_flat
 from oracles import half_plane_stress
 from oracles.normal_contact import mp
-from sie.stress.half_plane import Stress, Tractions
-from sie.traction.base import Density
 from validation.cases import CASES, SMOOTH_CASES, exact, solved
 
 DEPTHS = (1e-10, 1e-6, 1e-2, 1.0, 1e3)
-F = 0.3
-STEEL = sie.Elastic(210e3, 0.3)
 KINDS = ("parabola", "rounded", "sinh", "corners", "two radii", "blunt", "cubic", "six", "|x|^2.5")
 REFERENCED = [next(c for c in reversed(SMOOTH_CASES) if c.name == kind) for kind in KINDS]
-
-
-def sliding(scene, friction=F, **changes):
-    """The scene in full sliding."""
-    P = sie.solve(scene).normal_load
-    return sie.solve(scene).with_(friction=friction, tangential_load=friction * P, **changes)
-
-
-PUNCH = sie.Scene(profile=sie.RoundedFlat(0.5, 1.0), modulus=1.0, half_width=1.0, poisson=0.3)
-LOPSIDED = sie.Scene(
-    profile=sie.Piecewise((-0.5, 1.0), ((0.25, 0.5), (0.0,), (-2.0, 2.0))),
-    body=STEEL,
-    normal_load=2e4,
-)
-SHARP = sie.Scene(profile=sie.Flat(1.0), body=STEEL, normal_load=100.0, tilt=1e-5)
-SCENES = {
-    "punch": PUNCH,
-    "lopsided": LOPSIDED,
-    "sharp": SHARP,
-    "wedge": sie.Scene(profile=sie.Wedge(0.2), body=STEEL, normal_load=9.0),
-}
 EVERY = pytest.mark.parametrize("scene", SCENES.values(), ids=SCENES)
 
 
@@ -53,7 +28,7 @@ def peak(solution):
     return float(p[np.isfinite(p)].max())
 
 
-# -- references -----------------------------------------------------------------------------------
+# -- references ------------------------------------------------------------------------------------
 
 
 @cache
@@ -188,7 +163,7 @@ def test_the_potentials_of_the_rounded_punch_are_the_closed_forms_ones(a):
     assert np.abs(dF / exact_dF - 1)[far].max() <= 1e-13
 
 
-# -- laws -----------------------------------------------------------------------------------------
+# -- laws ------------------------------------------------------------------------------------------
 
 
 def derivatives(function, x, y, span):
@@ -365,173 +340,3 @@ def test_bulk_stress_is_added_along_the_surface_only():
     assert pulled.xx - plain.xx == pytest.approx(0.5)
     assert pulled.yy == pytest.approx(plain.yy, abs=1e-15) and (pulled.xy == plain.xy).all()
     assert pulled.zz - plain.zz == pytest.approx(0.15)
-
-
-# -- invariants -----------------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize("plane", ["strain", "stress"])
-def test_invariants_are_those_of_the_matrix_of_components(plane):
-    body = sie.Elastic(210e3, 0.3, plane)
-    solution = sliding(sie.Scene(profile=sie.RoundedFlat(1.0, 50.0), body=body, normal_load=500.0))
-    s = solution.stress(np.array([0.0, 0.7, -1.2, 3.0]), np.array([0.0, 0.3, 0.1, 2.0]))
-    for k in range(4):
-        matrix = np.array([[s.xx[k], s.xy[k], 0.0], [s.xy[k], s.yy[k], 0.0], [0.0, 0.0, s.zz[k]]])
-        deviator = matrix - np.trace(matrix) / 3.0 * np.eye(3)
-        principal = np.linalg.eigvalsh(matrix)[::-1]
-        assert s.j2[k] == pytest.approx(0.5 * (deviator**2).sum(), rel=1e-12)
-        assert s.mises[k] == pytest.approx(np.sqrt(1.5 * (deviator**2).sum()), rel=1e-12)
-        assert [p[k] for p in s.principal] == pytest.approx(principal, rel=1e-11, abs=1e-10)
-        assert s.max_shear[k] == pytest.approx(0.5 * (principal[0] - principal[2]), rel=1e-11)
-
-
-def test_where_the_pressure_is_infinite_nothing_is_nan():
-    for scene in (SCENES["wedge"], SHARP):
-        for friction in (0.0, 0.3):
-            solution = sliding(scene, friction) if friction else sie.solve(scene)
-            s = solution.surface_stress(np.array([*solution.edges, 0.0]))
-            for values in (s.xx, s.yy, s.xy, s.zz, s.j2, s.mises, s.max_shear, *s.principal):
-                assert not np.isnan(values).any()
-
-
-@pytest.mark.parametrize("body", [STEEL, sie.Elastic(210e3, 0.5)], ids=["steel", "incompressible"])
-def test_where_the_shear_is_infinite_no_displacement_gradient_is_nan(body):
-    for profile in (sie.Wedge(0.2), sie.Flat(1.0)):
-        solution = sliding(sie.Scene(profile=profile, body=body, normal_load=9.0))
-        s = solution.surface_stress(np.array([*solution.edges, 0.0]))
-        for values in (*s.strain, *s.gradients):
-            assert not np.isnan(values).any()
-
-
-def test_displacement_gradients_next_to_an_infinite_shear_have_the_signs_of_those_there():
-    solution = sliding(sie.Scene(profile=sie.Wedge(0.2), body=STEEL, normal_load=9.0))
-    at, beside = solution.stress(0.0, 0.0).gradients, solution.stress(0.0, 1e-200).gradients
-    assert (at.xy, at.yx) == (-np.inf, np.inf) and beside.xy < 0.0 < beside.yx
-
-
-def test_at_the_edges_of_a_bonded_punch_nothing_is_nan():
-    body, indenter = sie.Elastic(3.0, 0.2), sie.Elastic(40.0, 0.3)
-    solution = sie.solve(
-        sie.Scene(
-            profile=sie.Flat(0.8), body=body, indenter=indenter, normal_load=2.0, friction=np.inf
-        )
-    )
-    s = solution.surface_stress(solution.edges)
-    for values in (*s, s.mises, *s.principal, *s.strain, *s.gradients):
-        assert not np.isnan(values).any()
-    assert solution.elastic_limit().load == 0.0 and solution.peak_tension().value == np.inf
-
-
-# -- only what is asked for -----------------------------------------------------------------------
-
-
-class Watched(Density):
-    """A density that records its evaluations."""
-
-    def __init__(self, density):
-        self.density, self.asked = density, []
-        self.resultant, self.moment = density.resultant, density.moment
-
-    @property
-    def interval(self):
-        return self.density.interval
-
-    def __call__(self, x):
-        self.asked.append("p")
-        return self.density(x)
-
-    def cauchy(self, z, side=1):
-        self.asked.append("F")
-        return self.density.cauchy(z, side)
-
-    def cauchy_derivative(self, z, side=1):
-        self.asked.append("F'")
-        return self.density.cauchy_derivative(z, side)
-
-    def hilbert(self, x):
-        self.asked.append("hilbert")
-        return self.density.hilbert(x)
-
-
-def watched():
-    pressure = Watched(sie.solve(PUNCH).pressure)
-    return pressure, Tractions(pressure, sie.superposed((0.3, pressure)), 0.0, 0.3)
-
-
-def test_on_the_surface_no_potential_is_computed():
-    pressure, tractions = watched()
-    s = Stress(tractions, np.linspace(-2, 2, 11), 0.0)
-    assert pressure.asked == []
-    assert s.mises.shape == s.xx.shape == (11,)
-    assert set(pressure.asked) == {"p", "hilbert"}
-
-
-def test_the_sum_of_the_in_plane_stresses_needs_no_derivative():
-    pressure, tractions = watched()
-    s = Stress(tractions, 0.2, 0.5)
-    value = s.in_plane_sum
-    assert pressure.asked == ["F"]
-    assert value == pytest.approx(float(s.xx + s.yy))
-
-
-def test_pressure_and_shear_in_full_sliding_share_one_evaluation():
-    pressure, tractions = watched()
-    s = Stress(tractions, np.array([0.2, 0.3]), 0.5)
-    assert (s.xx.shape, s.mises.shape, s.principal[0].shape) == ((2,), (2,), (2,))
-    assert pressure.asked == ["F", "F'"]
-
-
-def test_a_million_points_hold_at_most_ten_arrays_of_that_size():
-    solution = sliding(PUNCH)
-    x, y = np.linspace(-2, 2, 1000), np.linspace(0, 3, 1000)[:, None]
-    solution.stress(0.1, 0.1).mises  # noqa: B018
-    tracemalloc.start()
-    solution.stress(x, y).mises  # noqa: B018
-    most = tracemalloc.get_traced_memory()[1]
-    tracemalloc.stop()
-    assert most <= 10 * 8e6
-
-
-# -- bad questions --------------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize(
-    ("x", "y", "words"),
-    [
-        (0.0, -0.1, "y = -0.1 is above the surface"),
-        (np.nan, 0.1, "x = nan is not finite"),
-        (0.0, np.inf, "y = inf"),
-        ("a", 0.0, "x is not"),
-    ],
-)
-def test_bad_points_are_refused(x, y, words):
-    with pytest.raises(ValueError, match=words):
-        sie.solve(PUNCH).stress(x, y)
-
-
-def test_a_quantity_that_needs_an_elastic_constant_is_refused_without_it():
-    s = sie.solve(sie.Scene(profile=sie.Parabola(1.0), modulus=1.0, half_width=1.0)).stress(
-        0.0, 0.5
-    )
-    assert np.isfinite(s.xx)
-    with pytest.raises(ValueError, match="Poisson's ratio"):
-        s.mises  # noqa: B018
-    with pytest.raises(ValueError, match="elastic constants of the body"):
-        s.strain  # noqa: B018
-
-
-def test_the_stress_in_a_rigid_body_is_refused():
-    scene = sie.Scene(profile=sie.Parabola(1.0), body=sie.RIGID, indenter=STEEL, half_width=0.1)
-    with pytest.raises(sie.ContactError, match="rigid"):
-        sie.solve(scene).stress(0.0, 0.1)
-
-
-def test_partial_slip_is_not_mistaken_for_full_sliding():
-    slipping = sie.solve(sie.Scene(
-        profile=sie.Parabola(1.0), modulus=1.0, normal_load=1.0, friction=0.5, tangential_load=0.4,
-    ))  # fmt: skip
-    sliding = slipping.with_(tangential_load=0.5)
-    assert slipping.surface_stress(0.0).xy < 0.99 * sliding.surface_stress(
-        0.0
-    ).xy < 0.0 or slipping.shear(0.0) < 0.9 * sliding.shear(0.0)
-    assert slipping.peak_tension().value < sliding.peak_tension().value

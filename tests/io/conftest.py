@@ -1,0 +1,15 @@
+"""A scene file for tests of the command line."""
+
+from pathlib import Path
+
+import pytest
+
+from sie.io import scene_file
+
+
+@pytest.fixture
+def scene(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> str:
+    """The name of a scene file in the current directory."""
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "scene.toml").write_text(scene_file.example("rounded-flat"))
+    return "scene.toml"

@@ -1,0 +1,297 @@
+"""What is found in a mesh result, noted about it, and refused."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from mesh_cases import (
+    ABAQUS_FIELD,
+    AT,
+    DECK,
+    NODES,
+    SOLUTION,
+    WRITTEN,
+    P,
+    Q,
+    X,
+    compared,
+    dat,
+    frd,
+    written,
+)
+
+import sie
+from sie.io.mesh_comparison import compare
+from sie.io.mesh_files.names import meaning
+from sie.io.mesh_result import Mesh, Points
+
+# -- names -----------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("quantity", "names"),
+    [
+        ("x", "COORD.1 COORD_1 Points:0 Points_0 Points_X coord.coor1 coor_x x X-coordinate"),
+        ("y", "COORD.2 Points:1 Points_1 Points_Y COORD.COOR2 coor_y depth"),
+        ("p", "cpress_path lags_c solid.tn solid.Tn CONTACT_CPRESS press CONT_PRES"),
+        ("q", "CSHEAR1 tang1 CONTACT_CSHEAR1 solid.Ttx"),
+        ("sxx", "S11 S.S11 S-S11 S:S11 SIXX sigma_xx SX stress_xx solid.sx"),
+        ("sxy", "S12 SIXY tau_xy SXY stress_xy"),
+        ("mises", "VMIS vonmises_stress S.Mises SEQV solid.mises"),
+        ("", "time id z Points:2 COORD.COOR3 CSHEAR2 tang2 S13 SYZ CSLIP1"),
+    ],
+)  # fmt: skip
+def test_the_names_of_the_codes_are_known(quantity, names):
+    assert {name: meaning(name) for name in names.split()} == dict.fromkeys(names.split(), quantity)
+
+
+@pytest.mark.parametrize(
+    "name", ["x location (mm)", "X Location (mm)", "x_mm", "x [m]", "x/mm", '"Points:0"']
+)
+def test_a_unit_behind_a_name_is_no_part_of_it(name):
+    assert meaning(name) == "x"
+
+
+# -- what is found, and noted ----------------------------------------------------------------------
+
+
+def table(header, *columns):
+    lines = [header, *(",".join(map(repr, row)) for row in np.column_stack(columns).tolist())]
+    return "\n".join(lines) + "\n"
+
+
+SCALE = np.linspace(0.0, 3.0, 13)
+
+
+def block(height, sign=-1.0):
+    """Positions, heights, depths and stress of a block whose surface is at a height."""
+    x, depth = (a.ravel() for a in np.meshgrid(X, SCALE))
+    s = SOLUTION.stress(x, depth)
+    return x, height + sign * depth, depth, s
+
+
+@pytest.mark.parametrize("height", [40.0, 2.0, -7.0, 0.0])
+def test_the_height_of_the_surface_is_found_by_the_pressure(height, tmp_path):
+    x, y, depth, s = block(height)
+    p = np.where(depth == 0.0, SOLUTION.pressure(x), 0.0)
+    text = table("x,y,CPRESS,S11,S12", x, y, p, s.xx, -s.xy)
+    comparison = compared(text, tmp_path)
+    assert max(d.l2 for d in comparison.differences.values()) < 1e-12
+    assert comparison.differences["p"].points == 21
+    assert bool(height) == any(f"at y = {height:g}" in note for note in comparison.mesh.notes)
+
+
+def test_the_height_of_the_surface_is_found_by_the_stress(tmp_path):
+    x, y, _, s = block(3.0)  # from the bottom, y = 0, to the surface
+    comparison = compared(table("x,y,S22,S12", x, y, s.yy, -s.xy), tmp_path)
+    assert max(d.l2 for d in comparison.differences.values()) < 1e-12
+    assert any("largest at y = 3" in note for note in comparison.mesh.notes)
+
+
+@pytest.mark.parametrize(("body", "sign"), [("below", -1.0), ("above", 1.0)])
+def test_a_body_is_chosen_by_an_option(body, sign, tmp_path):
+    x, y, _, s = block(1.0, sign)
+    other = np.full(len(x), 9.0)
+    text = table(
+        "x,y,S11,S12",
+        np.tile(x, 2), np.concatenate((y, 2.0 - y + 1e-3 * -sign)),
+        np.concatenate((s.xx, other)), np.concatenate((sign * s.xy, other)),
+    )  # fmt: skip
+    comparison = compared(text, tmp_path, surface=1.0, body=body)
+    assert max(d.l2 for d in comparison.differences.values()) < 1e-12
+
+
+def test_nodes_that_stand_twice_are_averaged_with_a_note(tmp_path):
+    x, p = np.tile(X, 2), np.concatenate((1.1 * P, 0.9 * P))
+    comparison = compared(table("x,p", x, p), tmp_path)
+    assert comparison.differences["p"].points == 21
+    assert comparison.differences["p"].l2 < 1e-12
+    assert "42 values of p stand at 21 places" in comparison.mesh.notes[0]
+
+
+def test_zeros_that_the_other_body_has_at_the_same_place_are_left_out(tmp_path):
+    x, y = np.tile(X, 2), np.zeros(2 * len(X))
+    comparison = compared(table("x,y,CPRESS", x, y, np.concatenate((P, 0.0 * P))), tmp_path)
+    assert comparison.differences["p"].l2 < 1e-12
+    assert any("of another body" in note for note in comparison.mesh.notes)
+
+
+def test_a_traction_on_a_curved_surface_is_compared_where_it_acts(tmp_path):
+    curved = {n: (x, y + (0.01 * x * x if n > 10 else 0.0)) for n, (x, y) in NODES.items()}
+    deck = DECK
+    for n in range(11, 16):
+        (x, y), (_, new) = NODES[n], curved[n]
+        deck = deck.replace(
+            f"{n}, {float(x)!r}, {y!r}, 0.", f"{n}, {float(x)!r}, {float(new)!r}, 0."
+        )
+    written(tmp_path / "run.inp", deck)
+    p = SOLUTION.pressure(AT)
+    points = [(f"{n:10d}", (p[n - 11], 0.0, 0.0)) for n in range(11, 16)]
+    comparison = compared(dat("slave node,press,tang1,tang2", points), tmp_path, "run.dat")
+    assert comparison.differences["p"].points == np.count_nonzero(p)
+    assert comparison.differences["p"].l2 < WRITTEN
+    assert any("where they act" in note for note in comparison.mesh.notes)
+
+
+def test_the_load_of_element_centres_counts_whole_elements(tmp_path):
+    edges = np.linspace(*SOLUTION.edges, 41)
+    centres = 0.5 * (edges[1:] + edges[:-1])
+    comparison = compared(table("x,p", centres, SOLUTION.pressure(centres)), tmp_path)
+    dx = edges[1] - edges[0]
+    exact = SOLUTION.pressure(centres).sum() * dx / SOLUTION.normal_load - 1.0
+    assert comparison.differences["p"].resultant == pytest.approx(exact, abs=1e-12)
+
+
+UNSHEARED = SOLUTION.with_(tangential_load=0.0)
+
+
+@pytest.mark.parametrize("side", [1.0, -1.0])
+@pytest.mark.parametrize("first", [0.0, 0.02])
+def test_half_a_model_is_mirrored_with_a_note(first, side, tmp_path):
+    x = side * np.arange(first, 1.3, 0.04)
+    text = table("x,p,S11,S12", x, UNSHEARED.pressure(x), x**2, x)
+    comparison = compared(text, tmp_path, solution=UNSHEARED)
+    assert abs(comparison.differences["p"].resultant) < 0.01
+    assert any("mirrored" in note for note in comparison.mesh.notes)
+    x, _, sxy = comparison.mesh.points("sxy")
+    assert sxy == pytest.approx(x)
+
+
+def test_half_a_contact_with_a_tangential_load_is_not_mirrored(tmp_path):
+    x = np.arange(0.0, 1.3, 0.04)
+    comparison = compared(table("x,p", x, SOLUTION.pressure(x)), tmp_path)
+    assert comparison.differences["p"].resultant == pytest.approx(-0.5, abs=0.05)
+    (note,) = (note for note in comparison.mesh.notes if "load is that of this half" in note)
+    assert note.endswith("as the contact has a tangential load")
+
+
+def test_a_path_that_starts_at_one_side_is_shifted_and_not_mirrored(tmp_path):
+    x = np.linspace(-1.3, 1.3, 53)
+    comparison = compared(table("x,p", x + 1.3, SOLUTION.pressure(x)), tmp_path)
+    difference = comparison.differences["p"]
+    assert difference.shift == pytest.approx(1.3, abs=1e-4)
+    assert difference.l2_shifted < 1e-2
+    assert abs(difference.resultant) < 0.01
+
+
+def test_a_uniform_stress_is_found_and_the_norm_given_without_it(tmp_path):
+    x, y, _, s = block(0.0)
+    difference = compared(table("x,y,S11", x, y, s.xx + 0.25), tmp_path).differences["sxx"]
+    assert difference.uniform == pytest.approx(0.25)
+    assert difference.l2_uniform < 1e-12 < difference.l2
+    assert "stress +0.25 all over" in "\n".join(difference.lines("sxx", "a.csv"))
+
+
+def test_sign_unit_and_uniform_stress_are_found_together(tmp_path):
+    x, y, _, s = block(0.0)
+    difference = compared(table("x,y,S11", x, y, -1e6 * (s.xx + 0.25)), tmp_path).differences["sxx"]
+    assert difference.l2_fitted < 1e-9
+
+
+@pytest.mark.parametrize(
+    ("factor", "unit"),
+    [(1e6, "Pa beside MPa"), (-1e-6, "MPa beside Pa"), (145.0, "psi beside MPa")],
+)
+def test_the_unit_of_a_stress_is_named(factor, unit, tmp_path):
+    difference = compared(table("x,p", X, factor * P), tmp_path).differences["p"]
+    assert unit in difference.suspicion
+    assert ("signs" in difference.suspicion) == (factor < 0.0)
+
+
+def test_a_result_of_zeros_has_no_other_unit(tmp_path):
+    difference = compared(table("x,p", X, 0.0 * P), tmp_path).differences["p"]
+    assert difference.factor == 0.0 and difference.suspicion == ""
+
+
+def test_the_verdict_names_the_quantities_that_exceed(tmp_path):
+    comparison = compared(table("x,p,q", X, P, 1.1 * Q), tmp_path)
+    assert str(comparison).endswith("l2 of q EXCEEDS 0.01; that of p is within it")
+
+
+def test_stress_far_from_the_contact_is_left_out_with_a_note(tmp_path):
+    x, y = (a.ravel() for a in np.meshgrid(np.linspace(-40.0, 40.0, 81), np.linspace(0.0, 1.0, 3)))
+    wrong = SOLUTION.stress(x, y).xx + np.where(np.abs(x) > 20.0, 1e3, 0.0)
+    comparison = compared(table("x,y,S11", x, y, wrong), tmp_path)
+    assert comparison.ok
+    assert any("half-widths of the contact" in note for note in comparison.mesh.notes)
+
+
+def test_what_needs_an_unknown_poisson_ratio_is_passed_over_with_a_note(tmp_path):
+    solution = sie.solve(replace(SOLUTION.scene, poisson=None))
+    x, y, _, s = block(0.0)
+    comparison = compared(table("x,y,S11,S33", x, y, s.xx, s.zz), tmp_path, solution=solution)
+    assert set(comparison.differences) == {"sxx"}
+    assert any("szz is not compared" in note for note in comparison.mesh.notes)
+
+
+@pytest.mark.parametrize("quantities", [("p",), ("p", "q"), ("p", "sxx", "mises")])
+def test_a_picture_shows_every_point_near_the_contact_and_nothing_far_from_it(quantities):
+    pytest.importorskip("matplotlib", reason="Matplotlib is not installed")
+    from sie.plots.comparison_plot import overlay  # noqa: PLC0415 -- needs Matplotlib
+
+    x = np.concatenate((X, [50.0]))
+    deep = Points(*(a.ravel() for a in np.meshgrid(x, [0.0, 0.3, 30.0])), np.ones(3 * len(x)))
+    line = Points(x, 0.0 * x, np.append(-SOLUTION.pressure(X), 0.0))
+    fields = {name: line if name in "pq" else deep for name in quantities}
+    mesh = Mesh("a.csv", fields)
+    figure = overlay(SOLUTION, compare(SOLUTION, mesh, 1e-2))
+    assert max(figure.get_size_inches()) < 8.0
+    panel = figure.axes[0]
+    assert panel.get_ylim()[0] < -P.max()
+    assert panel.get_xlim()[1] < 2.0
+    assert len(panel.lines[1].get_xdata()) == len(X)
+
+
+# -- what is refused -------------------------------------------------------------------------------
+
+
+REFUSED = {
+    "more names than columns": ("x,press,extra\n0,1\n0.1,1\n", "a.csv", "names 3"),
+    "fewer names than columns": ("x press\n0 1 2\n0.1 1 2\n", "a.txt", "has 3 columns"),
+    "a comment of another width": ("# x y p\n0 1\n0.1 1\n", "a.txt", "names 3"),
+    "an unknown quantity": ("x,presure\n0,1\n0.1,1\n", "a.csv", '"presure" meant as "pressure"'),
+    "a dat file without its deck": (
+        dat("slave node,press,tang1,tang2", [("         1", (1.0, 0.0, 0.0))]), "a.dat", "--deck",
+    ),
+    "a dat file without stress": (
+        " displacements (vx,vy,vz) for set N and time  0.1E+01\n\n 1 0. 0. 0.\n", "run.dat",
+        "*CONTACT PRINT",
+    ),
+    "a frd file that is cut off": (frd()[:2000] + "\n -1     xyz 1.0", "a.frd", "is cut off"),
+    "a frd file that ends too early": (
+        "\n".join(frd().splitlines()[:-4]), "a.frd", "ends within a block",
+    ),
+    "a frd file of displacements": (
+        frd().replace("STRESS", "DISP  ").replace("CONTACT", "DISP   ").replace(" -5  S", " -5  D")
+        .replace("CPRESS", "D1    ").replace("CSHEAR1", "D2     "), "a.frd", "*EL FILE",
+    ),
+    "a report without coordinates": (
+        ABAQUS_FIELD.replace("COORD.COOR1", "U.U1       "), "a.rpt", "write COORD",
+    ),
+    "another unit of length": (table("x,p", 1e-3 * X, P), "a.csv", "units of length"),
+    "a vtu file that is none": ("<VTKFile", "a.vtu", "meshio"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("case", REFUSED)
+def test_what_cannot_be_compared_is_refused_in_a_sentence(case, tmp_path):
+    text, name, says = REFUSED[case]
+    written(tmp_path / "run.inp", DECK)
+    with pytest.raises(ValueError) as refusal:
+        compared(text, tmp_path, name)
+    assert says in str(refusal.value)
+    assert name in str(refusal.value)
+    assert "\n" not in str(refusal.value)
+
+
+def test_the_unit_of_length_that_would_fit_is_named(tmp_path):
+    solution = in_metres()
+    with pytest.raises(ValueError, match=r"x times 0\.001 would lie there"):
+        compared(table("x,p", X, P), tmp_path, solution=solution)
+
+
+def in_metres():
+    """The contact in metres, beside a file in millimetres."""
+    scene = replace(SOLUTION.scene, profile=sie.RoundedFlat(0.5e-3, 4e-3), normal_load=1e-3,
+                    tangential_load=0.0)  # fmt: skip
+    return sie.solve(scene)

@@ -1,0 +1,326 @@
+"""Contacts of sampled profiles: patches, shear, stress, and mesh results beside them."""
+
+import itertools
+import json
+import re
+
+import numpy as np
+import pytest
+from hypothesis import example, given, settings
+from hypothesis import strategies as st
+from traces import H, X, pressed
+
+import sie
+from sie.cli import main
+from sie.contact import normal
+from sie.io import scene_file
+from sie.io.mesh_result import read_mesh
+
+# -- several patches -------------------------------------------------------------------------------
+
+
+WAVY = sie.Sampled(X, H + 0.1 * np.cos(12.0 * X))
+
+
+def test_one_patch_of_a_rough_trace_is_refused_with_its_intervals_and_what_helps():
+    says = r"for x in \[.*\], \[.*give normal_load.*or smooth the profile"
+    with pytest.raises(sie.ContactError, match=says):
+        sie.solve(sie.Scene(profile=WAVY, modulus=1.0, half_width=0.6)).one_patch()
+
+
+@pytest.mark.parametrize(
+    "made",
+    [
+        lambda t: t,
+        lambda t: t.mirrored().shifted(3.0),
+        lambda t: t.tilted(0.01) + sie.Parabola(50.0),
+    ],
+    ids=["trace", "mirrored and shifted", "tilted, in a sum"],
+)
+def test_the_least_smoothing_makes_one_patch_of_the_profile_that_was_asked(made):
+    scene = sie.Scene(profile=made(WAVY), modulus=1.0, normal_load=0.3)
+    lam = sie.least_smoothing(scene)
+    assert pressed(made(WAVY.smoothed(lam)), 0.3).check().ok
+    assert len(pressed(made(WAVY.smoothed(0.3 * lam)), 0.3).patches) > 1
+
+
+def test_a_trace_that_touches_in_one_patch_needs_no_more_smoothing_than_it_has():
+    assert sie.least_smoothing(pressed(sie.Sampled(X, H)).scene) == 0.0
+
+
+def test_a_trace_that_no_smoothing_helps_and_a_profile_without_trace_are_refused():
+    with pytest.raises(sie.ContactError, match="no smoothing of the trace"):
+        sie.least_smoothing(pressed(sie.Sampled(X, -H)).scene)
+    with pytest.raises(ValueError, match="is no trace"):
+        sie.least_smoothing(pressed(sie.Parabola(1.0)).scene)
+
+
+@pytest.mark.parametrize("load", [1e-3, 0.3, 2.0])
+def test_a_rough_trace_costs_at_most_one_search_for_one_patch(load, monkeypatch):
+    searches, smoothings = [], []
+    whole = normal.normal_contact
+    counted = lambda *args: searches.append(args) or whole(*args)  # noqa: E731
+    monkeypatch.setattr("sie.frictionless.normal_contact", counted)
+    monkeypatch.setattr("sie.profiles.sampled.cross_validated", smoothings.append)
+    rough = sie.Sampled(X, H + 0.1 * np.cos(40.0 * X))
+    assert len(pressed(rough, load).patches) > 1
+    # none where the load is light and several valleys are known to touch
+    assert len(searches) <= 1
+    assert smoothings == []
+
+
+@pytest.mark.parametrize(
+    ("h", "says"),
+    [
+        (-H, r"arches upwards.*scale = \(1, -1\)"),
+        (0.0 * X + 3.0, "straight line"),
+        (0.2 * X - 1e6, "straight line"),
+        (H - 4.0 * X, "lowest at its end.*levelled"),
+        (H - 3.0 * X, "measure further out$"),
+    ],
+    ids=["upside down", "flat", "tilted flat", "tilted", "askew"],
+)
+def test_a_contact_at_the_end_of_a_trace_is_refused_with_the_trace_s_own_reason(h, says):
+    with pytest.raises(sie.ContactError, match=says) as refused:
+        pressed(sie.Sampled(X, h), 1.0).edges  # noqa: B018 -- computes it
+    assert ("other sign" in str(refused.value)) == ("arches" in says)
+
+
+@pytest.mark.parametrize("sign", [-1.0, 1.0])
+def test_a_refusal_names_places_of_the_trace(sign):
+    """One of both edges is searched for in the mirror image."""
+    x, places = np.linspace(1500.0, 1530.0, 301), []
+    for slope, load in itertools.product((0.05, 0.2, 0.5), (0.01, 0.1, 1.0, 5.0)):
+        trace = sie.Sampled(x, 0.1 * np.cos(2.0 * (x - 1500.0)) - sign * slope * (x - 1500.0))
+        try:
+            pressed(trace, load).edges  # noqa: B018 -- computes it
+        except sie.ContactError as refused:
+            places += re.findall(r"x[12]? = ([-\d.]*\d)|\[([-\d.]+), ([-\d.]+)\]", str(refused))
+    named = [float(place) for group in places for place in group if place]
+    assert len(named) > 6
+    assert all(1500.0 <= place <= 1530.0 for place in named)
+
+
+def wavy_pad(height, waves):
+    x = np.linspace(-3.0, 3.0, 601)
+    return sie.Sampled(
+        x,
+        np.maximum(np.abs(x) - 1.0, 0.0) ** 2 / 60.0 + height * np.cos(waves * x + 0.3) + 1e-3 * x,
+    )
+
+
+@pytest.mark.parametrize("load", [3e-3, 1e-2])
+def test_waves_on_a_base_do_not_hide_the_contact_that_presses_them_flat(load):
+    # Contacts that begin at the lowest wave and grow with the load end in it.
+    solution = pressed(wavy_pad(1e-4, 6.0), load)
+    assert solution.check().ok
+    same = sie.solve(
+        sie.Scene(profile=solution.scene.profile, modulus=1.0, half_width=solution.half_width)
+    )
+    assert (same.edges, same.normal_load) == (
+        pytest.approx(solution.edges, rel=1e-12),
+        pytest.approx(load, rel=1e-12),
+    )
+
+
+@given(st.floats(1e-5, 3e-4), st.floats(3.0, 30.0), st.floats(1e-5, 1e-2))
+# An edge within some ulp of a point of the trace
+@example(3.208964811676877e-05, 9.81311208978229, 0.0031236263147810506)
+@settings(max_examples=20)
+def test_waves_on_a_base_are_solved_or_refused(height, waves, load):
+    try:
+        found = pressed(wavy_pad(height, waves), load).check()
+        says = "" if found.ok or found.error <= 1e-11 else "not certified"
+    except sie.ContactError as refused:
+        says = str(refused)
+    assert not says or "smooth" in says
+
+
+# -- all that follows from the pressure ------------------------------------------------------------
+
+
+def test_friction_stress_yield_and_tension_of_a_trace_are_those_of_its_function():
+    x = np.linspace(-2.0, 2.0, 401)
+    given = {
+        "modulus": 1.0,
+        "normal_load": 0.5,
+        "friction": 0.5,
+        "tangential_load": 0.1,
+        "poisson": 0.3,
+    }
+    sampled = sie.solve(sie.Scene(profile=sie.Sampled(x, np.cosh(x) - 1.0), **given))
+    exact = sie.solve(sie.Scene(profile=sie.FromFunction(np.sinh, domain=(-2.0, 2.0)), **given))
+    assert sampled.check().ok
+    (c1, c2), (d1, d2) = sampled.stick[0], exact.stick[0]
+    assert (c1, c2) == pytest.approx((d1, d2), abs=1e-8)  # the spline's own error
+    at = np.linspace(-0.9, 0.9, 9) * exact.half_width
+    assert sampled.shear(at) == pytest.approx(exact.shear(at), abs=1e-6)
+    assert sampled.stress(at, 0.3).mises == pytest.approx(exact.stress(at, 0.3).mises, abs=1e-8)
+    assert sampled.elastic_limit().stress == pytest.approx(exact.elastic_limit().stress, rel=1e-6)
+    assert sampled.peak_tension().value == pytest.approx(exact.peak_tension().value, rel=1e-5)
+
+
+# -- a mesh result beside it -----------------------------------------------------------------------
+
+
+SCENE = """
+[profile]
+kind = "rounded-flat"
+half_flat = 0.5
+radius = 10.0
+[body]
+young = 1e4
+poisson = 0.3
+[load]
+normal_load = 100.0
+friction = 0.4
+tangential_load = 20.0
+"""
+
+
+@pytest.fixture
+def mesh(tmp_path, capsys):
+    """A scene file, its solution, and a writer of mesh results."""
+    scene = tmp_path / "scene.toml"
+    scene.write_text(SCENE)
+
+    def run(columns, *options):
+        file = tmp_path / "fem.csv"
+        np.savetxt(
+            file,
+            np.stack([np.ravel(c) for c in columns.values()], axis=1),
+            delimiter=",",
+            header=",".join(columns),
+            comments="",
+        )
+        code = main(["compare", str(scene), str(file), *options])
+        return code, *capsys.readouterr()
+
+    return sie.solve(scene_file.read(str(scene)).scene), run
+
+
+def test_a_mesh_result_passes_or_fails_by_its_l2_error(mesh):
+    solution, run = mesh
+    x = np.linspace(*solution.edges, 101)
+    columns = {"x": x, "CPRESS": 1.02 * solution.pressure(x), "CSHEAR1": solution.shear(x)}
+    assert run(columns, "--tol", "0.03")[0] == 0
+    code, printed, _ = run(columns, "--tol", "0.01")
+    assert code == 1
+    assert "EXCEEDS" in printed
+    assert "l2     2.000e-02" in printed
+
+
+def test_nodes_that_two_elements_share_leave_the_load_as_it_is(mesh):
+    solution, run = mesh
+    x = np.repeat(np.linspace(*solution.edges, 201), 2)
+    found = json.loads(run({"x": x, "p": solution.pressure(x)}, "--json")[1])["differences"]["p"]
+    assert found["resultant"] == pytest.approx(0.0, abs=1e-2)
+
+
+def test_a_column_called_depth_is_one(mesh):
+    solution, run = mesh
+    x = np.linspace(*solution.edges, 21)
+    code, _, _ = run(
+        {"X-coordinate": x, "depth": np.full(21, 0.4), "S11": solution.stress(x, 0.4).xx}
+    )
+    assert code == 0
+
+
+def test_the_shift_of_a_mesh_is_found(mesh):
+    solution, run = mesh
+    x = np.linspace(*solution.edges, 201)
+    found = json.loads(run({"x": x + 0.01, "p": solution.pressure(x)}, "--json")[1])["differences"][
+        "p"
+    ]
+    assert found["shift"] == pytest.approx(0.01, abs=1e-6)
+    assert found["l2_shifted"] < 1e-6 < found["l2"]
+    assert found["resultant"] == pytest.approx(0.0, abs=1e-2)
+
+
+def test_stresses_in_the_body_are_compared_whichever_way_y_points(mesh, tmp_path):
+    solution, run = mesh
+    x, y = np.meshgrid(np.linspace(-1.0, 1.2, 12), np.linspace(0.0, 1.0, 7))
+    stress = solution.stress(x, y)
+    down = {
+        "x": x,
+        "y": y,
+        "sxx": stress.xx,
+        "syy": stress.yy,
+        "sxy": stress.xy,
+        "szz": stress.zz,
+        "mises": stress.mises,
+    }
+    up = {
+        "x": x,
+        "y": -y,
+        "S-S11": stress.xx,
+        "S-S22": stress.yy,
+        "S-S12": -stress.xy,
+        "S-S33": stress.zz,
+        "S-Mises": stress.mises,
+    }
+    picture = tmp_path / "body.png"
+    for columns in (down, up):
+        code, printed, _ = run(columns, "--tol", "1e-12", "--plot", str(picture))
+        assert code == 0, printed
+    assert picture.stat().st_size > 1000
+    assert run(down | {"sxy": -stress.xy}, "--tol", "1e-2")[0] == 1
+
+
+@pytest.mark.parametrize(
+    ("columns", "says"),
+    [
+        ({"x": [0, 0.1], "z": [1, 1]}, "has the columns x, z"),
+        ({"x": [0, 0.1], "y": [-1, 1], "sxx": [1, 1]}, "on one side of y = 0"),
+        ({"x": [0, 0.1], "y": [1, 2], "p": [1, 1]}, "no points of p on the surface"),
+        ({"x": [100, 101], "p": [1, 1]}, "units of length, or the origins"),
+    ],
+)
+def test_a_file_that_cannot_be_compared_is_refused_with_a_reason(columns, says, mesh):
+    code, _, error = mesh[1](columns)
+    assert code == 2
+    assert says in error
+
+
+def test_columns_that_are_not_compared_are_named(mesh, tmp_path):
+    solution, run = mesh
+    x = np.linspace(*solution.edges, 21)
+    columns = {"x": x, "p": solution.pressure(x), "tangential": solution.shear(x)}
+    _, printed, _ = run(columns)
+    assert "not compared: the columns tangential of" in printed
+    assert json.loads(run(columns, "--json")[1])["not_compared"] == ["tangential"]
+    assert "not compared" not in run({"x": x, "p": solution.pressure(x)})[1]
+    bare = tmp_path / "bare.csv"
+    np.savetxt(bare, np.column_stack(list(columns.values())), delimiter=",")
+    assert read_mesh(bare).others == ("2",)
+
+
+@pytest.mark.parametrize(
+    ("factor", "asks"),
+    [
+        (-1.0, "factor -1 fits best, and leaves l2 = 0.000e+00: are the signs"),
+        (1e-6, "factor +1e-06"),
+        (1e6, "units of load"),
+        (1.3, ""),
+    ],
+)
+def test_other_units_and_signs_are_suspected_from_the_factor_that_fits(factor, asks, mesh):
+    solution, run = mesh
+    x = np.linspace(*solution.edges, 101)
+    code, printed, _ = run({"x": x, "p": factor * solution.pressure(x), "q": solution.shear(x)})
+    assert code == 1
+    assert ("factor" in printed) == bool(asks)
+    assert asks in printed
+
+
+def test_noise_is_no_suspicion(mesh):
+    solution, run = mesh
+    x = np.linspace(*solution.edges, 101)
+    noise = np.random.default_rng(0).normal(size=x.shape)
+    assert "factor" not in run({"x": x, "p": noise})[1]
+
+
+@pytest.mark.parametrize("path", [5, None, ["a.csv"], 1.5], ids=repr)
+def test_what_is_no_name_of_a_file_is_refused(path):
+    with pytest.raises(ValueError, match="is not the name of a file"):
+        sie.Sampled.read(path)
