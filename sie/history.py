@@ -56,7 +56,7 @@ from .patches.path_energy import PathEnergy
 from .path_contacts import PathContacts
 from .plan import Plan, Step
 from .problem.load_path import Path
-from .problem.path_scene import as_scenes, in_proportion, unsheared
+from .problem.path_scene import in_proportion, one_after_the_other, unsheared
 from .problem.request import ECONOMY
 from .problem.scene import Scene
 from .progress_bar import counted
@@ -150,9 +150,9 @@ class History(PathContacts, Sequence[Solution]):
         self._points: dict[int, PathSolution] = {}
         self._energy = PathEnergy(self)
         self._shifts: dict[int, float] = {}
-        self._kind, self.as_scenes = PathSolution, list[Solution]()
-        if steps is turning_points and as_scenes(scene, path):
-            self._kind, self.as_scenes = SceneSolution, self._solved_as_scenes()
+        self._kind, self.scene_states = PathSolution, list[Solution]()
+        if steps is turning_points and one_after_the_other(scene, path):
+            self._kind, self.scene_states = SceneSolution, self._solved_by_scenes()
         elif steps is turning_points and in_proportion(scene, path):
             self._kind = ProportionalSolution
         layered = self._kind is PathSolution
@@ -258,7 +258,7 @@ class History(PathContacts, Sequence[Solution]):
         """The energy lost from the beginning of the path to a turning point."""
         return self._energy.until(index)
 
-    def _solved_as_scenes(self) -> list[Solution]:
+    def _solved_by_scenes(self) -> list[Solution]:
         """The points as scenes, which share what they can; refused here if they are not covered."""
         found, scenes = self.solution(self.scene), []
         for P, Q, _ in self.path.points:
@@ -369,7 +369,7 @@ class SceneSolution(DissimilarSolution):
 
     def __init__(self, history: History, index: int) -> None:
         super().__init__(history, index)
-        self.__dict__.update(history.as_scenes[index].__dict__)
+        self.__dict__.update(history.scene_states[index].__dict__)
 
 
 class ProportionalSolution(DissimilarSolution):

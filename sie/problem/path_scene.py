@@ -23,7 +23,7 @@ def in_proportion(scene: Scene, path: Path) -> bool:
     return not any(start) and growing and in_line
 
 
-def as_scenes(scene: Scene, path: Path) -> bool:
+def one_after_the_other(scene: Scene, path: Path) -> bool:
     """Whether P of dissimilar bodies grows, and then Q: each state is that of its loads."""
     if not _dissimilar(scene) or not _by_loads_alone(path):
         return False
@@ -68,7 +68,7 @@ def unsheared(scene: Scene, path: Path) -> Scene:
     of them turns the indenter by tilt and the other by moment.
     """
     given = isinstance(path, Path) and isinstance(scene, Scene)
-    if not (given and (in_proportion(scene, path) or as_scenes(scene, path))):
+    if not (given and (in_proportion(scene, path) or one_after_the_other(scene, path))):
         refuse_uncovered(scene)
     if not isinstance(path, Path):
         raise ValueError(f"{path!r} is not a path: give sie.Path([(P, Q, σ), ...])")
