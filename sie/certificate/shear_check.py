@@ -181,6 +181,7 @@ def finite(values: Array) -> Array:
 # -- after steps that were marched -----------------------------------------------------------------
 
 MARCHED = 1e-8  # of the largest shear, and of a half-width: what is promised of them
+FAINT = 1e-4  # of the largest f p, a shear: of a smaller one that is promised of so large a one
 
 
 def marched_certificate(
@@ -203,7 +204,8 @@ def marched_certificate(
         residual, of_change = max(residual, float(missed)), max(of_change, float(rounding.max()))
     contact, (x, _, weight, *_) = parts[-1].pressure.contact, terms[-1].rule
     p, q = state.friction * parts[-1].pressure(x), parts[-1].shear(x)
-    size, peak = float(weight @ np.abs(q)), float(np.abs(q).max())
+    size = max(float(weight @ np.abs(q)), FAINT * float(weight @ p))
+    peak = max(float(np.abs(q).max()), FAINT * float(p.max()))
     # An end is known to so much, and q falls from f p there like a root.
     known = np.abs(np.subtract.outer(parts[-1].marks, x)).min(axis=0) > MARCHED * contact.r
     force, _, of_force, _ = integrals(terms[-1:], np.zeros(0))

@@ -67,6 +67,19 @@ def test_slip_of_a_small_step_costs_few_evaluations_of_it(monkeypatch):
     assert max(len(found[0].lo) for found in counted) < 300
 
 
+def test_a_shear_that_returns_to_none_is_found_from_few_places(monkeypatch):
+    """All sticks on a way and back: rounding is left of q, which no halving of panels resolves."""
+    seen = []
+    values = receding_step.Receded._values
+    monkeypatch.setattr(
+        receding_step.Receded, "_values", lambda self, x: seen.append(len(x)) or values(self, x)
+    )
+    point = after([(1, 0, 0), (1.5, 0.05, 0.01), (1, 0, 0)])
+    assert abs(point.shear(0.1)) <= 1e-13
+    assert sum(seen) <= 2000
+    assert point.check().ok
+
+
 def test_a_flat_punch_whose_tilt_returns_with_its_shear_sticks_all_over():
     flat = sie.Scene(profile=sie.Flat(1.0), modulus=1.0, friction=0.3, normal_load=1.0)
     point = after([*BEFORE, (1, -0.1, -0.05)], (0, 0.1, -0.1), flat)

@@ -218,19 +218,21 @@ def resolved_panels(
     short: float = 1.0,
     *,
     principal: bool = False,
+    least: float = LEAST,
 ) -> tuple[Panels, ...]:
     """Panels of several functions of 0 < y < b that are smooth between the marks, b the last.
 
     `values` has a row of each, at y and b - y, which next to b is known better than from y. Panels
     that are longer than `short`, of b, are resolved at every place; of others the force alone may
-    be what they are resolved to, or the principal values at their ends.
+    be what they are resolved to, or the principal values at their ends. Functions smaller than
+    `least` are resolved as if they were as large.
     """
     b = marks[-1]
     part = 0.5 * (1.0 + chebyshev.points(DEGREE))
     ends = (0.0, *marks)
     open_ = [(lo, hi, math.inf) for lo, hi in itertools.pairwise(ends) if hi > lo]
     done: list[tuple[float, float, Array]] = []
-    largest = np.zeros((1, 1))
+    largest = np.full((1, 1), least)
     while open_:
         lo, hi, before = (np.array(column) for column in zip(*open_, strict=True))
         y = lo[:, None] + (hi - lo)[:, None] * part
@@ -243,7 +245,7 @@ def resolved_panels(
         inner = sizes[:, hi < b].max(axis=1, keepdims=True, initial=0.0)
         largest = np.maximum(largest, inner)
         series = chebyshev.transform(f)
-        tail = np.abs(series[..., -2:]).max(axis=2) / np.maximum(sizes, largest + LEAST)
+        tail = np.abs(series[..., -2:]).max(axis=2) / np.maximum(sizes, largest)
         # A mark next to the axis is seen from as near as it is
         faint = FAINTER * np.where(lo > 0.0, hi, b) if principal else FAINT * b
         of_force = (tail * (hi - lo) <= faint) & (hi - lo <= short * b)

@@ -187,7 +187,11 @@ class MarchedStep(ABC):
     @cached_property
     def shear(self) -> PanelShear:
         """q."""
-        return PanelShear(self.pressure.contact, self._values, self.marks, self.Q)
+        values = self._values, self.marks, self.Q
+        return PanelShear(self.pressure.contact, *values, self._limit)
+
+    def _limit(self, x: Array) -> Array:
+        return self.friction * self.pressure(x)
 
     def _values(self, x: Array) -> Array:
         q: Array = np.where(x < self.stick.m, *self.signs) * self.friction * self.pressure(x)

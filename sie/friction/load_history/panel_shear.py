@@ -18,6 +18,9 @@ Array = NDArray[np.float64]
 SAME = 1e-13  # of the contact: marks that are nearer to each other are one
 # of a shear at a smooth edge: its power of the distance
 AT_EDGE = 0.5
+# of the largest f p, at these parts of the half-width: of a shear below it rounding would be seen,
+# which is some 1e-14 of f p
+FAINT, SEEN = 1e-4, np.linspace(-0.9, 0.9, 10)
 SHORT = 2e-9  # of the contact: panels at marks, less than what an end of a stick zone is known to
 
 
@@ -34,6 +37,8 @@ class PanelShear(OnHalves):
         Places where q is not smooth.
     load : float
         Its resultant, force per length.
+    limit : callable
+        f p at places in the contact: q is a difference of tractions as large as that.
     """
 
     def __init__(
@@ -42,8 +47,10 @@ class PanelShear(OnHalves):
         values: Callable[[Array], Array],
         marks: Collection[float],
         load: float,
+        limit: Callable[[Array], Array],
     ) -> None:
         self.contact, self.resultant, self._values = contact, load, values
+        self._least = FAINT * float(limit(contact.m + contact.r * SEEN).max())
         width = 2.0 * contact.r
         kept = [0.0]
         for y in sorted(contact.from_left(x) for x in marks):
@@ -60,7 +67,8 @@ class PanelShear(OnHalves):
         def from_left(y: Array, _: Array) -> Array:
             return self._values(np.minimum(self.contact.x1 + y, self.contact.x2))
 
-        return HalfPotential(resolved_panels(from_left, self._ends, AT_EDGE, short=SHORT)[0])
+        panels = resolved_panels(from_left, self._ends, AT_EDGE, short=SHORT, least=self._least)
+        return HalfPotential(panels[0])
 
     @cached_property
     def moment(self) -> float:  # type: ignore[override]

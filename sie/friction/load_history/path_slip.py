@@ -289,7 +289,12 @@ def held(history: Followed, point: TurningPoint, loads: tuple[float, float]) -> 
     if found.shear is ZERO:
         return found
     # on panels, as a step evaluates it often
-    return replace(found, shear=PanelShear(contact, found.shear, found.marks, loads[0]))
+
+    def limit(x: Array) -> Array:
+        return history.scene.friction * found.pressure(x)
+
+    shear = PanelShear(contact, found.shear, found.marks, loads[0], limit)
+    return replace(found, shear=shear)
 
 
 def _layered(history: Followed, point: TurningPoint, loads: tuple[float, float]) -> Held:
