@@ -3,60 +3,27 @@ loses nothing.
 """
 
 import builtins
-import os
 import sys
 import threading
 import types
 from concurrent.futures import (
-    BrokenExecutor,
     Executor,
     Future,
-    ProcessPoolExecutor,
-    ThreadPoolExecutor,
 )
 from dataclasses import replace
-from functools import partial
-from queue import SimpleQueue
 
 import numpy as np
 import pytest
+from sweep_cases import LOADS, SCENE, TILTS, plain, single
 
 import sie
 from sie import progress_bar, sweep_chunks, sweep_result, sweep_work, workers
 
 module = sys.modules["sie.sweep"]  # `sie.sweep` is the function
-SCENE = sie.Scene(profile=sie.RoundedFlat(0.5, 1.0), modulus=1.0, poisson=0.3, normal_load=0.3)
-THREE_WIDTHS = {"over": {"normal_load": [0.1, 0.2, 0.3]}, "want": "half_width"}
-FOUR_WIDTHS = {"over": {"normal_load": [0.1, 0.2, 0.3, 0.4]}, "want": "half_width"}
-LOADS, TILTS = [0.1, 0.2, 0.4], [0.0, 0.01]
-
-
-def plain(found):
-    """The arrays by name, whatever the kind of the result."""
-    return (
-        {name: np.asarray(found[name]) for name in found}
-        if isinstance(found, dict)
-        else {n: found[n].values for n in found.variables}
-    )
 
 
 def peak(solution):
     return float(solution.pressure(solution.centre))
-
-
-def single(**changes):
-    return sie.solve(SCENE).with_(**changes)
-
-
-@pytest.fixture(
-    params=[None, ThreadPoolExecutor, ProcessPoolExecutor], ids=["here", "threads", "processes"]
-)
-def executor(request):
-    if request.param is None:
-        yield None
-        return
-    with request.param(max_workers=2) as pool:
-        yield pool
 
 
 def test_every_point_equals_a_single_solution(executor):
@@ -144,220 +111,6 @@ def test_the_normal_problem_is_solved_once_for_all_frictions(monkeypatch):
         want="half_width",
     )
     assert len(solved) == 2
-
-
-class Interrupting(Executor):
-    """Runs two chunks, then the user presses Ctrl-C."""
-
-    def __init__(self):
-        self.futures = []
-
-    def submit(self, function, /, *args, **kwargs):
-        future = Future()
-        self.futures.append(future)
-        if len(self.futures) <= 2:
-            future.set_result(function(*args, **kwargs))
-        return future
-
-
-class InterruptedQueue(SimpleQueue):
-    """Gives so many futures, then the user presses Ctrl-C."""
-
-    def __new__(cls, most):
-        queue = super().__new__(cls)
-        queue.most = most
-        return queue
-
-    def get(self):
-        if not self.most:
-            raise KeyboardInterrupt
-        self.most -= 1
-        return super().get()
-
-
-def test_an_interrupt_loses_nothing(monkeypatch):
-    pool = Interrupting()
-
-    monkeypatch.setattr(workers, "SimpleQueue", partial(InterruptedQueue, 2))
-    with pytest.raises(KeyboardInterrupt) as caught:
-        sie.sweep(
-            SCENE,
-            over={"normal_load": [0.1, 0.2, 0.3, 0.4]},
-            want="half_width",
-            executor=pool,
-            chunk=1,
-        )
-    found = plain(caught.value.result)
-    assert np.isfinite(found["half_width"]).tolist() == [True, True, False, False]
-    assert found["reason"].tolist() == ["", "", "interrupted", "interrupted"]
-    assert all(f.done() or f.cancelled() for f in pool.futures)
-
-
-def test_an_interrupt_within_a_chunk_keeps_its_first_points():
-    asked = []
-
-    def impatient(solution):
-        asked.append(solution)
-        if len(asked) == 3:
-            raise KeyboardInterrupt
-        return solution.half_width
-
-    with pytest.raises(sie.Interrupted) as caught:
-        sie.sweep(SCENE, over={"normal_load": [0.1, 0.2, 0.3, 0.4]}, want={"b": impatient}, chunk=4)
-    assert np.isfinite(plain(caught.value.result)["b"]).tolist() == [True, True, False, False]
-
-
-def test_an_interrupt_keeps_chunks_that_are_done_but_not_yet_taken(monkeypatch):
-    monkeypatch.setattr(workers, "SimpleQueue", partial(InterruptedQueue, 0))
-    with pytest.raises(sie.Interrupted) as caught:
-        sie.sweep(SCENE, **THREE_WIDTHS, executor=Interrupting(), chunk=1)
-    assert np.isfinite(plain(caught.value.result)["half_width"]).tolist() == [True, True, False]
-
-
-def test_an_interrupt_while_chunks_are_given_to_the_workers_keeps_what_is_done():
-    class Impatient(Interrupting):
-        def submit(self, function, /, *args, **kwargs):
-            if len(self.futures) == 3:
-                raise KeyboardInterrupt
-            return super().submit(function, *args, **kwargs)
-
-    with pytest.raises(sie.Interrupted) as caught:
-        sie.sweep(SCENE, **FOUR_WIDTHS, executor=Impatient(), chunk=1)
-    assert np.isfinite(plain(caught.value.result)["half_width"]).tolist() == [
-        True,
-        True,
-        False,
-        False,
-    ]
-
-
-def one_in_three(solution):
-    return 1.0 / (solution.normal_load - 0.2)
-
-
-def test_a_function_that_raises_costs_its_own_point_only(executor):
-    found = plain(
-        sie.sweep(SCENE, over={"normal_load": LOADS}, want={"f": one_in_three}, executor=executor)
-    )
-    assert np.isnan(found["f"]).tolist() == [False, True, False]
-    assert found["reason"][1].startswith("ZeroDivisionError")
-
-
-class Broken(Interrupting):
-    """Its third worker dies."""
-
-    def submit(self, function, /, *args, **kwargs):
-        future = super().submit(function, *args, **kwargs)
-        if not future.done():
-            future.set_exception(RuntimeError("a worker died"))
-        return future
-
-
-def test_a_worker_that_dies_costs_its_own_chunk_only():
-    found = plain(sie.sweep(SCENE, **THREE_WIDTHS, executor=Broken(), chunk=1))
-    assert np.isfinite(found["half_width"]).tolist() == [True, True, False]
-    assert found["reason"][2] == "RuntimeError: a worker died"
-
-
-def deadly(solution):
-    """A half-width, but loads above 1 kill the process, as the system does with one that takes all
-    memory.
-    """
-    if solution.normal_load > 1.0:
-        os._exit(1)
-    return solution.half_width
-
-
-# From Python 3.12 on, a process that has threads (those of an older pool) warns when it is forked.
-pools_of_processes = pytest.mark.filterwarnings("ignore:.*fork.*:DeprecationWarning")
-
-
-@pools_of_processes
-@pytest.mark.parametrize(
-    "dying",
-    [{0}, {3}, {7}, {0, 4, 7}, set(range(8))],
-    ids=["the first", "one in the middle", "the last", "three", "all"],
-)
-def test_a_process_that_dies_costs_its_own_chunk_only(dying):
-    loads = [0.1 + 0.1 * k + (10.0 if k in dying else 0.0) for k in range(8)]
-    with ProcessPoolExecutor(2) as pool:
-        found = plain(
-            sie.sweep(
-                SCENE, over={"normal_load": loads}, want={"b": deadly}, executor=pool, chunk=1
-            )
-        )
-    assert np.isnan(found["b"]).tolist() == [k in dying for k in range(8)]
-    assert ["died" in reason for reason in found["reason"]] == [k in dying for k in range(8)]
-
-
-@pools_of_processes
-def test_a_pool_that_broke_before_the_sweep_costs_nothing():
-    with ProcessPoolExecutor(2) as pool:
-        assert isinstance(pool.submit(os._exit, 1).exception(), BrokenExecutor)
-        found = plain(
-            sie.sweep(SCENE, over={"normal_load": LOADS}, want="half_width", executor=pool)
-        )
-    assert found["half_width"].tolist() == [single(normal_load=P).half_width for P in LOADS]
-
-
-@pools_of_processes
-def test_processes_that_cannot_start_are_not_tried_for_each_chunk(monkeypatch):
-    started, original = [], workers._pool_of_one
-    monkeypatch.setattr(workers, "_pool_of_one", lambda pool: started.append(1) or original(pool))
-    with ProcessPoolExecutor(2, initializer=os._exit, initargs=(1,)) as pool:
-        found = plain(
-            sie.sweep(SCENE, over={"normal_load": LOADS}, want="half_width", executor=pool, chunk=1)
-        )
-    assert np.isnan(found["half_width"]).all() and all(
-        "died" in reason for reason in found["reason"]
-    )
-    assert len(started) == 1
-
-
-@pools_of_processes
-def test_an_interrupt_after_a_death_keeps_what_was_found(monkeypatch):
-    original, waited = workers.wait, []
-
-    def wait(futures, **kwargs):
-        waited.append(1)
-        if len(waited) == 3:
-            raise KeyboardInterrupt
-        return original(futures, **kwargs)
-
-    monkeypatch.setattr(workers, "wait", wait)
-    with ProcessPoolExecutor(1) as pool, pytest.raises(sie.Interrupted) as caught:
-        sie.sweep(
-            SCENE,
-            over={"normal_load": [9.0, 0.1, 0.2, 0.3]},
-            want={"b": deadly},
-            executor=pool,
-            chunk=1,
-        )
-    found = plain(caught.value.result)
-    assert np.isfinite(found["b"]).sum() >= 1 and found["reason"][-1] == "interrupted"
-
-
-@pytest.mark.parametrize("works_again", [True, False])
-def test_a_chunk_that_an_executor_refuses_is_given_to_it_once_more(works_again):
-    class Refusing(Executor):
-        asked = 0
-
-        def submit(self, function, /, *args, **kwargs):
-            self.asked += 1
-            if self.asked == 3 or (self.asked > 3 and not works_again):
-                raise BrokenExecutor("a worker died")
-            future = Future()
-            future.set_result(function(*args, **kwargs))
-            return future
-
-    found = plain(sie.sweep(SCENE, **FOUR_WIDTHS, executor=Refusing(), chunk=1))
-    assert np.isfinite(found["half_width"]).tolist() == [
-        True,
-        True,
-        works_again,
-        works_again,
-    ]
-    assert ["died" in reason for reason in found["reason"][2:]] == [not works_again] * 2
 
 
 @pytest.mark.parametrize(

@@ -1,0 +1,370 @@
+"""Partial slip under a bulk stress beside P and Q."""
+
+import math
+import re
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import strategies
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from slip_cases import E, F, P, left_over, mp, rounded_load, sheared
+
+import sie
+
+
+def test_a_moderate_bulk_stress_shifts_the_stick_zone_of_hertz():
+    """Nowell & Hills (1987): e = σ b/(4 f p0), c = b sqrt(1 - Q/(f P))."""
+    sigma, solution = 0.05, sheared(sie.Parabola(1.0), 0.6, bulk_stress=0.05)
+    b, p0 = solution.half_width, 2.0 * P / (np.pi * solution.half_width)
+    e, c = sigma * b / (4.0 * F * p0), b * math.sqrt(0.4)
+    assert solution.stick[0] == pytest.approx((e - c, e + c), rel=1e-13)
+    assert solution.tangential.kind == "one sign"
+    x = np.linspace(e - 0.99 * c, e + 0.99 * c, 9)
+    q = F * p0 * (np.sqrt(1.0 - (x / b) ** 2) - c / b * np.sqrt(1.0 - ((x - e) / c) ** 2))
+    assert solution.shear(x) == pytest.approx(q, rel=1e-12)
+
+
+def test_with_bulk_stress_the_stick_zone_can_end_inside_the_flat():
+    """a/b = 0.7, Q/(f P) = 0.8, σ/(2 f E*) = 0.03 (b = R = 1); to all digits: both edges'
+    conditions, ∫H/w = 0 and the load.
+    """
+    load = float(rounded_load(mp.mpf("0.7"), mp.mpf(1)))
+    scene = sie.Scene(
+        profile=sie.RoundedFlat(0.7, 1.0),
+        modulus=E,
+        normal_load=load,
+        friction=F,
+        tangential_load=0.8 * F * load,
+        bulk_stress=0.06 * F * E,
+    )
+    lo, hi = sie.solve(scene).stick[0]
+    assert (round(lo, 4), round(hi, 4)) == (-0.4437, 0.8862)
+    m, r = (mp.mpf(lo) + hi) / 2, (mp.mpf(hi) - lo) / 2
+
+    def H(phi):
+        t = m + r * mp.sin(phi)
+        return (
+            max(t - mp.mpf(0.7), 0)
+            + min(t + mp.mpf(0.7), 0)
+            - mp.mpf(scene.bulk_stress) / (2 * F * E)
+        )
+
+    ends = [-mp.pi / 2, mp.asin((mp.mpf(0.7) - m) / r), mp.pi / 2]
+    assert abs(mp.quad(H, ends)) < 1e-15
+    assert (
+        abs(
+            E
+            * r
+            / 2
+            * mp.quad(lambda phi: H(phi) * mp.sin(phi), ends)
+            / left_over(sie.solve(scene))
+            - 1
+        )
+        < 1e-14
+    )
+
+
+def test_a_stick_zone_at_a_sharp_edge_may_slip_against_the_load():
+    """The strain pulls the far side back, and all of Q is held at the edge: q = -f (p - p̂), p̂
+    under P + |Q|/f.
+    """
+    scene = sie.Scene(
+        profile=sie.Flat(1.0), modulus=2.0, normal_load=0.2, friction=0.6, tilt=0.125,
+        tangential_load=0.02, bulk_stress=0.1,
+    )  # fmt: skip
+    solution = sie.solve(scene)
+    assert solution.tangential.kind == "one sign"
+    ((lo, hi, sign),) = solution.tangential.slipped
+    assert sign == -1.0 and solution.stick == ((-1.0, lo),) and hi == solution.edges[1]
+    t = (np.arange(20_000) + 0.5) * np.pi / 20_000
+    x, r = solution.centre + solution.half_width * np.cos(t), solution.half_width
+    assert float(solution.shear(x) @ (r * np.sin(t))) * np.pi / 20_000 == pytest.approx(
+        0.02, rel=1e-4
+    )
+    assert solution.check().shear.ok
+
+
+@pytest.mark.parametrize("Q", [0.30000001, 0.3 * (1.0 + 1e-14), 0.41, 2.0 / 3.0])
+def test_a_refused_load_names_the_limit_of_friction_and_its_remedy_suffices(Q):
+    scene = sie.Scene(profile=sie.Parabola(1.0), modulus=E, normal_load=1.0, friction=0.3)
+    with pytest.raises(sie.LoadError) as caught:
+        _ = sie.solve(scene).with_(tangential_load=Q).stick
+    asked, carried, advised = re.match(
+        r"\|Q\| = (\S+) exceeds f P = (\S+): .* raise normal_load to (\S+) or", str(caught.value)
+    ).groups()
+    assert asked != carried
+    assert sie.solve(scene).with_(tangential_load=float(carried)).shear.resultant == float(carried)
+    assert (
+        sie.solve(scene).with_(tangential_load=Q, normal_load=float(advised)).shear.resultant == Q
+    )
+
+
+def reverse_slip_of_hertz(strain):
+    """c/b of the stick zone when a bulk stress alone acts, strain = τ/(f p0): ∫_c^1 sqrt(1 -
+    s²)/sqrt(s² - c²) ds = π/2 strain.
+
+    From the two signs' first condition, both halves being alike; s² = c² + (1 - c²) sin² t.
+    """
+
+    def excess(c):
+        k = 1 - c * c
+        return (
+            mp.quad(
+                lambda t: k * mp.cos(t) ** 2 / mp.sqrt(c * c + k * mp.sin(t) ** 2), [0, mp.pi / 2]
+            )
+            - mp.pi / 2 * strain
+        )
+
+    return mp.findroot(excess, (mp.mpf("0.3"), mp.mpf("0.9")), solver="anderson")
+
+
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_bulk_stress_alone_gives_two_signed_slip(sign):
+    solution = sheared(sie.Parabola(1.0), 0.0, bulk_stress=sign * 0.4)
+    b, p0 = solution.half_width, 2.0 * P / (np.pi * solution.half_width)
+    c = reverse_slip_of_hertz(mp.mpf(0.1) / (F * p0))
+    assert solution.stick[0] == pytest.approx((-b * float(c), b * float(c)), rel=1e-13)
+    assert solution.tangential.kind == "two signs"
+    x = 0.5 * (b + solution.stick[0][1])
+    assert float(solution.shear(x)) == pytest.approx(
+        -sign * F * float(solution.pressure(x)), rel=1e-14
+    )
+    assert float(solution.shear(-x)) == -float(solution.shear(x))
+    assert solution.check().ok
+
+
+def test_the_stress_under_two_signed_slip_is_continuous_to_the_surface():
+    """In each slip zone and in the stick zone: the surface is evaluated by formulas of its own."""
+    scene = sie.Scene(
+        profile=sie.Parabola(1.0), modulus=1.0, poisson=0.3, normal_load=0.3, friction=0.5,
+        tangential_load=0.01, bulk_stress=1.0,
+    )  # fmt: skip
+    solution = sie.solve(scene)
+    ((lo, hi),), b = solution.stick, solution.half_width
+    x = np.array([0.5 * (lo - b), 0.5 * (lo + hi), 0.5 * (hi + b)])
+    assert solution.shear(x[0]) > 0.0 > solution.shear(x[2])
+    below = solution.stress(x, 1e-10 * b)
+    for name in ("xx", "yy", "xy"):
+        assert getattr(solution.stress(x, 0.0), name) == pytest.approx(
+            getattr(below, name), rel=1e-8, abs=1e-9
+        )
+
+
+@pytest.mark.parametrize("strain", [2.0, 5.0, 12.0, 20.0])
+def test_a_large_bulk_stress_leaves_a_narrow_stick_zone_of_hertz(strain):
+    """∫_ρ^b p/sqrt(t² - ρ²) dt = π τ/(2 f) is f p0 [K(k) - E(k)] = π τ/2, k² = 1 - ρ²/b²: both
+    halves alike; ρ falls below 1e-13 b.
+    """
+    b = math.sqrt(4.0 * P / (math.pi * E))
+    p0 = 2.0 * P / (math.pi * b)
+    solution = sheared(sie.Parabola(1.0), 0.0, bulk_stress=4.0 * strain * F * p0)
+    with mp.workdps(160):  # 1 - c²/b²
+        u = mp.findroot(
+            lambda u: (
+                mp.ellipk(1 - mp.exp(2 * u)) - mp.ellipe(1 - mp.exp(2 * u)) - mp.pi * strain / 2
+            ),
+            -1.57 * strain,
+        )
+        c = mp.exp(u)
+    stick = solution.tangential.found.stick
+    assert abs(stick.r / (b * c) - 1) < 1e-12
+    assert abs(stick.m) < 1e-15 * b
+    assert solution.check().ok
+
+
+@pytest.mark.parametrize("tilt", [0.15, 0.3])
+@pytest.mark.parametrize("strain", [0.3, 0.6, 2.0])
+def test_bulk_stress_alone_holds_the_mirror_image_of_a_tilted_punch_by_the_mirrored_zone(
+    tilt, strain
+):
+    """With Q = 0 the sides differ by a lopsided pressure only, not by their load."""
+    here, there = (
+        sheared(sie.RoundedFlat(1.0, 1.0 / 6.0), 0.0, tilt=sign * tilt, bulk_stress=strain * P)
+        for sign in (1.0, -1.0)
+    )
+    ((lo, hi),) = here.stick
+    ((low, high),) = there.stick
+    assert here.edges[0] <= lo < hi <= here.edges[1]
+    assert (-high, -low) == pytest.approx((lo, hi), rel=1e-12)
+    assert here.check().ok
+
+
+@pytest.mark.parametrize(("fraction", "strain"), [(0.0, 100.0), (0.5, 1e4), (-0.7, 300.0)])
+def test_a_bulk_stress_that_leaves_a_point_of_stick(fraction, strain):
+    """q = ± f p on either side of c, where they balance Q, and slip(x) = 1/(π G) ∫q ln|(x - t)/(c -
+    t)| dt - τ (x - c)/G, G = E*/2.
+    """
+    b = math.sqrt(4.0 * P / (math.pi * E))
+    solution = sheared(
+        sie.Parabola(1.0), fraction, bulk_stress=8.0 * strain * F * P / (math.pi * b)
+    )
+    ((lo, hi),) = solution.stick
+    b, tau, s = (
+        mp.sqrt(4 * mp.mpf(P) / (mp.pi * E)),
+        mp.mpf(solution.scene.bulk_stress) / 4,
+        fraction * mp.mpf(P),
+    )
+
+    def p(t):
+        return E / mp.mpf(2) * mp.sqrt(abs(b * b - t * t))
+
+    def beyond(c):  # the load to the right of c
+        t = c / b
+        return E * b * b / 4 * (mp.acos(t) - t * mp.sqrt(1 - t * t))
+
+    c = mp.findroot(lambda c: P - 2 * beyond(c) - s, lo)
+    assert lo == hi and abs(lo - c) < 1e-15 * b
+    for x in (solution.edges[0], 0.5 * solution.edges[1], solution.edges[1]):
+        X = mp.mpf(x)
+        stops = sorted({-b, c, min(max(X, -b), b), b})
+        pull = mp.quad(
+            lambda t, X=X: F * p(t) * (1 if t < c else -1) * mp.log(abs((X - t) / (t - c))), stops
+        )
+        assert (
+            abs(float(solution.slip(x)) / (2 / (mp.pi * E) * pull - 2 * tau / E * (X - c)) - 1)
+            < 1e-13
+        )
+    x = np.array([c - 0.1 * b, c + 0.1 * b], dtype=float)
+    assert (solution.shear(x) == F * solution.pressure(x) * [1.0, -1.0]).all()
+    assert solution.check().ok
+
+
+@pytest.mark.parametrize(
+    "profile", [sie.RoundedFlat(0.5, 1.0), sie.Flat(1.0), sie.Wedge(0.3)], ids=repr
+)
+@pytest.mark.parametrize("fraction", [0.0, 0.3, -0.99])
+def test_every_bulk_stress_is_solved(profile, fraction):
+    """However large: the law holds, and Q is carried."""
+    for strain in (2.0, -10.0, 40.0, -1e3, 1e8):
+        solution = sheared(profile, fraction, bulk_stress=strain * P)
+        assert solution.check().shear.ok, solution.check().shear
+        assert 0.0 < solution.energy_lost < math.inf
+
+
+@pytest.mark.parametrize("strain", [-0.771, -0.77, -0.769, 0.77])
+def test_a_stick_zone_that_ends_next_to_the_tip_of_a_wedge_carries_the_load(strain):
+    """Newton's method for a narrow zone goes to and fro across the tip, where p is infinite, and
+    must not be believed.
+    """
+    f = 0.3
+    scene = sie.Scene(profile=sie.Wedge(0.5), modulus=1.0, normal_load=0.4, friction=f)
+    sigma = 4.0 * strain * f * 0.4 / sie.solve(scene).half_width
+    solution = sie.solve(scene).with_(tangential_load=-0.62 * f * 0.4, bulk_stress=sigma)
+    assert abs(solution.stick[0][0 if strain < 0.0 else 1]) < 0.01 * solution.half_width
+    assert solution.check().shear.ok, solution.check().shear
+
+
+def test_a_stick_zone_between_two_doubles_is_solved_for_a_slope_given_by_a_function():
+    solution = sheared(sie.Power(4.2, 0.2), 1.0 - 1e-9, bulk_stress=-1e3 * P)
+    assert solution.tangential.kind == "two signs"
+    assert solution.check().shear.ok, solution.check().shear
+
+
+@pytest.mark.parametrize("fraction", [1e-7, 3e-5, 1e-3, 9e-3])
+@pytest.mark.parametrize("tilt", [0.0, 0.03, 0.1])
+def test_the_certificate_of_thin_zones_raises_no_false_alarm(fraction, tilt):
+    """The end of a zone is known to some ulps; within these q is off f p by the root of them."""
+    for profile in (
+        sie.Parabola(1.0) + sie.Wedge(0.07).shifted(0.15),
+        sie.RoundedFlat(0.3, 2.0),
+        sie.Power(3.0, 0.5),
+    ):
+        assert sheared(profile, fraction, tilt=tilt).check().ok
+
+
+@pytest.mark.parametrize("left", [1e-9, 1e-3])
+@pytest.mark.parametrize("tilt", [0.02, -0.05])
+def test_the_certificate_of_a_stick_zone_at_a_sharp_edge_raises_no_false_alarm(left, tilt):
+    """q is infinite at an edge of the stick zone, which the abscissae there do not resolve."""
+    for profile in (sie.Flat(1.0), sie.Flat(1.0) + sie.Parabola(8.0)):
+        assert sheared(profile, 1.0 - left, tilt=tilt).check().ok
+
+
+@settings(max_examples=25)
+@given(
+    st.floats(1.1, 6.0),
+    st.floats(-1.0, 1.0),
+    st.floats(0.05, 0.9),
+    st.floats(-0.3, 0.3),
+    st.sampled_from([0.3, 1.0]),
+)
+def test_slip_and_energy_of_mirror_images_under_a_bulk_stress_agree(
+    exponent, size, fraction, strain, f
+):
+    """The slope of a power ends with the contact: seen from the edge it ended an ulp inside it, and
+    what is left of 1e-16 is 1e-8.
+    """
+    scene = sie.Scene(
+        profile=sie.Power(exponent, 10.0**size), modulus=1.0, normal_load=0.3, friction=f
+    )
+    plain = sie.solve(scene)
+    sigma = 4.0 * strain * fraction * f * 0.3 / plain.half_width
+    here, there = (
+        plain.with_(tangential_load=sign * fraction * f * 0.3, bulk_stress=sigma)
+        for sign in (1.0, -1.0)
+    )
+    assert here.energy_lost == pytest.approx(there.energy_lost, rel=1e-12)
+    x = np.array(here.edges)
+    slip = here.slip(x)
+    assert slip == pytest.approx(-there.slip(-x), rel=1e-12, abs=1e-13 * np.abs(slip).max())
+
+
+PAIRS = st.tuples(st.integers(-90, 90), st.integers(-100, 100)).map(
+    lambda pair: (pair[0] / 100, pair[1] / 100)
+)
+
+
+def fields(scene):
+    return {
+        "profile": scene.profile,
+        "modulus": scene.modulus,
+        "normal_load": scene.normal_load,
+        "tilt": scene.tilt,
+    }
+
+
+@settings(max_examples=40)
+@given(strategies.scenes(), PAIRS, st.floats(0.05, 1.5), st.booleans())
+def test_every_shear_obeys_its_law(scene, loads, f, bulk):
+    """|q| <= f p, = ± f p in slip, slip along q, ∫q = Q, equation (12) in stick: the certificate,
+    on points that no solver used.
+    """
+    Q, width = loads[0] * f * scene.normal_load, sie.solve(scene).half_width
+    sigma = 4.0 * loads[1] * f * scene.normal_load / width if bulk else 0.0
+    solution = sie.solve(
+        sie.Scene(**fields(scene), friction=f, tangential_load=Q, bulk_stress=sigma)
+    )
+    if Q or sigma:
+        assert solution.check().shear.ok, solution.check().shear
+        assert solution.energy_lost >= 0.0
+
+
+@settings(max_examples=25)
+@given(strategies.scenes(), PAIRS, st.floats(0.05, 1.5))
+def test_the_mirror_image_of_a_contact_shears_the_other_way(scene, loads, f):
+    """Under Q -> -Q, σ -> σ, h(x) -> h(-x): q(x) -> -q(-x). Under Q -> -Q, σ -> -σ: q -> -q."""
+    width = sie.solve(scene).half_width
+    Q, sigma = loads[0] * f * scene.normal_load, loads[1] * f * scene.normal_load / width
+    one = sie.solve(sie.Scene(**fields(scene), friction=f, tangential_load=Q, bulk_stress=sigma))
+    mirrored = fields(scene) | {"profile": scene.profile.mirrored(), "tilt": -scene.tilt}
+    other = sie.solve(sie.Scene(**mirrored, friction=f, tangential_load=-Q, bulk_stress=sigma))
+    turned = sie.solve(
+        sie.Scene(**fields(scene), friction=f, tangential_load=-Q, bulk_stress=-sigma)
+    )
+    assert len(one.stick) == len(other.stick) == len(turned.stick)
+    far = width + abs(one.centre)
+    for lo, hi in one.stick:
+        assert other.stick[0] == pytest.approx((-hi, -lo), abs=1e-9 * far)
+        assert turned.stick[0] == pytest.approx((lo, hi), abs=1e-12 * far)
+
+
+@pytest.mark.parametrize("part", [0.1, 0.3])
+def test_the_steepness_of_the_shear_at_a_kink_in_the_stick_zone_is_that_beside_it(part):
+    """Pressure and corrective pressure are both infinitely steep there: their difference is not."""
+    scene = sie.Scene(profile=sie.RoundedFlat(0.5, 1.0), modulus=1.0, normal_load=0.5, friction=0.4)
+    shear = sie.solve(replace(scene, tangential_load=part * 0.2)).shear
+    at, *beside = shear.cauchy_derivative(np.array([0.5, 0.5 - 1e-6, 0.5 + 1e-6])).imag
+    assert np.isinf(sie.solve(scene).pressure.cauchy_derivative(0.5).imag)
+    assert at == pytest.approx(np.mean(beside), rel=1e-3)

@@ -1,0 +1,270 @@
+"""Load paths along which P and Q change together."""
+
+import mpmath
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from path_cases import FP, HERTZ, LOPSIDED, PUNCH, E, F, P, at_constant_load, fields
+
+import sie
+from sie.friction.memory import LoadMemory
+
+
+def test_proportional_loading_below_friction_does_not_slip():
+    """dQ/dP = k < f from nothing: q = k p (Mindlin & Deresiewicz)."""
+    history = sie.follow(PUNCH, sie.Path([(0.0, 0.0), (P, 0.6 * FP)]))
+    x = np.linspace(-0.9, 0.9, 11)
+    assert history[1].stick == (history[1].edges,)
+    assert history[1].shear(x) == pytest.approx(0.6 * F * history[1].pressure(x), rel=1e-14)
+    assert history[1].energy_lost == 0.0
+    assert (history[1].slip(x) == 0.0).all()
+
+
+def test_loading_above_friction_slips_like_a_smaller_normal_load():
+    """dQ/dP > f: q = f (p - p̂), p̂ under P - Q/f, as if P had come first (Jäger 1998)."""
+    together = sie.follow(HERTZ, sie.Path([(0.1, 0.0), (P, 0.75 * FP)]))[1]
+    after = sie.solve(sie.Scene(**fields(HERTZ), tangential_load=0.75 * FP))
+    x = np.linspace(*after.edges, 21)
+    assert together.stick[0] == pytest.approx(after.stick[0], rel=1e-14)
+    assert together.shear(x) == pytest.approx(after.shear(x), abs=1e-15)
+    assert 0.0 < together.energy_lost < after.energy_lost
+
+
+def test_a_locked_in_layer_survives_more_normal_load():
+    """Q first at constant P, then P alone: nothing slips, q stays and the limit grows."""
+    first, second = sie.follow(HERTZ, sie.Path([(0.2, 0.05), (0.3, 0.05)]))
+    x = np.linspace(*second.edges, 21)
+    assert second.stick == (second.edges,)
+    assert second.shear(x) == pytest.approx(first.shear(x), abs=1e-15)
+    assert second.energy_lost == first.energy_lost
+
+
+def test_unloading_along_the_loading_path_removes_all_shear():
+    there, back = list(
+        sie.follow(HERTZ, sie.Path([(0.0, 0.0), (0.1, 0.03), (0.4, 0.05), (0.1, 0.03)]))
+    )[1::2]
+    x = np.linspace(*there.edges, 21)
+    assert back.shear(x) == pytest.approx(there.shear(x), abs=1e-15)
+    assert back.energy_lost == 0.0
+
+
+def test_energy_while_the_normal_load_changes_tends_to_that_at_constant_load():
+    almost = sie.follow(HERTZ, sie.Path([(P, 0.1 * FP), (P * (1.0 + 1e-9), 0.7 * FP)]))[
+        1
+    ].energy_lost
+    constant = at_constant_load(HERTZ, 0.1, 0.7)[1].energy_lost
+    assert almost == pytest.approx(constant, rel=1e-7)
+
+
+KINDS = {
+    "power 1.5": sie.Power(1.5, 0.5),
+    "power 2.5": sie.Power(2.5, 0.5),
+    "wedge": sie.Wedge(0.3),
+    "punch": sie.RoundedFlat(0.5, 1.0),
+    "tilted punch": sie.RoundedFlat(0.5, 1.0).tilted(0.02),
+    "lopsided": sie.Polynomial((0.0, 0.05, 1.0, 0.4, 0.6)),
+    "two radii": sie.Piecewise([-0.5, 0.25], [(0.5, 1.0), (0.0,), (-0.75, 3.0)]),
+    "sharp": sie.Flat(0.6) + sie.Parabola(1.0),
+    "function": sie.FromFunction("sinh(x) + x**2/8", domain=(-3.0, 3.0)),
+    "trace": sie.Sampled(np.linspace(-1.6, 1.6, 161),
+                         np.linspace(-1.6, 1.6, 161) ** 2 / 2 + np.linspace(-1.6, 1.6,
+                                                                            161) ** 3 / 20),
+}  # fmt: skip
+TURNING = [
+    (0.1, 0.02),
+    (0.3, 0.1),
+    (0.25, -0.05),
+    (0.1, 0.02),
+    (0.3, 0.04),
+    (0.2, 0.09),
+    (0.2, -0.06),
+    (0.26, 0.1),
+]
+
+
+@pytest.mark.parametrize("name", KINDS)
+def test_energy_of_a_path_is_that_of_the_path_cut_into_many_parts(name):
+    scene = sie.Scene(profile=KINDS[name], modulus=1.0, normal_load=0.3, friction=0.5)
+    whole, parts = (
+        sie.follow(scene, sie.Path(TURNING)),
+        sie.follow(scene, sie.Path(TURNING).subdivided(7)),
+    )
+    for one, same in zip(whole, parts[::7], strict=True):
+        assert one.energy_lost == pytest.approx(same.energy_lost, rel=1e-10)
+
+
+@settings(max_examples=40)
+@given(
+    st.lists(st.tuples(st.integers(1, 40), st.integers(-9, 9)), min_size=2, max_size=6),
+    st.sampled_from([PUNCH, HERTZ, LOPSIDED]),
+)
+def test_energy_of_every_oblique_path_is_that_of_the_path_cut_into_parts(points, scene):
+    path = sie.Path([(0.02 * p, 0.1 * q * F * 0.02 * p) for p, q in points])
+    whole, parts = sie.follow(scene, path), sie.follow(scene, path.subdivided(9))
+    assert whole[-1].energy_lost == pytest.approx(parts[-1].energy_lost, rel=1e-10, abs=1e-16)
+    x = np.linspace(*whole[-1].edges, 23)
+    assert whole[-1].shear(x) == pytest.approx(parts[-1].shear(x), abs=1e-11)
+
+
+def test_slip_that_turns_while_the_normal_load_falls_is_reported_in_both_directions():
+    """The layers: κ = 0.9 f on top, -f below. P falls: slip + until the edges have passed them,
+    then slip -.
+    """
+    history = sie.follow(HERTZ, sie.Path([(0.2, -0.09), (0.4, 0.0), (0.1, -0.045)]))
+    last = history[-1].tangential
+    first, turned = history.turning_points[-1].slips
+    assert first.sign == -turned.sign
+    ((a, b, plus), (c, d, minus), *now) = last.slipped
+    assert plus == minus == first.sign and {sign for _, _, sign in now} == {turned.sign}
+    x1, x2 = history[-1].edges
+    before = sie.solve(sie.Scene(**fields(HERTZ) | {"normal_load": 0.4})).edges
+    assert before[0] == pytest.approx(a) and before[1] == pytest.approx(d) and b <= x1 and x2 <= c
+    parts = sie.follow(HERTZ, sie.Path([(0.2, -0.09), (0.4, 0.0), (0.1, -0.045)]).subdivided(8))
+    x = np.linspace(x1, x2, 15)
+    total = sum(solution.tangential.slip_now(x) for solution in parts[-8:])
+    assert last.slip_now(x) == pytest.approx(total, abs=1e-14)
+    assert history[-1].energy_lost == pytest.approx(parts[-1].energy_lost, rel=1e-12)
+
+
+@given(
+    st.lists(st.tuples(st.floats(-1.0, 1.0), st.floats(0.02, 1.0)), min_size=2, max_size=6),
+    st.floats(0.05, 0.95),
+    st.floats(-2.0, 2.0),
+)
+def test_slip_while_the_normal_load_falls_accounts_for_the_tangential_load(layers, share, rate):
+    """Q falls by what the layers carried away, and rises by the pull of the slip; no front is
+    behind the edge.
+    """
+    memory = LoadMemory(1.0)
+    for target, _ in layers:
+        if target != memory.total:
+            memory, _ = memory.changed(0.0, 0.9 * target - memory.total)
+    thickness = share * 0.9
+    if abs(memory.total + rate * thickness) >= 1.0 - thickness:
+        return  # the bodies slide
+    lower, slips = memory.changed(-thickness, rate * thickness)
+    assert lower.level == pytest.approx(1.0 - thickness, abs=1e-14)
+    assert lower.total == pytest.approx(memory.total + rate * thickness, abs=1e-13)
+    for slip in slips:
+        for o in slip.layers:
+            assert o.lower >= o.upper and 0.0 < o.jump <= 2.0
+            assert o.surface[0] <= o.upper + 1e-13 and o.surface[1] <= o.lower + 1e-13
+
+
+def test_energy_of_a_lopsided_profile_depends_on_its_half_width_alone():
+    """h' = sinh x + x²/10 - t: ∫h'/w = π [sinh m I0(r) + (m² + r²/2)/10 - t], P = π G r [cosh m
+    I1(r) + m r/10], for each half-width r.
+    """
+    G, load, Q, f = mpmath.mpf("0.5"), mpmath.mpf(0.3), mpmath.mpf(0.1), mpmath.mpf(0.5)
+
+    def under(r):
+        m = mpmath.findroot(
+            lambda m: mpmath.sinh(m) * mpmath.besseli(0, r) + (m * m + r * r / 2) / 10, -r * r / 20
+        )
+        return mpmath.pi * G * r * (mpmath.cosh(m) * mpmath.besseli(1, r) + m * r / 10)
+
+    b, c = (
+        mpmath.findroot(lambda r, y=y: under(r) - y, (0.3, 0.7), solver="anderson", tol=1e-24)
+        for y in (load, load - Q / f)
+    )
+    by_hand = (
+        f
+        * f
+        / (mpmath.pi * G)
+        * mpmath.quad(lambda r: (load - under(r)) * (under(r) - load + Q / f) / r, [c, b])
+    )
+    profile = sie.FromFunction(lambda x: np.sinh(x) + 0.1 * x * x, domain=(-3.0, 3.0))
+    scene = sie.Scene(
+        profile=profile, modulus=1.0, normal_load=0.3, friction=0.5, tangential_load=0.1
+    )
+    assert sie.solve(scene).energy_lost == pytest.approx(float(by_hand), rel=1e-12)
+
+
+def test_energy_while_an_edge_passes_a_jump_is_that_of_the_mirrored_path():
+    """Beside the jump the half-width hardly grows: a step of Newton's method that did not settle
+    there is no contact.
+    """
+    profile = sie.Piecewise([-0.4, 0.0], [(0.1, 1.5), (0.0, 1.0), (0.0, 1.5)])
+    points = [
+        (0.17463394504062985, -0.18860466064388023),
+        (0.3, 0.3028715783482759),
+        (0.3, 0.35964),
+        (0.11927161476021313, 0.1187),
+    ]
+    here, there = (
+        sie.follow(
+            sie.Scene(profile=p, modulus=1.0, normal_load=0.3, friction=1.2),
+            sie.Path([(P, s * Q) for P, Q in points]),
+        )
+        for p, s in ((profile, 1.0), (profile.mirrored(), -1.0))
+    )
+    for one, other in zip(here, there, strict=True):
+        assert one.energy_lost == pytest.approx(other.energy_lost, rel=1e-12)
+
+
+def test_the_energy_of_small_loads_has_as_many_digits_as_that_of_large_ones():
+    """A front from 0.3 down to a load 450 times as small: what a panel may miss is measured by the
+    loads that it is for.
+    """
+    scene = sie.Scene(
+        profile=sie.Power(2.5, 0.5).shifted(0.3).tilted(0.05),
+        modulus=1.0,
+        normal_load=0.3,
+        friction=1.2,
+    )
+    path = sie.Path([(0.3, 0.0), (0.0006679102250409004, 0.0007213430430441724)])
+    whole, parts = sie.follow(scene, path)[-1], sie.follow(scene, path.subdivided(16))[-1]
+    assert whole.energy_lost == pytest.approx(parts.energy_lost, rel=1e-10)
+
+
+def test_energy_of_loading_hertz_with_a_growing_normal_load():
+    """W = 2/(π E*) ∫∫ f ln(r'/r) over the layers, r² ∝ P: by hand for P from P0 to P1, dQ/dP = k >
+    f.
+
+    W = f²/(π E*) (k/f - 1) ∫ [P ln(P/L) - P + L] dP,    L(P) = P - (P - P0) k/f
+    """
+    P0, P1, k = 0.1, 0.2, 1.5 * F
+    lost = sie.follow(HERTZ, sie.Path([(P0, 0.0), (P1, k * (P1 - P0))]))[1].energy_lost
+    g, w = np.polynomial.legendre.leggauss(60)
+    load = P0 + (P1 - P0) * 0.5 * (1.0 + g)
+    level = load - (load - P0) * k / F
+    by_hand = (
+        F
+        * F
+        / (np.pi * E)
+        * (k / F - 1.0)
+        * 0.5
+        * (P1 - P0)
+        * w
+        @ (load * np.log(load / level) - load + level)
+    )
+    assert lost == pytest.approx(by_hand, rel=1e-10)
+
+
+def test_normal_load_alone_comes_before_anything():
+    """From (0, 0, 0), up, down: what is applied later, bulk stress included, finds a contact that
+    was never sheared.
+    """
+    Q, sigma = 0.4 * FP, 0.1
+    loads = [(P, Q, sigma), (P, -0.2 * Q, -0.2 * sigma)]
+    later = sie.follow(HERTZ, sie.Path([(0.0, 0.0), (0.0, 0.0), (2.0 * P, 0.0), (P, 0.0), *loads]))
+    at_once = sie.follow(HERTZ, sie.Path(loads))
+    x = np.linspace(*at_once[0].edges, 21)
+    for one, other in zip(later[4:], at_once, strict=True):
+        assert (
+            one.stick == other.stick
+            and one.energy_lost == other.energy_lost
+            and one.shift == other.shift
+        )
+        assert (one.shear(x) == other.shear(x)).all() and (one.slip(x) == other.slip(x)).all()
+
+
+def test_no_moment_on_a_symmetric_profile_is_no_tilt():
+    path = sie.Path([(P, 0.05), (2 * P, 0.3), (P, 0.1)])
+    balanced, upright = (
+        sie.follow(sie.Scene(**fields(HERTZ) | {"tilt": 0.0} | more), path)
+        for more in ({}, {"moment": 0.0})
+    )
+    for one, other in zip(balanced, upright, strict=True):
+        assert one.stick == other.stick and one.energy_lost == other.energy_lost

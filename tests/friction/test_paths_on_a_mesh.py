@@ -1,0 +1,204 @@
+"""Load paths agree with Kalker's programme on a mesh."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from path_cases import FP, HERTZ, LOPSIDED, PUNCH, E, F, P, at_constant_load, fields
+
+import sie
+from oracles.kalker import Mesh
+from sie.io.export import as_dict
+from sie.io.report import summary
+from sie.io.scene_file import SceneFile
+
+
+def on_a_mesh(scene, points, n, answered=None):
+    """(mean error of q over f p0, largest error of slip over the largest slip, worst misplaced end
+    in elements) at each point; `answered` are the points of the answers, if others.
+    """
+    history = sie.follow(scene, sie.Path(answered or points))
+    mesh = Mesh(history[0].edges, n, E)
+    bound = F * history[0].pressure(mesh.x)
+    q, slip, tau = np.zeros(n), np.zeros(n), 0.0
+    errors = []
+    for (_, Q, sigma), solution in zip(points, history, strict=True):
+        q, moved = mesh.step(q, bound, Q, 2.0 * (0.25 * sigma - tau) / E)
+        tau, slip = 0.25 * sigma, slip + moved
+        stuck = mesh.x[moved == 0.0]
+        lo, hi = solution.stick[0]
+        ends = (
+            max(abs(stuck.min() - 0.5 * mesh.h - lo), abs(stuck.max() + 0.5 * mesh.h - hi)) / mesh.h
+        )
+        scale = np.abs(solution.slip(mesh.x)).max() or 1.0
+        errors.append(
+            (
+                np.abs(q - solution.shear(mesh.x)).mean() / bound.max(),
+                np.abs(slip - solution.slip(mesh.x)).max() / scale,
+                ends,
+            )
+        )
+    return np.array(errors)
+
+
+def mesh_error(scene, points, n):
+    """The largest mean error of q over f p0 that a mesh explains, at each point.
+
+    A step adds ±2 f p^, p^ = 0 at the ends of the stick zone. A mesh places each of them within an
+    element, and is wrong there by at most what p^ is an element farther in, which p exceeds at the
+    edge of contact. Steps add up.
+    """
+    solved = sie.solve(sie.Scene(**fields(scene)))
+    x = np.linspace(*solved.edges, n + 1)
+    beside = solved.pressure(x[[1, -2]]).sum() / solved.pressure(x).max()
+    return np.arange(1, len(points) + 1) * 2.0 * beside / n
+
+
+def shrinking(last, turns):
+    """Every sequence of so many turning points, each well inside the one before: nothing is wiped
+    out, where a mesh and a formula may take different sides.
+    """
+    inside = [k for k in range(1 - abs(last), abs(last)) if abs(last - k) > 2]
+    return [[]] if turns == 0 else [[k, *rest] for k in inside for rest in shrinking(k, turns - 1)]
+
+
+SHRINKING = [steps for turns in (2, 3, 4) for steps in shrinking(10, turns)]
+# (scene, Q of a step over f P, σ of a step)
+CASES = [
+    (HERTZ, 0.08, 0.0), (PUNCH, 0.08, 0.0), (LOPSIDED, 0.08, 0.0),
+    (HERTZ, 0.08, 0.006), (LOPSIDED, 0.08, 0.004),
+    (HERTZ, 0.008, 0.15), (LOPSIDED, 0.008, 0.1), (PUNCH, 0.0, 0.05), (HERTZ, 0.0, 0.2),
+]  # fmt: skip
+
+
+@settings(max_examples=12)
+@given(st.sampled_from(SHRINKING), st.sampled_from(CASES))
+def test_random_histories_agree_with_a_mesh_to_its_error(steps, case):
+    """Moderate and large bulk stress included; σ is in proportion to Q. First order: half the
+    element, half the error.
+    """
+    scene, Q, sigma = case
+    points = [(P, k * Q * FP, k * sigma) for k in steps]
+    coarse, fine = on_a_mesh(scene, points, 100), on_a_mesh(scene, points, 400)
+    for errors, n in ((coarse, 100), (fine, 400)):
+        assert (errors[:, 0] < mesh_error(scene, points, n)).all()
+        assert errors[:, 2].max() < 1.5
+    assert fine[:, 0].mean() < 0.45 * coarse[:, 0].mean()
+    # In a zone of a few elements the slip is known to few digits, on any mesh.
+    assert fine[-1, 1] < 0.45 * coarse[-1, 1]
+
+
+@pytest.mark.parametrize("part", [0.2, -0.5, 0.8])
+def test_a_mesh_tells_a_stick_zone_that_ends_three_elements_off(part):
+    """Hertz: c² = b² (1 - Q/f P)."""
+    n, zone = 100, np.sqrt(1.0 - abs(part)) - 6.0 / 100
+    wrong = np.copysign(1.0 - zone * zone, part)
+    points, answered = [(P, part * FP, 0.0)], [(P, wrong * FP)]
+    ((q, _, ends),) = on_a_mesh(HERTZ, points, n, answered)
+    assert q > 2.0 * mesh_error(HERTZ, points, n)[0] and ends > 2.0
+
+
+def test_large_bulk_stress_that_opens_both_zones_is_reached_by_any_number_of_steps():
+    """The zones only grow: a mesh finds the same in 1 step and in 30."""
+    Q, sigma = 0.16 * FP, 0.45
+    solution = sie.solve(sie.Scene(**fields(HERTZ), tangential_load=Q, bulk_stress=sigma))
+    assert solution.tangential.kind == "two signs" and solution.tangential.advancing
+    mesh = Mesh(solution.edges, 200, E)
+    bound = F * solution.pressure(mesh.x)
+    for steps in (1, 30):
+        q = np.zeros(200)
+        for k in range(1, steps + 1):
+            q, _ = mesh.step(q, bound, Q * k / steps, 2.0 * 0.25 * sigma / steps / E)
+        assert np.abs(q - solution.shear(mesh.x)).mean() < 1e-3 * bound.max()
+
+
+def test_where_zones_retreat_the_path_matters_and_the_certificate_notes_it():
+    """In one step the mesh finds the state given; in proportion, in many, another one."""
+    Q, sigma = 0.6 * FP, 0.5
+    solution = sie.solve(sie.Scene(**fields(HERTZ), tangential_load=Q, bulk_stress=sigma))
+    assert not solution.tangential.advancing
+    assert "retreat" in str(solution.check())
+    mesh = Mesh(solution.edges, 200, E)
+    bound = F * solution.pressure(mesh.x)
+    errors = []
+    for steps in (1, 30):
+        q = np.zeros(200)
+        for k in range(1, steps + 1):
+            q, _ = mesh.step(q, bound, Q * k / steps, 2.0 * 0.25 * sigma / steps / E)
+        errors.append(np.abs(q - solution.shear(mesh.x)).mean() / bound.max())
+    assert errors[0] < 3e-4
+    assert errors[1] > 3.0 * errors[0]
+
+
+@pytest.mark.parametrize("sigma", [0.5, 0.0])
+def test_reports_without_a_certificate_note_zones_that_retreat(sigma):
+    """The text and the JSON: where the shear matters, and not where only the pressure is wanted."""
+    solution = sie.solve(sie.Scene(**fields(HERTZ), tangential_load=0.6 * FP, bulk_stress=sigma))
+
+    def reports(*want):
+        file = SceneFile(solution.scene, want=want)
+        return summary(solution, file), " ".join(as_dict(solution, file)["notes"])
+
+    assert all(
+        ("retreat" in report) is (sigma != 0.0) for report in (*reports(), *reports("stress"))
+    )
+    assert not any("retreat" in report for report in reports("pressure"))
+
+
+def test_normal_and_tangential_loads_that_change_together_agree_with_a_mesh():
+    """Hertz: up and down in P and Q, in small steps on a mesh as wide as the widest contact."""
+    points = [(0.3, 0.05), (0.36, 0.12), (0.28, 0.02), (0.28, -0.06), (0.34, -0.1), (0.34, 0.05)]
+    errors = []
+    for n, steps in ((80, 16), (240, 48)):
+        mesh = Mesh((-np.sqrt(2 * 0.36 / np.pi), np.sqrt(2 * 0.36 / np.pi)), n, E)
+        q, lost, before, worst = np.zeros(n), 0.0, None, 0.0
+        for point, solution in zip(points, sie.follow(HERTZ, sie.Path(points)), strict=True):
+            for load, Q in [point] if before is None else np.linspace(before, point, steps + 1)[1:]:
+                b2 = 2 * load / np.pi  # E* = 2, R = 1
+                bound = F * np.sqrt(np.maximum(b2 - mesh.x**2, 0.0))
+                q, moved = mesh.step(q, bound, Q, 0.0)
+                lost += mesh.h * float(np.abs(q * moved)[bound > 0.0].sum())
+            before = point
+            worst = max(worst, np.abs(q - solution.shear(mesh.x)).mean() / bound.max())
+        errors.append((worst, abs(lost / solution.energy_lost - 1.0)))
+    (coarse, _), (fine, energy) = errors
+    assert fine < 0.5 * coarse < 1e-3
+    assert energy < 2e-3
+
+
+@pytest.mark.parametrize("part", [1e-17, 1e-25, 1e-50])
+def test_the_energy_of_the_shortest_slip_zones_is_the_first_term_of_its_series(part):
+    """f² P² (Q/f P)³/(3 π E*): the zones are shorter than the rounding of the load."""
+    lost = at_constant_load(HERTZ, part)[0].energy_lost
+    assert lost == pytest.approx(FP * FP * part**3 / (3.0 * np.pi * E), rel=1e-12)
+
+
+@pytest.mark.parametrize(("length", "modulus"), [(1e60, 1e120), (1e-60, 1e-50), (1e100, 1e50)])
+def test_the_energy_of_loads_whose_squares_are_no_doubles_is_that_in_other_units(length, modulus):
+    points = [(0.375, 0.1), (0.5, -0.05), (0.25, 0.02)]
+
+    def lost(L, Estar):
+        unit = L * Estar
+        profile = sie.RoundedFlat(0.7 * L, L)
+        scene = sie.Scene(profile=profile, modulus=2.0 * Estar, normal_load=unit, friction=F)
+        path = sie.Path([(unit * N, unit * Q) for N, Q in points])
+        return [solution.energy_lost for solution in sie.follow(scene, path)]
+
+    expected = [energy * length * length * modulus for energy in lost(1.0, 1.0)]
+    assert lost(length, modulus) == pytest.approx(expected, rel=1e-11)
+
+
+def test_the_energy_under_a_load_that_is_negligible_next_to_the_largest_is_refused_with_a_remedy():
+    small = (1e-20, 1e-21)
+    history = sie.follow(HERTZ, sie.Path([small, (P, 0.0)]))
+    with pytest.raises(sie.LoadError, match="as a path of their own"):
+        _ = history[0].energy_lost
+    assert sie.follow(HERTZ, sie.Path([small]))[0].energy_lost > 0.0
+
+
+@pytest.mark.parametrize("excess", [2.0**-55, 2.0**-54, 2.0**-53])
+def test_a_load_that_rises_and_sticks_but_for_rounding_does_not_slip(excess):
+    """|dQ| = f dP but for an ulp."""
+    after = sie.follow(HERTZ, sie.Path([(0.75, 0.125 + excess), (1.0, 0.0)]))[1]
+    assert after.tangential.slipped == ()
+    assert after.stick == (after.edges,)
