@@ -57,10 +57,9 @@ DEEP, FEW, APART, DEEPEST, RATIO = 1e-12, 8, 1e-9, 1e-17, 3.0
 NOWHERE = np.zeros(0)
 WINDOW = 1.02  # times the widest contact: where the slope is resolved
 FIRST = (0.5, 0.99, 0.9, 0.1)  # parts of f P from which the load is followed
-AT_EDGE = 1e-4  # half-widths
+AT_EDGE, ROUNDED = 1e-4, 0.15  # half-widths; of the places looked at, those beside a flat base
 # Of the room about the last point to stick: zones that fit in it, the short ones beside flat bases
 FITTING = (0.3, 0.1, 0.03)
-ROUNDED = 0.15  # of the places that are looked at: those beside a flat base
 # Half-widths: nearer edges pass a corner of the profile; others keep such a part of the distance
 AT_CORNER, NEARER = 1e-4, 0.03
 FOLDS = 1.5  # by which a step may change a logarithm
