@@ -661,6 +661,38 @@ def test_a_small_load_is_refused_in_few_trials(monkeypatch, beta, friction):
     assert trials_of(monkeypatch, lambda: refused(None, beta, friction, 1e-5)) < 20 * found
 
 
+def almost_flat(beta, friction, part, round_part, half_flat=1.0):
+    """A rounded flat whose contact ends this part of its half-flat beyond the flat."""
+    profile = sie.RoundedFlat(half_flat, 1.0)
+    width = (1.0 + round_part) * half_flat
+    constants = {"modulus": 2.0, "dundurs": beta, "friction": friction}
+    pressed = sie.solve(sie.Scene(profile=profile, half_width=width, **constants))
+    load = pressed.normal_load
+    loads = {"normal_load": load, "tangential_load": part * friction * load}
+    return sie.solve(sie.Scene(profile=profile, **loads, **constants))
+
+
+def test_slip_gradient_beside_an_almost_flat_base_is_not_cut_down_to_rounding():
+    # 180 panels; 625 while the pressure that they resolve was that on a wider contact, and twice
+    # as many with every halving where rounding of that pressure was larger still
+    search = almost_flat(beta=0.05, friction=0.07, part=0.3, round_part=3e-6).tangential_search
+    assert len(search.gamma.lo) < 350
+
+
+def test_zones_beside_an_almost_flat_base_are_found_from_incipient_sliding():
+    # The stick zone at 0.99 f P is seven times as wide as the rounded part of the contact.
+    solution = almost_flat(0.27, 0.85, part=0.99, round_part=2.5e-4)
+    certificate = solution.check()
+    assert certificate.ok, str(certificate)
+    e1, e2 = zones(solution)[1:3]
+    assert e1 < -1.0 < e2
+
+
+def test_refusal_of_a_small_load_beside_an_almost_flat_base_names_the_least():
+    with pytest.raises(sie.ContactError, match=r"stick or slip back .* = 0\.97\d* f P.*larger"):
+        _ = almost_flat(0.27, 0.85, part=0.3, round_part=2.5e-4).edges
+
+
 @pytest.mark.parametrize("part", [1e-6, 1e-3, 0.5])
 def test_pressure_is_continuous_a_few_doubles_beside_the_stick_zone(part):
     solution = solved(sie.FromFunction(slope="sinh(x)"), 0.00701, 9.9, part, 0.36)

@@ -57,8 +57,9 @@ DEEP, FEW, APART, DEEPEST, RATIO = 1e-12, 8, 1e-9, 1e-17, 3.0
 NOWHERE = np.zeros(0)
 WINDOW = 1.02  # times the widest contact: where the slope is resolved
 FIRST = (0.5, 0.99, 0.9, 0.1)  # parts of f P from which the load is followed
-AT_EDGE = 1e-4  # half-widths
-FITTING = 0.3  # of the room about the last point to stick: a stick zone that is sure to fit in it
+AT_EDGE, ROUNDED = 1e-4, 0.15  # half-widths; of the places looked at, those beside a flat base
+# Of the room about the last point to stick: zones that fit in it, the short ones beside flat bases
+FITTING = (0.3, 0.1, 0.03)
 # Half-widths: nearer edges pass a corner of the profile; others keep such a part of the distance
 AT_CORNER, NEARER = 1e-4, 0.03
 FOLDS = 1.5  # by which a step may change a logarithm
@@ -137,11 +138,12 @@ class TangentialSearch:
     def gamma(self) -> Tabulated:
         """γ in the contact under P alone, on panels that resolve pressures in sliding as well."""
         state, gradient = self.normal, SlipGradient(self.normal.superposition, self.normal.ahead)
-        (x1, x2), b = self.widest, state.b
+        (x1, x2), b, more = self.widest, state.b, 0.5 * (WINDOW - 1.0)
         lo, hi = self.resolved_slope.domain
-        window = Interval(
-            max(0.5 * (1.0 + WINDOW) * min(x1, -b), lo), min(0.5 * (1.0 + WINDOW) * max(x2, b), hi)
-        )
+        # Beside an almost flat base pressures on a wider window would be so large that their
+        # rounding exceeds what is to be resolved
+        left, right = (end + more * (end - state.flat_base) for end in (max(-x1, b), max(x2, b)))
+        window = Interval(max(-left, lo), min(right, hi))
         panels = Panels(SlidingGeometry(self.resolved_slope, window, -self.theta), 0.0)
         any_pressure = SlidingDensity(window, state.half_modulus, 0.0, 0.0, 0.0, 0.0, panels)
         return tabulated(
@@ -231,7 +233,7 @@ class TangentialSearch:
         if answer is not None and self.least_slip(answer) >= 0.0:
             return answer
         least, opposed = math.inf, self._spreads
-        for load in () if opposed else tuple(part * self.limit for part in (*FIRST, self._fitting)):
+        for load in () if opposed else self._first_loads:
             if Q < least <= load:  # from there one arrives where one has been
                 continue
             first = self._newton(self.start(load), load, ROUGHLY)
@@ -256,11 +258,7 @@ class TangentialSearch:
 
     @cached_property
     def _bounds(self) -> tuple[float, float]:
-        """The bounds of the stick zone.
-
-        On the left this is the edge of the contact under P alone, on the right the end of its stick
-        zone.
-        """
+        """What bounds the stick zone: an edge of contact and an end of stick under P alone."""
         return -self.normal.b, self.normal.c
 
     @property
@@ -273,7 +271,9 @@ class TangentialSearch:
     def _looked_at(self) -> Array:
         """Places that the stick zone may reach in a contact that slides."""
         lo, hi = self._bounds
-        x: Array = lo + (min(hi, self.widest[1]) - lo) * np.linspace(0.0, 1.0, 203)[1:-1] ** 2
+        room = min(hi, self.widest[1]) - lo
+        crowded = math.log(self.normal.ahead / room) / math.log(ROUNDED)
+        x: Array = lo + room * np.linspace(0.0, 1.0, 203)[1:-1] ** max(2.0, crowded)
         return x
 
     @property
@@ -282,10 +282,12 @@ class TangentialSearch:
         return bool(self._last_stick[0] == self._looked_at[0])
 
     @property
-    def _fitting(self) -> float:
-        """The part of f P next to 1 whose stick zone is far from both of its bounds."""
+    def _first_loads(self) -> tuple[float, ...]:
+        """Loads to follow; the stick zones of the last ones are far from both of their bounds."""
         (lo, hi), (x0, half) = self._bounds, self._last_stick
-        return 1.0 - (FITTING * min(x0 - lo, hi - x0, half) / half) ** 2
+        room = min(x0 - lo, hi - x0, half) / half
+        parts = (*FIRST, *(1.0 - (part * room) ** 2 for part in FITTING))
+        return tuple(part * self.limit for part in parts)
 
     @cached_property
     def _last_stick(self) -> tuple[float, float]:
