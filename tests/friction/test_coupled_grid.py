@@ -95,6 +95,20 @@ def test_grid_sticks_beside_the_leading_edge_where_one_state_alone_would_slip_th
     assert {sign for part, sign in beside.items() if 0.77 < part < 0.85} == {1}
 
 
+@pytest.mark.parametrize("part", [0.5, 0.73, 0.9])
+def test_loads_are_refused_where_such_stick_may_be_left(part):
+    scene = sie.Scene(
+        profile=sie.Parabola(1.0),
+        modulus=2.0,
+        dundurs=0.3,
+        friction=2.0,
+        normal_load=1.0,
+        tangential_load=2.0 * part,
+    )
+    with pytest.raises(sie.ContactError, match="came into contact under Q"):
+        _ = sie.solve(scene).edges
+
+
 def test_grid_has_the_four_edges_where_the_zones_depend_on_the_load_alone():
     beta, friction, cell = 0.25, 2.0, 0.005
     part, state = next(it for it in sheared_states(beta, friction, cell, -0.5) if it[0] > 0.5)
