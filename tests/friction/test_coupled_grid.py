@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import sie
-from oracles import spence
+from oracles import sheared_grid, spence
 
 CELLS = 32
 
@@ -57,3 +57,72 @@ def test_grids_tell_the_coupled_pressure_from_goodmans():
         coupling="goodman",
     )
     assert between_grids(*loads, sie.solve(scene).normal_load) > 1.0
+
+
+def pressed(solution, cell, reach, turn, wide):
+    """The cells of a parabola under P: short ones around its left edge up to `turn`."""
+    b, c = solution.edges[1], solution.stick[0][1]
+    near = -b + cell * np.arange(-round(reach / cell), round((turn + b) / cell) + 1)
+    ends = np.append(near[:-1], np.linspace(near[-1], b, round((b - near[-1]) / wide) + 1))
+    x, width = 0.5 * (ends[1:] + ends[:-1]), np.diff(ends)
+    node, weight = np.polynomial.legendre.leggauss(6)
+    at, touch = x[:, None] + 0.5 * width[:, None] * node, x > -b
+
+    def mean(function):
+        values = np.zeros(len(x))
+        values[touch] = function(at[touch].ravel()).reshape(-1, 6) @ (0.5 * weight)
+        return values
+
+    p, q = mean(solution.pressure), mean(solution.shear)
+    return sheared_grid.Pressed(ends, 0.5 * x * x, p, q, 1.0 * (x > c))
+
+
+def sheared_states(beta, friction, cell, turn):
+    scene = sie.Scene(
+        profile=sie.Parabola(1.0), modulus=2.0, dundurs=beta, friction=friction, normal_load=1.0
+    )
+    states = sheared_grid.sheared(pressed(sie.solve(scene), cell, 0.4, turn, 0.05), beta, friction)
+    return ((state.load / friction, state) for state in states)
+
+
+def test_grid_sticks_beside_the_leading_edge_where_one_state_alone_would_slip_there():
+    # Slip would oppose Q below 0.715 f P, but what was gained before sticks up to 0.7545 f P:
+    # by a march with a slip zone inside the stick zone. The loads are 1.5 % apart.
+    beta, friction = 0.3, 2.0
+    states = dict(sheared_states(beta, friction, 0.005, -0.62))
+    beside = {part: state.zones[0][0] for part, state in states.items() if part > 0.65}
+    assert {sign for part, sign in beside.items() if part < 0.735} == {0}
+    assert {sign for part, sign in beside.items() if 0.77 < part < 0.85} == {1}
+
+
+@pytest.mark.parametrize("part", [0.5, 0.73, 0.9])
+def test_loads_are_refused_where_such_stick_may_be_left(part):
+    scene = sie.Scene(
+        profile=sie.Parabola(1.0),
+        modulus=2.0,
+        dundurs=0.3,
+        friction=2.0,
+        normal_load=1.0,
+        tangential_load=2.0 * part,
+    )
+    with pytest.raises(sie.ContactError, match="came into contact under Q"):
+        _ = sie.solve(scene).edges
+
+
+def test_grid_has_the_four_edges_where_the_zones_depend_on_the_load_alone():
+    beta, friction, cell = 0.25, 2.0, 0.005
+    part, state = next(it for it in sheared_states(beta, friction, cell, -0.5) if it[0] > 0.5)
+    scene = sie.Scene(
+        profile=sie.Parabola(1.0),
+        modulus=2.0,
+        dundurs=beta,
+        friction=friction,
+        normal_load=1.0,
+        tangential_load=part * friction,
+    )
+    solution = sie.solve(scene)
+    (left, _), (stick, e1), (right, e2) = state.zones
+    assert (left, stick, right) == (1, 0, 1)
+    assert state.contact[0] == pytest.approx(solution.edges[0], abs=cell)
+    assert e1 == pytest.approx(solution.stick[0][0], abs=cell)
+    assert e2 == pytest.approx(solution.stick[0][1], abs=0.05)

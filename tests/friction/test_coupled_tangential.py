@@ -535,16 +535,13 @@ def test_stick_of_what_came_into_contact_under_the_load_is_refused():
     ("profile", "beta", "friction"),
     [
         (None, 0.36, 0.57),
-        (None, 0.3, 2.0),
+        (None, 0.25, 2.0),
         (None, 0.49, 0.06),
         (sie.Polynomial((0, 0, 0.5, 0, 2.7)), 0.488, 0.059),
         (sie.RoundedFlat(0.5, 1.0), 0.34, 1.06),
         # The slip of the normal load goes on at the old edge under a small load
         (None, 0.409, 0.0227),
         (sie.FromFunction(slope="sinh(x)"), 0.39, 0.0118),
-        # There are zones only next to f P
-        (None, 0.243, 3.77),
-        (sie.Polynomial((0, 0, 0.5, 0, 0.0211)), 0.276, 3.856),
     ],
 )
 def test_refusal_of_a_small_load_names_the_least_that_is_certified(profile, beta, friction):
@@ -554,6 +551,20 @@ def test_refusal_of_a_small_load_names_the_least_that_is_certified(profile, beta
     assert words in message
     assert solved(profile, beta, friction, least + beside).check().ok
     assert words in refused(profile, beta, friction, least - beside)
+
+
+@pytest.mark.parametrize(
+    ("profile", "beta", "friction"),
+    [
+        (None, 0.3, 2.0),
+        (None, 0.2, 4.0),
+        (None, 0.243, 3.77),
+        (sie.Polynomial((0, 0, 0.5, 0, 0.0211)), 0.276, 3.856),
+    ],
+)
+def test_loads_of_any_size_are_refused_where_zones_of_one_state_begin_late(profile, beta, friction):
+    for part in (1e-5, 0.3, 0.75, 0.99):
+        assert "let the bodies slide" in refused(profile, beta, friction, part)
 
 
 def test_certificate_is_not_ok_where_slip_would_oppose_the_load():

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie.numerics.root_finding import false_position
+from sie.problem.coverage import refused_load
 
 from .iteration import SETTLED, Missing, Root
 
@@ -24,11 +25,25 @@ STRIDE, SHORTEST, LONGEST, LONGER = 0.7, 1e-2, 2.0, 1.5
 ROUGHLY = 1e-6  # of the conditions, on the way
 NAMED = 3e-3  # of ln tan φ, or of the slip: the error of the least load that is named
 
+# Of f P: where slip along Q in both zones begins above it, the zones depend on Q alone only above
+# some larger load. On the grid of `oracles/sheared_grid.py` they do so from that load on in 16
+# cases in which it is 0.02 to 0.49 f P, under parabolas, rounded flats and powers, and not up to
+# 1.00 to 1.09 times that load in 10 of 11 in which it is 0.51 to 0.86 f P
+LATE = 0.4
+
 T = TypeVar("T", bound=Missing)
 
 
 class Search(Protocol[T]):
     """What finds a state next to given edges."""
+
+    @property
+    def beta(self) -> float:
+        """Dundurs' β."""
+
+    @property
+    def friction(self) -> float:
+        """The coefficient f."""
 
     @property
     def limit(self) -> float:
@@ -127,3 +142,18 @@ class LoadPath(Generic[T]):
             return b - a < NAMED or abs(missed) < NAMED
 
         return self._load(false_position(least, a, b, ends, settled))
+
+
+def unless_late(search: Search[T], now: T, Q: float) -> T:
+    """The state under Q; ContactError where slip would oppose Q under LATE f P."""
+    late = LATE * search.limit
+    if late >= Q:
+        return now
+    root = search.next_to(search.start(late), late, settled=ROUGHLY)
+    if root is not None:
+        opposed = search.least_slip(root.trial) < 0.0
+    else:
+        opposed = LoadPath(search).followed(now, Q, late)[2]
+    if opposed:
+        raise refused_load(search.beta * search.friction, (Q, search.limit, search.limit), True)
+    return now

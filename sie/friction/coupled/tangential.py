@@ -44,7 +44,7 @@ from sie.traction.piece_quadrature import SlidingGeometry
 from .contact import CoupledContact
 from .gradient import SlipGradient, Tabulated, tabulated
 from .iteration import SETTLED, Root, iterated
-from .load_path import ROUGHLY, LoadPath
+from .load_path import LATE, ROUGHLY, LoadPath, unless_late
 from .slip_rate import SlipRate
 from .zones import Rule, StickProblem, Zones, stick_rule
 
@@ -231,7 +231,7 @@ class TangentialSearch:
         """
         answer = self._newton(self.start(Q), Q)
         if answer is not None and self.least_slip(answer) >= 0.0:
-            return answer
+            return unless_late(self, answer, Q)
         least, opposed = math.inf, self._spreads
         for load in () if opposed else self._first_loads:
             if Q < least <= load:  # from there one arrives where one has been
@@ -240,7 +240,7 @@ class TangentialSearch:
             if first is not None and self.least_slip(first) >= 0.0:
                 now, end, opposed = LoadPath(self).followed(first, load, Q)
                 if end == Q:
-                    return now
+                    return unless_late(self, now, Q)
                 least = min(least, end)
                 # Where e1 ends at the edge of the contact of P alone, what it reached sticks below
                 opposed = opposed or now.zones.e1 - self._bounds[0] < AT_EDGE * self.normal.b
@@ -249,7 +249,7 @@ class TangentialSearch:
             elif first is not None:
                 opposed = True
         if opposed:
-            least = min(least, self.limit)
+            least = least if least <= LATE * self.limit else self.limit
         raise refused_load(self.beta * self.friction, (Q, least, self.limit), opposed)
 
     def least_slip(self, trial: Trial) -> float:
