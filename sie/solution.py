@@ -37,6 +37,7 @@ from .friction.coupled.normal import coupled_contact
 from .friction.coupled.sheared import ShearedContact
 from .friction.coupled.sheared_contact import found_state, sheared_contact
 from .friction.coupled.shift import tangential_shift
+from .friction.coupled.spreading_contact import SpreadingContact, spreading_state
 from .friction.coupled.tangential import TangentialSearch, tangential_search
 from .friction.coupled.traction import OnHalves
 from .friction.coupled.uneven_contact import UnevenContact
@@ -53,7 +54,12 @@ from .patches.answer import SeveralPatches
 from .patches.friction import PatchesUnder, PatchSlip
 from .patches.full import FullContact
 from .patches.result import PatchCertificate, worst_of
-from .problem.coverage import held_moment, refuse_uncovered, uneven_under_shear
+from .problem.coverage import (
+    held_moment,
+    refuse_uncovered,
+    refused_energy,
+    uneven_under_shear,
+)
 from .problem.request import ECONOMY, sheared
 from .problem.scene import Scene
 from .stages import stage as cached_property  # its first reading is logged
@@ -117,7 +123,7 @@ class Solution(Frictionless, StressAnswers):
     def coupled(self) -> tuple[Edges, CoupledContact | UnevenContact | ShearedContact]:
         """The edges and the state of dissimilar bodies in partial slip."""
         if self.scene.tangential_load:
-            edges, state = sheared_contact(self._upright, self.tangential_search)
+            edges, state = sheared_contact(self._upright, self.tangential_search, spreading_state)
             return replace(edges, tilt=self.scene.tilt), state
         return self.pressed
 
@@ -293,7 +299,12 @@ class Solution(Frictionless, StressAnswers):
         state, pressed = self.coupled[1], self.pressed[1].energy
         if not isinstance(state, ShearedContact):
             return pressed
-        return pressed + tangential_energy(state, partial(found_state, self.tangential_search))
+        if isinstance(state, SpreadingContact):
+            raise refused_energy(state.Q)
+        search = self.tangential_search
+        return pressed + tangential_energy(
+            state, partial(found_state, search, spreading=spreading_state)
+        )
 
     @cached_property
     def certificate(self) -> Certificate | PatchCertificate:

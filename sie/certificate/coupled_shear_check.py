@@ -99,7 +99,11 @@ def _kept_gradient(state: State, x: Array, beta: float) -> Array:
         values = _values(state.lighter)
         gradient: Array = _principal(values, values.q, x, q) + beta * p
         return gradient
-    return gradient_of_slip(state.search.normal, np.abs(x - state.axis), beta)
+    y, b = np.abs(x - state.axis), state.search.normal.b
+    old, kept = y < b, np.zeros(len(x))
+    kept[old] = gradient_of_slip(state.search.normal, y[old], beta)
+    kept[~old] = state.kept_gradient(x[~old])
+    return kept
 
 
 def _values(state: State) -> Values:

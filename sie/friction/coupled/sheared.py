@@ -304,6 +304,10 @@ class ShearedContact:
 
         return on_line(value, x)
 
+    def kept_gradient(self, x: Array) -> Array:
+        """E*/2 g' with which places stick that the contact gained: with these zones none does."""
+        return np.zeros(len(x))
+
     # -- beside the contact ------------------------------------------------------------------------
 
     def hilbert_outside(self, u: Array) -> Array:
@@ -334,7 +338,7 @@ class ShearedContact:
     def _raised(self, edge: float, u: Array) -> Array:
         """E*/2 times how far the surfaces part less than the profile rises, from an edge on."""
         side = math.copysign(1.0, float(u[0]) - edge)
-        width = self.state.sliding.contact.r
+        width = self.contact.r
 
         def H(d: Array) -> Array:
             return side * self.hilbert_outside(edge + side * np.maximum(d, ABREAST * width))

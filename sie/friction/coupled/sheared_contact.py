@@ -10,6 +10,7 @@ they are found from incipient sliding, and below it from a small Q upwards.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import replace
 
 from sie.contact.inequalities import TOLERATED
@@ -22,25 +23,36 @@ from .load_path import LoadPath
 from .sheared import ShearedContact
 from .tangential import TangentialSearch
 
+Below = Callable[[TangentialSearch, float], ShearedContact]
+
 SMALL = (1e-2, 1e-4, 1e-6)  # parts of f P from which the load is followed upwards
 
 
-def sheared_contact(scene: Scene, search: TangentialSearch) -> tuple[Edges, ShearedContact]:
+def refused(search: TangentialSearch, Q: float) -> ShearedContact:
+    """No state below the zones of `tangential`."""
+    raise ContactError("such loads are not asked for")
+
+
+def sheared_contact(
+    scene: Scene, search: TangentialSearch, spreading: Below
+) -> tuple[Edges, ShearedContact]:
     """The edges and the state under the scene's Q.
 
     Raises ContactError where none is found, or slip since P would oppose Q.
     """
     sign = math.copysign(1.0, scene.beta)
     flip = math.copysign(1.0, sign * scene.tangential_load)
-    state = replace(found_state(search, abs(scene.tangential_load)), sign=sign, flip=flip)
+    state = replace(
+        found_state(search, abs(scene.tangential_load), spreading), sign=sign, flip=flip
+    )
     P = search.normal.load
     moment = state.axis * P + flip * state.moment
     edges = Edges(state.contact, P, moment, 0.0, (False, False), 0.0, 0.0, 0.0, 0)
     return edges, state
 
 
-def found_state(search: TangentialSearch, Q: float) -> ShearedContact:
-    """The state under Q > 0 with β > 0."""
+def found_state(search: TangentialSearch, Q: float, spreading: Below = refused) -> ShearedContact:
+    """The state under Q > 0 with β > 0; `spreading` gives those below the zones of `tangential`."""
     try:
         state = ShearedContact(search, search.found(Q), Q, 1.0, 1.0)
         if not search.corners or keeps_friction_law(state):
@@ -48,7 +60,10 @@ def found_state(search: TangentialSearch, Q: float) -> ShearedContact:
         refusal = refused_slip(search.beta * search.friction, Q / search.limit)
     except ContactError as error:
         if not search.corners:
-            raise
+            try:
+                return spreading(search, Q)
+            except ContactError:
+                raise error from None
         refusal = error
     for load in (part * search.limit for part in SMALL if part * search.limit < Q):
         root = search.next_to(search.start(load), load)

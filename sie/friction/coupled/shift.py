@@ -15,15 +15,10 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from sie.numerics.gauss_jacobi import with_weight
-
-from .integral import RATIO, integral
+from .integral import integral, on_marks
 from .sheared import ShearedContact
 
 Array = NDArray[np.float64]
-
-# Between marks of the tractions: nodes, panels towards them, parts of the contact that are one
-ON_MARKS, SHRINKING, TOGETHER = 12, 16, 1e-10
 
 
 def tangential_shift(state: ShearedContact) -> float:
@@ -36,7 +31,7 @@ def tangential_shift(state: ShearedContact) -> float:
 
     search, start = state.search, state.trial.zones.e2
     normal, beta, gamma = search.normal, search.beta, search.gamma
-    x, weight = _on_marks(state.frame_marks)
+    x, weight = on_marks(state.frame_marks)
     q, p = state.frame_shear(x), state.frame_pressure(x)
     shift = float(weight @ (beta * (x > start) * p - q * np.log(np.abs(x - start)) / math.pi))
     inner = gamma.cuts[(gamma.cuts > 0.0) & (gamma.cuts < abs(start))]
@@ -46,19 +41,3 @@ def tangential_shift(state: ShearedContact) -> float:
     bonded = float(digamma(0.5 + 1j * eta).real) - float(digamma(0.5))
     shift += state.Q / math.pi * (math.log(0.5 * normal.b) + bonded)
     return state.turn * shift / normal.half_modulus
-
-
-def _on_marks(marks: tuple[float, ...]) -> tuple[Array, Array]:
-    """Nodes and weights on panels that shrink towards every mark, but those that are one."""
-    x, _, w = with_weight(ON_MARKS, 0.0, 0.0)
-    near = np.append(0.0, RATIO ** -np.arange(SHRINKING, -0.5, -1.0))
-    part, mass = (near[:-1, None] + np.diff(near)[:, None] * x), np.diff(near)[:, None] * w
-    nodes, weights, apart = [], [], TOGETHER * (marks[-1] - marks[0])
-    lo = marks[0]
-    for hi in marks[1:]:
-        if hi - lo > apart:
-            half = 0.5 * (hi - lo)
-            nodes += [lo + half * part.ravel(), hi - half * part.ravel()]
-            weights += [half * mass.ravel()] * 2
-            lo = hi
-    return np.concatenate(nodes), np.concatenate(weights)

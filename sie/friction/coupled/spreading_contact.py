@@ -1,0 +1,256 @@
+"""The state under P, then Q, while what the contact gains sticks as it is touched.
+
+In the frame of `tangential` (axis at 0, β > 0, Q > 0) the zones are a strip at x1 with q = -f p,
+where the slip of the normal load goes on, stick up to e2, and slip along Q from there to x2. p, q
+and γ are those under P alone and what Q added (`spreading_history`). What was gained keeps the γ
+with which it was touched, but for what it slips while the strip passes.
+
+The zones are these until f p - q falls to zero at the old edge -b, inside the stick zone, where a
+slip zone opens.
+"""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from functools import cached_property, lru_cache
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from sie.errors import ContactError
+from sie.numerics.interval import EPS
+from sie.traction.base import on_line
+
+from .gradient import SlipGradient
+from .integral import Integral, integral, on_marks, towards_ends
+from .sheared import LOOKED_AT, ShearedContact
+from .spreading_history import Places
+from .spreading_march import Beginning, SpreadingMarch
+from .tables import interpolated
+from .tangential import TangentialSearch, Trial
+from .two_sided import Known, TwoSidedTraction, both_tractions
+from .zones import Zones
+
+Array = NDArray[np.float64]
+
+TOGETHER = 128  # places at once
+ROUNDINGS = 8.0  # of b - x2: the least distance from x2
+CHECKED = 1e-8  # of f times the mean pressure: by what friction may seem to be exceeded
+NARROW = 1e-12  # half-widths from x1: nearer p and q are rounding if the strip is not seen
+# Of exp(-(π/2 - atan f)/η) b: contacts that gain more have a slip zone at the old edge
+GAINED = 300.0
+RESOLVED = 3e-10  # of the parts of its conditions, what the march may miss where Q is reached
+WIDE = 1e-3  # of what was gained, a strip that reaches back to the old edge for too long
+
+
+class Spread(NamedTuple):
+    """The zones; the strip may be narrower than the roundings of x1."""
+
+    zones: Zones
+
+
+@dataclass(frozen=True, eq=False)
+class SpreadingContact(ShearedContact):
+    """The state; `trial` holds the zones.
+
+    march       the panels of what Q added
+    s           how far the contact has spread beyond -b
+    """
+
+    march: SpreadingMarch = field(kw_only=True)
+    s: float = field(kw_only=True)
+
+    @property
+    def state(self) -> Trial:
+        return self.trial
+
+    @property
+    def strip(self) -> float:
+        """The width of the strip at x1 with q = -f p."""
+        return self.march.history.strip_width(self.s, *self.march.history.zones(self.s))
+
+    @property
+    def slip_zones(self) -> tuple[tuple[float, float, float], ...]:
+        """(lo, hi, sign of q)."""
+        x1, e1, e2, x2 = self.trial.zones
+        right = (*self._placed(e2, x2), self.turn)
+        if e1 == x1:
+            return (right,)
+        return tuple(sorted(((*self._placed(x1, e1), -self.turn), right)))
+
+    # -- tractions, in the frame -------------------------------------------------------------------
+
+    def _places(self, u: Array) -> Places:
+        b, c = self.search.normal.b, self.march.history.c
+        (x1, _, e2, x2), (ways) = self.trial.zones, self.march.history.zones(self.s)
+        from_b = np.where(u < -0.5 * b, (u - x1) - self.s, u + b)
+        # By the distance from the zones' own ends
+        to_c = ways[0] + (e2 - u)
+        to_b = np.maximum(ways[1] + (x2 - u), ways[1] * (1.0 + ROUNDINGS * EPS))
+        return Places(from_b, np.where(u > 0.0, to_c, c - u), to_b, np.full(len(u), self.s))
+
+    def added(self, u: Array) -> Array:
+        """Rows of p, f p - q and γ that Q added at x1 < u < x2."""
+        rows = [
+            self.march.history.inside(self._places(u[i : i + TOGETHER]))
+            for i in range(0, len(u), TOGETHER)
+        ]
+        return np.concatenate(rows, axis=1) if rows else np.zeros((3, 0))
+
+    def _both(self, u: Array) -> Array:
+        """Rows of p and f p - q; those asked for last are kept, as either row is asked for."""
+        return self._kept_rows(u.tobytes())
+
+    @cached_property
+    def _kept_rows(self) -> Callable[[bytes], Array]:
+        return lru_cache(maxsize=2)(lambda u: self._computed(np.frombuffer(u)))
+
+    def _computed(self, u: Array) -> Array:
+        (x1, _, e2, x2), b = self.trial.zones, self.search.normal.b
+        rows, inside = np.zeros((2, len(u))), (u > x1) & (u < x2)
+        rows[:, inside] = self.added(u[inside])[:2]
+        old = inside & (np.abs(u) <= b)
+        rows[0, old] += self.search.normal.pressure(np.abs(u[old]))
+        stuck = old & (u < e2)
+        rows[1, stuck] += self._deficit_before(u[stuck])
+        rows[1, u >= e2] = 0.0
+        return rows
+
+    def _interpolated(self, u: Array, row: int) -> Array:
+        marks = np.array(self.frame_marks)
+        apart = np.append(True, np.diff(marks) > NARROW * marks[-1])
+        values: Array = interpolated(lambda y: self._both(y)[row], marks[apart], u)
+        return values
+
+    def frame_pressure(self, u: Array) -> Array:
+        """p at x1 <= u <= x2."""
+        return self._interpolated(u, 0)
+
+    def deficit(self, u: Array) -> Array:
+        """f p - q at x1 <= u <= x2, 0 in slip along Q."""
+        return self._interpolated(u, 1)
+
+    def _frame_tractions(self, u: Array) -> Array:
+        p, r = self.frame_pressure(u), self.deficit(u)
+        return np.stack((p, self.friction * p - r))
+
+    @cached_property
+    def moment(self) -> float:
+        """∫p x dx about the axis, in the frame."""
+        x, weight = on_marks(self.frame_marks)
+        return float(weight @ (x * self.frame_pressure(x)))
+
+    # -- slip --------------------------------------------------------------------------------------
+
+    @cached_property
+    def _slipped(self) -> Integral:
+        """E*/2 times what the slip gains under Q from e2 on."""
+        _, _, e2, x2 = self.trial.zones
+        cuts = np.array([y for y in self.frame_marks if e2 < y < x2])
+        return integral(lambda u: self.added(u)[2], towards_ends(e2, x2, cuts))
+
+    @property
+    def least_slip(self) -> float:
+        """The least slip along Q that Q added in the slip zone at x2, over the largest."""
+        slip = self._slipped(self._slipped.cuts[1:])
+        return min(float(slip.min() / np.abs(slip).max()), 0.0)
+
+    @cached_property
+    def least_deficit(self) -> float:
+        """The least f p - |q| in stick, over its size: negative where friction is exceeded."""
+        (x1, e1, e2, _), b = self.trial.zones, self.search.normal.b
+        ends = [max(e1, x1 + NARROW * b), -b, e2]
+        u = np.concatenate([lo + (hi - lo) * LOOKED_AT for lo, hi in itertools.pairwise(ends)])
+        p, r = self._both(u)
+        return float(np.minimum(r, 2.0 * self.friction * p - r).min()) / self.search.stress
+
+    def kept_gradient(self, x: Array) -> Array:
+        """E*/2 g' with which x, beside the contact under P alone, was touched; bodies' frame."""
+        u = self.in_frame(x)
+        normal, history = self.search.normal, self.march.history
+        places = self._places(u)
+        s = -places.from_b
+        y = normal.b + s
+        gradient = SlipGradient(normal.superposition, normal.ahead)
+        before = gradient.beside(y, normal.hilbert_outside(y))
+        touched = np.array([history.zones(one) for one in s.tolist()]).reshape(-1, 2)
+        at = history.at("x1", s, touched[:, 0], touched[:, 1])
+        values: Array = before + history.beside(at).imag + history.inside(places)[2]
+        return self.sign * values
+
+    def relative_slip(self, x: ArrayLike) -> Array:
+        """The slip at x, same shape: 0 outside the contact, and in what was gained."""
+
+        def value(flat: Array) -> Array:
+            u, g = self.in_frame(flat), np.zeros(flat.shape)
+            (x1, _, e2, x2), normal = self.trial.zones, self.search.normal
+            old = (np.abs(u) <= normal.b) & (u >= x1) & (u <= x2)
+            g[old] = np.sign(u[old]) * normal.sign * normal.slip(np.abs(u[old]))
+            slips = (u > e2) & (u <= x2)
+            g[slips] += self._slipped(u[slips]) / normal.half_modulus
+            return self.turn * g
+
+        return on_line(value, x)
+
+    # -- beside the contact ------------------------------------------------------------------------
+
+    def hilbert_outside(self, u: Array) -> Array:
+        """1/π ∫p/(u - t) dt beside the contact, in the frame."""
+        values: Array = self.flip * self.tractions[0].hilbert(self.axis + self.flip * u)
+        return values
+
+    @cached_property
+    def tractions(self) -> tuple[TwoSidedTraction, TwoSidedTraction]:
+        """p and q with their potentials, which share their panels."""
+        at = self.axis + self.flip * 0.5 * (self.trial.zones.e1 + self.trial.zones.e2)
+
+        def both(x: Array) -> Array:
+            rows: Array = np.array([[1.0], [self.turn]]) * self._frame_tractions(self.in_frame(x))
+            return rows
+
+        powers = 0.5, 0.5 + self.march.history.rates.theta
+        known = Known(
+            at,
+            self.marks,
+            powers if self.flip > 0.0 else powers[::-1],
+            (self.search.normal.load, self.turn * self.Q),
+            self.axis * self.search.normal.load + self.flip * self.moment,
+        )
+
+        def pressure(x: Array) -> Array:
+            return self.frame_pressure(self.in_frame(x))
+
+        return both_tractions((pressure, lambda x: both(x)[1]), both, known)
+
+
+def spreading_state(search: TangentialSearch, Q: float) -> SpreadingContact:
+    """The state under Q > 0 with β > 0.
+
+    Raises ContactError where a slip zone is open at the old edge, or the march ends before Q.
+    """
+    normal, f = search.normal, search.friction
+    beginning = Beginning(normal, lambda y: normal.half_modulus * search.slope(y))
+    march = SpreadingMarch(beginning, tuple(np.abs(search.slope.breaks).tolist()))
+    widest = GAINED * normal.b * math.exp(-(0.5 * math.pi - math.atan(f)) / march.eta)
+    if march.expected(Q) > widest:
+        raise ContactError("a slip zone is open at the old edge, inside the stick zone")
+    s = march.marched(Q)
+    if (gap := march.missed(s)) > max(RESOLVED, ROUNDINGS * EPS * normal.b / s):
+        raise ContactError(f"the march misses its conditions by {gap:.1g} of their parts")
+    e2, e3 = march.history.zones(s)
+    strip = march.history.strip_width(s, e2, e3)
+    if strip > WIDE * s:
+        raise ContactError(
+            f"a zone of the width {strip:.3g} next to the edge keeps the slip of the normal load, "
+            f"which is not narrow beside the {s:.3g} that the contact gained"
+        )
+    x1 = -normal.b - s
+    zones = Zones(x1, x1 + strip, normal.c - e2, normal.b - e3)
+    state = SpreadingContact(search, Spread(zones), Q, 1.0, 1.0, march=march, s=s)  # type: ignore[arg-type]
+    if state.least_deficit < -CHECKED:
+        raise ContactError("a slip zone is open at the old edge, inside the stick zone")
+    return state

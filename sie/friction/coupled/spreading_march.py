@@ -1,0 +1,285 @@
+"""The march of a contact that spreads under Q over what sticks as it is touched.
+
+With s, how far the left edge has advanced beyond -b, as time, three conditions give w = dQ/ds and
+the ways ε2 and ε3 of the right end of the stick zone and of the right edge,
+
+    H p = E*/2 h' at x1,        p = 0 at x2,        f p - q = 0 at e2,
+
+integrals over all s' < s (`spreading_history`). Their logarithms are series in ln s, on panels that
+grow in proportion, found by collocation and Broyden's steps. The first panel goes from s = 0 to a
+small part of s under Q, as two powers: how it errs is forgotten like a power of s.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sie.errors import ContactError
+from sie.numerics import chebyshev
+from sie.numerics.interval import EPS
+from sie.progress_bar import step_done
+
+from .contact import CoupledContact
+from .edge_rate import EdgeRates
+from .spreading_history import SEEN, SpreadingHistory, SpreadingPanel
+
+Array = NDArray[np.float64]
+
+DEGREE, RATIO = 9, 3.0  # of a panel: terms, and how much s grows on it
+START = 1e-5  # of s under Q: the first panel
+GAIN = 1.3  # of β Q/P half-widths: about s under Q
+FIRST_POINTS = 0.25, 1.0  # of the first panel
+POWERS = 0.2, 0.7  # of ε2 and ε3 with s at first, about
+STEP = 1e-6  # of a logarithm, for differences
+FARTHEST = 0.7  # of a logarithm, a step
+# Of a logarithm: the last step, at the load; it may be as much longer as s is less; roundings of b
+SETTLED, ROUNDINGS = 2e-13, 8.0
+STEPS = 40
+LOST = 1e-3  # of the logarithms: conditions that are missed by more may grow no more
+EXTRAPOLATED = 3  # terms
+CUT, SHORTEST = 0.3, 0.02  # of a panel in ln s
+DECAYED, NOISE = 1e-9, 64.0  # of the last coefficients of a panel that is not cut; roundings of b
+MOST = 60  # panels
+WIDEST = 0.5  # half-widths: how far the march goes
+
+
+@dataclass(frozen=True, eq=False)
+class Beginning:
+    """The state under P alone, with the profile; β > 0 and Q > 0.
+
+    normal      the state
+    slope       E*/2 h' on the right of the axis
+    """
+
+    normal: CoupledContact
+    slope: Callable[[Array], Array]
+
+    @cached_property
+    def rates(self) -> EdgeRates:
+        return EdgeRates(self.normal.flat.beta, self.normal.flat.friction)
+
+    def steepness(self, s: Array) -> Array:
+        """H p - E*/2 h' at -b - s, positive."""
+        y = self.normal.b + s
+        values: Array = self.slope(y) - self.normal.hilbert_outside(y)
+        return values
+
+    def pressure(self, e3: Array) -> Array:
+        """p at b - ε3."""
+        return self.normal.pressure(self.normal.b - e3)
+
+    def deficit(self, x: Array) -> Array:
+        """f p - q at |x| < c."""
+        normal = self.normal
+        p, q = normal.pressure_and_shear(np.abs(x))
+        values: Array = normal.flat.friction * p - normal.sign * np.sign(x) * q
+        return values
+
+
+class SpreadingMarch:
+    """The march, panel by panel."""
+
+    def __init__(self, beginning: Beginning, kinks: tuple[float, ...] = (), n: int = DEGREE):
+        self.beginning, self.normal, self.n = beginning, beginning.normal, n
+        self.kinks = sorted(k for k in kinks if k > 0.0)
+        self.history = SpreadingHistory(
+            beginning.rates, beginning.normal.b, beginning.normal.slip_width
+        )
+        self._jacobian: Array | None = None
+        self._far = 0.0
+
+    @property
+    def eta(self) -> float:
+        return self.beginning.rates.eta
+
+    def expected(self, Q: float) -> float:
+        """About s under Q."""
+        return GAIN * self.normal.flat.beta * Q / self.normal.load * self.normal.b
+
+    def started(self, s: float) -> None:
+        """The first panel, up to s."""
+        b, rest = self.normal.b, self.normal.slip_width
+        at = s * np.array(FIRST_POINTS)
+        e2, e3 = 1.6 * s + math.sqrt(s * rest), 0.9 * s
+        half = 0.5 * math.log(at[1] / at[0])
+        series = np.array(
+            [[0.0, 0.0], *([math.log(e), half * a] for e, a in zip((e2, e3), POWERS, strict=True))]
+        )
+        panel = SpreadingPanel(at[0], at[1], series, True)
+        self.history.width = self.history.strip_width(s, e2, e3)
+        self.history.strip = self.history.width > SEEN * b
+        missed = self._missed(panel, at, (self.beginning.steepness(at), np.zeros(2)))
+        if missed[1] < 1.0:
+            series[0, 0] -= math.log(1.0 - missed[1])
+        found = self._solved(SpreadingPanel(at[0], at[1], series, True), at)
+        if found is None:
+            raise ContactError("no state from which the march begins")
+        self.history.panels = (found,)
+
+    def marched(self, Q: float) -> float:
+        """Panels up to the load Q; s there."""
+        history, b = self.history, self.normal.b
+        guess = self.expected(Q)
+        self._far = guess
+        self.started(START * guess)
+        while (load := history.load(math.inf)) < Q:
+            last = history.panels[-1]
+            if last.hi > WIDEST * b or len(history.panels) > MOST:
+                raise ContactError(
+                    f"the contact gained {last.hi:.3g} under |Q| = {load:.6g}, where the march ends"
+                )
+            self._advance(last)
+            step_done()
+        return self._at_load(Q)
+
+    def missed(self, s: float) -> float:
+        """What the conditions miss at s, which is no node, over their known parts."""
+        history, panel = self.history, self.history.panel_of(s)
+        kept, at = history.panels, np.array([s])
+        history.panels = tuple(p for p in kept if p.hi <= panel.lo)
+        try:
+            taken = history.beside(history.at("x1", at, at, at)).real
+            gaps = self._missed(panel, at, (self.beginning.steepness(at), taken))
+        finally:
+            history.panels = kept
+        return float(np.abs(gaps).max())
+
+    def _at_load(self, Q: float) -> float:
+        panel = self.history.panels[-1]
+        before = self.history.load(panel.lo)
+        lo, hi = math.log(panel.lo), math.log(panel.hi)
+        for _ in range(60):
+            middle = 0.5 * (lo + hi)
+            if before + self.history.load_on(panel, math.exp(middle)) < Q:
+                lo = middle
+            else:
+                hi = middle
+        return math.exp(0.5 * (lo + hi))
+
+    def _advance(self, last: SpreadingPanel) -> None:
+        """One more panel."""
+        lo, hi = last.hi, last.hi * RATIO
+        ahead = [k - self.normal.b for k in self.kinks if k - self.normal.b > lo * (1.0 + 1e-9)]
+        hi = min(hi, *ahead) if ahead else hi
+        whole = hi
+        while True:
+            found = self._panel(last, lo, hi)
+            if found is not None:
+                tail = float(np.abs(found.series[:, -2:]).max())
+                # Errors are forgotten like a power of s
+                noise = NOISE * EPS * self.normal.b / lo
+                if tail < max(DECAYED * max(self._far / lo, 1.0), noise):
+                    break
+                if math.log(hi / lo) < SHORTEST:
+                    break
+                # The right edge enters what stuck under P alone
+                end = self._entry(found)
+                if lo * 1.01 < end < hi * 0.99:
+                    hi = end
+                    continue
+            elif math.log(hi / lo) < SHORTEST:
+                raise ContactError(f"the march ends where the contact gained {lo:.6g}")
+            hi = lo * (hi / lo) ** CUT
+        if hi < whole:
+            self._jacobian = None
+        self.history.panels = (*self.history.panels, found)
+        self.history.width = self.history.strip_width(hi, *self.history.zones(hi))
+
+    def _entry(self, panel: SpreadingPanel) -> float:
+        """s at which ε3 = b - c, if on the panel; otherwise 0."""
+        aim, y = math.log(self.normal.slip_width), np.linspace(-1.0, 1.0, 65)
+        way = chebyshev.evaluate(panel.series[2], y) - aim
+        k = np.flatnonzero((way[:-1] < 0.0) & (way[1:] >= 0.0))
+        if not k.size:
+            return 0.0
+        i = int(k[0])
+        part = y[i] - way[i] * (y[i + 1] - y[i]) / (way[i + 1] - way[i])
+        return panel.lo * math.exp(0.5 * panel.length * (1.0 + part))
+
+    def _panel(self, last: SpreadingPanel, lo: float, hi: float) -> SpreadingPanel | None:
+        """The panel that goes on like the last one at first."""
+        half, n = 0.5 * math.log(hi / lo), self.n
+        series = np.zeros((3, n))
+        for row, before in zip(series, last.series, strict=True):
+            end = float(before.sum())
+            slope = float((before * np.arange(len(before)) ** 2).sum()) * half / (0.5 * last.length)
+            row[0], row[1] = end + slope, slope
+        s = lo * np.exp(half * (1.0 + chebyshev.points(n)))
+        return self._solved(SpreadingPanel(lo, hi, series), s)
+
+    # -- collocation -------------------------------------------------------------------------------
+
+    def _missed(self, panel: SpreadingPanel, s: Array, known: tuple[Array, Array]) -> Array:
+        """What the conditions miss, over their known parts.
+
+        `known` are the steepness at x1, and what the panels before take of it.
+        """
+        history, before = self.history, self.beginning
+        _, e2, e3 = panel(s)
+        kept = history.panels
+        history.panels = (*kept, panel)
+        try:
+            at_x1 = known[1] + history.beside(history.at("x1", s, e2, e3), (panel,)).real
+            at_x2 = history.inside(history.at("x2", s, e2, e3))[0]
+            at_e2 = history.inside(history.at("e2", s, e2, e3))[1]
+        finally:
+            history.panels = kept
+        p, r = before.pressure(e3), before.deficit(self.normal.c - e2)
+        return np.concatenate((1.0 + at_x1 / known[0], 1.0 + at_x2 / p, 1.0 + at_e2 / r))
+
+    def _solved(self, panel: SpreadingPanel, s: Array) -> SpreadingPanel | None:
+        """The panel whose series meet the conditions at these s."""
+        n = len(s)
+        T = chebyshev.polynomials(n, panel.variable(s)).T
+        values, back = (panel.series @ T.T).ravel(), np.linalg.inv(T)
+        taken = self.history.beside(self.history.at("x1", s, s, s)).real
+        known = self.beginning.steepness(s), taken
+
+        def of(values: Array) -> SpreadingPanel:
+            return SpreadingPanel(panel.lo, panel.hi, values.reshape(3, n) @ back.T, panel.first)
+
+        def missed(values: Array) -> Array:
+            with np.errstate(all="ignore"):
+                return self._missed(of(values), s, known)
+
+        early = self._far / float(s.min())
+        settled = max(SETTLED * max(early, 1.0), ROUNDINGS * EPS * self.normal.b / float(s.min()))
+        J = None if panel.first else self._jacobian
+        now, fresh = missed(values), False
+        for _ in range(STEPS):
+            if not np.isfinite(now).all():
+                return None
+            if J is None or J.shape[0] != 3 * n:
+                J, fresh = np.empty((3 * n, 3 * n)), True
+                for j in range(3 * n):
+                    moved = values.copy()
+                    moved[j] += STEP
+                    J[:, j] = (missed(moved) - now) / STEP
+            try:
+                step = -np.linalg.solve(J, now)
+            except np.linalg.LinAlgError:
+                return None
+            size = float(np.abs(step).max())
+            step *= min(1.0, FARTHEST / size)
+            later = missed(values + step)
+            if not np.abs(later).max() < max(2.0 * np.abs(now).max(), LOST):
+                if not fresh:
+                    J = None
+                    continue
+                step *= CUT
+                later = missed(values + step)
+                if not np.isfinite(later).all():
+                    return None
+            J = J + np.outer(later - now - J @ step, step) / (step @ step)
+            values, now, fresh = values + step, later, False
+            if size < settled:
+                if not panel.first:
+                    self._jacobian = J
+                return of(values)
+        return None

@@ -1,0 +1,180 @@
+"""Dissimilar bodies under P, then a small Q: what the contact gains sticks as it is touched."""
+
+import math
+
+import numpy as np
+import pytest
+from numpy.polynomial.legendre import leggauss
+
+import sie
+from oracles.bonded_edge import missed
+from sie.friction.coupled.bonded_edge import BondedEdge
+from sie.friction.coupled.edge_rate import EdgeRates, Lengths
+from sie.friction.coupled.spreading_contact import SpreadingContact
+
+MATERIAL = 0.25, 2.0
+
+
+def _scene(part: float, beta: float = 0.25, friction: float = 2.0) -> sie.Scene:
+    return sie.Scene(
+        profile=sie.Parabola(1.0),
+        modulus=2.0,
+        dundurs=beta,
+        friction=friction,
+        normal_load=1.0,
+        tangential_load=part * friction,
+    )
+
+
+@pytest.fixture(scope="module")
+def small_load() -> sie.Solution:
+    return sie.solve(_scene(0.02))
+
+
+@pytest.mark.parametrize("k", [0, 1])
+@pytest.mark.parametrize("t", [0.2, 0.599, 0.601, 0.97, 1.04, 1.99, 2.01, 40.0])
+def test_series_of_the_bonded_edge_are_those_of_mpmath(k: int, t: float) -> None:
+    import mpmath as mp  # noqa: PLC0415
+
+    (beta, f), edge = MATERIAL, BondedEdge(*MATERIAL, k)
+    A, R = (float(v[0]) for v in edge.inside(np.array([t]), np.array([1.0 - t])))
+    upper = mp.mpc(t, 1e-30)
+    power = mp.exp((1j * edge.eta - 0.5) * mp.log(-upper))
+    Phi = complex(edge.C * power * mp.hyp2f1(edge.a, edge.b, 1 + 2j * edge.eta, upper))
+    if t < 1.0:
+        p, q = A, f * A - R
+        expected = (1.0 + beta) * (q - 1j * p)
+    else:
+        # F p + i F q on the upper side, with H p = β f p and H q = γ - β p
+        cos = math.cos(math.pi * edge.theta)
+        p, gamma = A - cos * beta * R, (1.0 - beta**2) * cos * R
+        expected = (beta * f - 1j) * p + 1j * ((gamma - beta * p) - 1j * f * p)
+    assert abs(Phi - expected) < 2e-13 * abs(Phi)
+
+
+@pytest.mark.parametrize("m", [0.01, 0.99, 1.01, 70.0])
+def test_potential_beside_the_bonded_edge_is_that_of_mpmath(m: float) -> None:
+    import mpmath as mp  # noqa: PLC0415
+
+    edge = BondedEdge(*MATERIAL, 1)
+    power = mp.exp((1j * edge.eta - 0.5) * mp.log(m))
+    Phi = complex(edge.C * power * mp.hyp2f1(edge.a, edge.b, 1 + 2j * edge.eta, -m))
+    assert abs(edge.beside(np.array([m]))[0] - Phi) < 2e-14 * abs(Phi)
+
+
+@pytest.mark.parametrize(
+    ("beta", "f", "e2"), [(0.45, 0.3, -0.16), (0.3, 0.3, 0.2), (0.1, 0.5, 0.3)]
+)
+def test_rates_next_to_the_strip_and_beyond_it_are_one_function(
+    beta: float, f: float, e2: float
+) -> None:
+    rates = EdgeRates(beta, f)
+    weights = rates.weights(np.array([(1.0 - e2) / (1.0 + e2)]))
+    strip = 0.5 * float(weights.log[0])
+    for side in (1.0, -1.0):
+        t = side * math.exp(strip)
+        d = 2.0 * t / (t + (1.0 - e2) / (1.0 + e2))
+        at = Lengths(*(np.array([v]) for v in (d, 1.0 + e2 - d, 2.0 - d, 1.0 + e2, 1.0 - e2)))
+        moved = weights._replace(log=weights.log + 1e-9), weights._replace(log=weights.log - 1e-9)
+        of = rates.inside if side > 0.0 else rates.beside
+        # The place lies on the one side of the joint, then on the other
+        beyond = of(at, weights, False)
+        near = of(at, weights._replace(log=weights.log + 1e-12), True)
+        assert len(moved) == 2
+        np.testing.assert_allclose(np.array(near)[:2], np.array(beyond)[:2], rtol=1e-10)
+
+
+def test_strip_is_that_of_the_eigenvalue_on_a_flat() -> None:
+    # ln of its width on [-1, 1], -9.9 and -11.2, by an eigenvalue of the kernel of the flat
+    rates = EdgeRates(0.45, 0.3)
+    for e2, expected in ((-0.16, -9.9), (-0.85, -11.2)):
+        rho = (1.0 - e2) / (1.0 + e2)
+        log = float(rates.weights(np.array([rho])).log[0]) + math.log(2.0 / rho)
+        assert log == pytest.approx(expected, abs=0.06)
+
+
+def test_rates_carry_q_alone_and_obey_equation_1() -> None:
+    rates, e2 = EdgeRates(0.3, 0.6), 0.4
+    x, w = leggauss(24)
+    near = np.append(0.0, 0.5 * 0.15 ** np.arange(40.0, -1.0, -1.0))
+    part = (near[:-1, None] + np.diff(near)[:, None] * 0.5 * (1.0 + x)).ravel()
+    mass = (0.5 * np.diff(near)[:, None] * w).ravel()
+    total, moment = np.zeros(2), 0.0
+    stuck, slipping = 1.0 + e2, 1.0 - e2
+    at, weights = 3.0, rates.weights(np.array([slipping / stuck]))
+    strip = math.exp(float(weights.log[0])) * 2.0 * stuck / slipping
+    for lo, hi in ((-1.0, -1.0 + strip), (-1.0 + strip, e2), (e2, 1.0)):
+        for from_lo, from_hi in ((part, 1.0 - part), (1.0 - part, part)):
+            left, right = (hi - lo) * from_lo, (hi - lo) * from_hi
+            lengths = Lengths(
+                (lo + 1.0) + left,
+                right if hi == e2 else (e2 - lo) - left,
+                right + (1.0 - hi),
+                np.full(len(part), stuck),
+                np.full(len(part), slipping),
+            )
+            own = weights._replace(
+                outer=weights.outer.repeat(len(part), 2),
+                inner=weights.inner.repeat(len(part), 2),
+                log=weights.log.repeat(len(part)),
+            )
+            p, r, _ = rates.inside(lengths, own)
+            total += (hi - lo) * np.array([mass @ p, mass @ (0.6 * p - r)])
+            moment += (hi - lo) * float((mass * p) @ (1.0 / (at + 1.0 - lengths.to_x1)))
+    beyond = Lengths(*(np.array([v]) for v in (at + 1.0, e2 - at, 1.0 - at, stuck, slipping)))
+    # (x2 - x) changes its sign beyond x2, and t < 0 there as well
+    F = complex(rates.beside(beyond, weights)[0])
+    assert total == pytest.approx([0.0, 1.0], abs=3e-3)
+    assert moment / math.pi == pytest.approx(F.real, abs=1e-3)
+
+
+def test_edges_are_those_of_a_march_by_reciprocity(small_load: sie.Solution) -> None:
+    # By the four conditions of `oracles.bonded_edge`, marched with γ as the unknown function
+    (x1, x2), ((_, e2),) = small_load.edges, small_load.stick
+    assert x1 == pytest.approx(-0.78965054445, abs=2e-11)
+    assert e2 == pytest.approx(0.75217770753, abs=2e-11)
+    assert x2 == pytest.approx(0.76975400147, abs=2e-11)
+
+
+def test_conditions_of_reciprocity_hold_with_what_the_contact_kept(
+    small_load: sie.Solution,
+) -> None:
+    state = small_load.coupled[1]
+    assert isinstance(state, SpreadingContact)
+    normal, (x1, x2), ((_, e2),) = state.search.normal, small_load.edges, small_load.stick
+
+    def gamma(x: np.ndarray) -> np.ndarray:
+        y = np.abs(x)
+        values = np.zeros(len(x))
+        values[y < normal.b] = state.search.gamma(y[y < normal.b])
+        values[y > normal.b] = state.kept_gradient(x[y > normal.b])
+        return values
+
+    marks = (-normal.b, -normal.c, 0.0)
+    gaps = missed(MATERIAL, (x1, e2, x2), (1.0, 0.04), (lambda x: x, gamma), marks)
+    assert np.abs(gaps).max() < 3e-9
+
+
+def test_state_is_certified(small_load: sie.Solution) -> None:
+    certificate = small_load.check()
+    assert certificate.ok
+    assert certificate.residual < 1e-10
+    assert certificate.shear is not None
+    assert certificate.shear.residual < 1e-10
+
+
+def test_mirror_images_have_the_same_state(small_load: sie.Solution) -> None:
+    other = sie.solve(_scene(-0.02, beta=-0.25))
+    x = np.linspace(-0.78, 0.76, 7)
+    np.testing.assert_allclose(other.pressure(x), small_load.pressure(x), atol=1e-14)
+    np.testing.assert_allclose(other.shear(x), -small_load.shear(x), atol=1e-14)
+
+
+def test_a_slip_zone_at_the_old_edge_is_refused() -> None:
+    with pytest.raises(sie.ContactError, match="give a larger"):
+        sie.solve(_scene(0.2, beta=0.3)).edges  # noqa: B018
+
+
+def test_energy_is_refused_with_its_reason(small_load: sie.Solution) -> None:
+    with pytest.raises(sie.ContactError, match="sum over all smaller loads"):
+        small_load.energy_lost  # noqa: B018
