@@ -25,6 +25,13 @@ respect to W, and at theta = 0 has v = (1 - k² r)^(-1/2). With w = (r (1-r))^(-
     e = k^theta lambda/pi - 1 = ∫ w v ((k (1-r)/(1 - k² r))^theta - 1) dr / ∫ w v dr,
     -e (2 + e) = beta².
 
+As friction grows k tends to 1, 1 - k <= 32 exp(-arctan(f)/eta) with tanh(pi eta) = beta. Where that
+is below rounding the contact sticks all over: p(0) = 1/(pi sqrt(1 - beta²)) and
+
+    M(m) = 1/pi ∫_0^∞ cos(2 eta v) tanh^(m-1) v / cosh v dv.
+
+p(0) and M differ from these by parts of 1 - k.
+
 All integrals are sums over r = 1/(1 + exp(-pi sinh t)) (Takahasi & Mori 1974), which keep 1 - r.
 """
 
@@ -39,9 +46,12 @@ from analytic._core.parameters import positive, refuse
 from analytic.goodman import SPENCE
 
 POINTS = 0.15  # per bit and unit of t: as many as the singularity at 1/k² asks for
-WIDEST = 27.0  # of |ln(k²/(1-k²))|: thinner zones need more points than are worth it
+WIDEST = 39.0  # of |ln(k²/(1-k²))|: thinner zones need more points than are worth it
+# 1 - k over exp(-arctan(f)/eta), tanh(pi eta) = beta, is 8 for small beta f and at most 31 (beta =
+# 0.4, f = 1000)
+MOST_SLIP = 32
 NEAR = 1e-9  # in ln(k²/(1-k²)): its accuracy in doubles
-SEARCHES, POWERS = 30, 2000
+SEARCHES, STEPS = 30, 20
 ONE = "friction or dundurs is an array; give one number of each, for the stick zone is searched."
 
 
@@ -70,7 +80,10 @@ def stick_half_width(
     >>> round(float(stick_half_width(half_width=1.0, friction=0.3, dundurs=0.3)), 12)
     0.645787412387
     """
-    b, (flat, _) = positive("half_width", half_width, lib), _solved(friction, dundurs, lib)
+    b = positive("half_width", half_width, lib)
+    if _bonded(friction, dundurs, lib):
+        return as_result(b)
+    flat, _ = _solved(friction, dundurs, lib)
     return as_result(b * lib.sqrt(flat.k2))
 
 
@@ -99,9 +112,12 @@ def flat_central_pressure(
     0.337874445206
     """
     b, P = positive("half_width", half_width, lib), positive("normal_load", normal_load, lib)
-    flat, theta = _solved(friction, dundurs, lib)
+    narrowing = 1  # k^theta
+    if not _bonded(friction, dundurs, lib):
+        flat, theta = _solved(friction, dundurs, lib)
+        narrowing = flat.k2 ** (theta / 2)
     beta = positive("dundurs", dundurs, lib)
-    return as_result(P / (b * lib.pi * lib.sqrt((1 - beta) * (1 + beta)) * flat.k2 ** (theta / 2)))
+    return as_result(P / (b * lib.pi * lib.sqrt((1 - beta) * (1 + beta)) * narrowing))
 
 
 @documented("P, a force per length", SPENCE)
@@ -118,12 +134,42 @@ def load(
     b, C = positive("half_width", half_width, lib), positive("coefficient", coefficient, lib)
     E, m = positive("modulus", modulus, lib), positive("exponent", exponent, lib)
     refuse(m < 1, "exponent = {} is less than 1; give at least 1, a convex form.", m)
+    if _bonded(friction, dundurs, lib):
+        return as_result(E * C * b**m / (2 * _bonded_moment(m, dundurs, lib)))
     flat, _ = _solved(friction, dundurs, lib)
     total = (flat.weight * flat.v).sum()
     # K v over k^(2 theta) ∫ W v dr; W(s) s^((m-1)/2) ds is the weight of M(m)
     Kv = (1 / _kernel(flat.r, flat.rest, flat.k2, flat.complement)) @ (flat.weight * flat.v) / total
     M = (flat.weight * flat.r ** ((m - 1) / 2) * Kv).sum() / (2 * lib.pi)
     return as_result(E * C * b**m / (2 * M))
+
+
+def _bonded(friction: Number, dundurs: Number, lib: Library) -> bool:
+    """Whether the slip zones are narrower than rounding of the half-width."""
+    f, beta = positive("friction", friction, lib), positive("dundurs", dundurs, lib)
+    refuse(np.ndim(f) + np.ndim(beta) > 0, ONE)
+    eta = lib.log((1 + beta) / (1 - beta)) / (2 * lib.pi) if beta < 1 else 1
+    widest = MOST_SLIP * lib.exp(-lib.atan(f) / eta)
+    return bool(widest < fraction(1, 1, lib) / 2 ** bits(lib))
+
+
+def _bonded_moment(m: Number, dundurs: Number, lib: Library) -> Number:
+    """M(m) = 1/pi ∫ cos(2 eta v) tanh^(m-1) v / cosh v dv of a contact that sticks all over.
+
+    v = exp(pi/2 sinh t): what is left out and the step err by rounding.
+    """
+    beta = positive("dundurs", dundurs, lib)
+    eta = lib.log((1 + beta) / (1 - beta)) / (2 * lib.pi)
+    end = lib.asinh(2 * lib.log(2) * (bits(lib) + 8) / lib.pi)
+    count = int(12 * bits(lib) * float(end) / 53) + 1
+    total = 0
+    for j in range(-count, count + 1):
+        t = end * j / count
+        v = lib.exp(lib.pi / 2 * (lib.exp(t) - lib.exp(-t)) / 2)
+        dv = lib.pi / 2 * (lib.exp(t) + lib.exp(-t)) / 2 * v * end / count
+        secant = 2 * lib.exp(-v) / (1 + lib.exp(-2 * v))
+        total = total + lib.cos(2 * eta * v) * lib.tanh(v) ** (m - 1) * secant * dv
+    return total / lib.pi
 
 
 def _solved(friction: Number, dundurs: Number, lib: Library) -> tuple[_Flat, Number]:
@@ -171,7 +217,7 @@ def _bracket(
             ahead == y,
             "the slip zones or the stick zone are thinner than {} of the contact; give friction "
             "nearer to dundurs.",
-            1e-12,
+            1e-17,
         )
         other = miss(ahead)[0]
         if (other > 0) != (value > 0):
@@ -189,15 +235,40 @@ def _flat(y: Number, theta: Number, lib: Library) -> _Flat:
     beside = complement + k2 * rest
     change = expm1(theta * (log(rest / beside) + lib.log(k2) / 2))
     weight = w * (beside / rest) ** (fraction(1, 2, lib) - theta) * rest ** fraction(1, 2, lib)
-    kernel = weight / _kernel(r, rest, k2, complement)
-    v = beside ** fraction(-1, 2, lib)
-    for _ in range(POWERS):
-        old, v = v, kernel @ v
-        v = v / v[len(v) // 2]
-        if abs(v / old - 1).max() <= fraction(len(v), 1, lib) / 2 ** bits(lib):
-            break
+    v = _eigenfunction(_kernel(r, rest, k2, complement), weight, lib)
     e = (w * v * change).sum() / (w * v).sum()
     return _Flat(k2, complement, -e * (2 + e), r, rest, weight, v)
+
+
+def _eigenfunction(apart: Number, weight: Number, lib: Library) -> Number:
+    """v > 0, of 1/apart times the weights, 1 in the middle.
+
+    In doubles it is that of a symmetric matrix. More digits follow from what it misses, by Newton's
+    method with the matrix in doubles: each step adds as many as a double has.
+    """
+    distances, root = apart.astype(float), np.sqrt(weight.astype(float))
+    _, vectors = np.linalg.eigh(root[:, None] * root / distances)
+    v, middle = (root / distances) @ abs(vectors[:, -1]), len(root) // 2
+    v = v / v[middle]
+    if lib is np:
+        return v
+    kernel, one = weight / apart, lib.mpf(1)
+    rough = weight.astype(float) / distances
+    v = np.array([one * float(value) for value in v], dtype=object)
+    slopes = np.zeros((len(v) + 1,) * 2)
+    slopes[-1, middle] = 1.0
+    for _ in range(STEPS):
+        Kv = kernel @ v
+        missed = Kv - Kv[middle] * v
+        size = max(abs(missed))
+        slopes[:-1, :-1] = rough - float(Kv[middle]) * np.eye(len(v))
+        slopes[:-1, -1] = -v.astype(float)
+        scaled = np.append((missed / size).astype(float), 0.0) if size else np.zeros(len(v) + 1)
+        step = np.linalg.solve(slopes, scaled)[:-1]
+        v = v - size * step
+        if size * float(max(abs(step / v.astype(float)))) <= len(v) * one / 2 ** bits(lib):
+            break
+    return v
 
 
 def _kernel(r: Number, rest: Number, k2: Number, complement: Number) -> Number:

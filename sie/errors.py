@@ -51,7 +51,8 @@ class LoadError(ContactError):
 
     Notes
     -----
-    `reached["load"]` is the largest load that it carries, where that is known.
+    `reached["load"]` is the largest load that it carries, where that is known; `reached["falls"]`
+    is the side to which the profile has no lowest point.
 
     Examples
     --------

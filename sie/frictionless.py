@@ -62,7 +62,9 @@ class Frictionless:
             elsewhere = light is not None and not light.meets(one.edges.contact[:2])
             return light if light is not None and elsewhere else one
         except (InequalityError, LoadError, ResolutionError) as error:
-            if self._may_be_in_patches:
+            # Without a lowest point patches are no answer either, unless another tilt is found
+            bottomless = "falls" in error.reached and self.scene.moment is None
+            if self._may_be_in_patches and not bottomless:
                 return self._in_patches(error)
             raise explained(error, self.scene.profile) from None
         except ContactError as error:

@@ -33,15 +33,9 @@ def lowest_points(slope: Slope) -> tuple[float, float]:
     x, H, piece = _samples(slope, ends)
     sign = np.sign(H)
     if sign[0] > 0 and not np.isfinite(slope.breaks[0]):
-        raise LoadError(
-            "the profile falls without bound to the left: no lowest point, no contact; "
-            "prescribe less tilt"
-        )
+        raise _without_lowest("left")
     if sign[-1] < 0 and not np.isfinite(slope.breaks[-1]):
-        raise LoadError(
-            "the profile falls without bound to the right: no lowest point, no contact; "
-            "prescribe less tilt"
-        )
+        raise _without_lowest("right")
     for end, outer, name in ((0, slope.breaks[0], "left"), (-1, slope.breaks[-1], "right")):
         if sign[end] == 0 and not np.isfinite(outer):
             raise LoadError(
@@ -55,6 +49,14 @@ def lowest_points(slope: Slope) -> tuple[float, float]:
     heights = [_height(slope, ends, z1) for z1, _ in candidates]
     z1, z2 = candidates[int(np.argmin(heights))]
     return float(z1), float(z2)
+
+
+def _without_lowest(side: str) -> LoadError:
+    return LoadError(
+        f"the profile falls without bound to the {side}: no lowest point, no contact; give a "
+        "profile that rises on both sides, such as this one on a domain, or prescribe less tilt",
+        falls=side,
+    )
 
 
 def _finite_ends(slope: Slope) -> Array:

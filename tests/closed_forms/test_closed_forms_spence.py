@@ -4,12 +4,15 @@ The table is of a computation with 32 digits by the same equations; a second one
 in the densities, agrees with it to 7e-12.
 """
 
+import math
+
 import mpmath
 import numpy as np
 import pytest
 
 import sie
-from analytic import goodman, power, spence
+from analytic import bonded_flat, goodman, power, spence
+from sie.friction.coupled.flat import flat_punch
 
 # beta, f, c/b, b p(0)/P of the flat, M(2)
 TABLE = [
@@ -96,4 +99,47 @@ def test_an_array_of_frictions_is_refused():
 
 def test_slip_zones_that_doubles_do_not_resolve_are_refused():
     with pytest.raises(ValueError, match="give friction nearer to dundurs"):
-        spence.stick_half_width(half_width=1.0, friction=0.3, dundurs=1e-4)
+        spence.slip_width(half_width=1.0, friction=0.3, dundurs=1e-4)
+
+
+@pytest.mark.parametrize(("beta", "friction"), [(0.05, 0.62), (0.1, 1.9)])
+def test_slip_zones_of_a_few_roundings_of_the_contact_are_the_solvers(beta, friction):
+    found = spence.slip_width(half_width=1.0, friction=friction, dundurs=beta)
+    assert 1e-15 < found < 2e-14
+    assert found == pytest.approx(flat_punch(beta, friction).modulus.rest, rel=1e-11)
+
+
+@pytest.mark.parametrize("exponent", [1.0, 1.37, 2.0, 10.0])
+def test_a_contact_that_sticks_all_over_carries_the_load_of_a_bonded_one(exponent):
+    beta, friction = 0.05, 0.9
+    given = {"half_width": 2.0, "friction": friction, "dundurs": beta}
+    assert spence.stick_half_width(**given) == 2.0
+    p = spence.flat_central_pressure(**given, normal_load=3.0)
+    bonded = bonded_flat.pressure(0.0, half_width=2.0, normal_load=3.0, dundurs=beta)
+    assert p == pytest.approx(bonded, rel=1e-14)
+    law = {"coefficient": 0.5, "exponent": exponent, "modulus": 1.0}
+    eta = mpmath.atanh(beta) / mpmath.pi
+    M = mpmath.quad(
+        lambda v: mpmath.cos(2 * eta * v) * mpmath.tanh(v) ** exponent / mpmath.sinh(v),
+        [0, 0.1, 1, 3, 8, 30, 80],
+    )
+    expected = 0.5 * 2.0**exponent * math.pi / (2.0 * float(M))
+    assert spence.load(**given, **law) == pytest.approx(expected, rel=1e-12)
+
+
+def test_the_load_tends_to_that_of_a_bonded_contact_in_proportion_to_the_slip_zones():
+    law = {"half_width": 1.0, "coefficient": 0.5, "exponent": 2.0, "modulus": 1.0}
+    bonded = spence.load(**law, friction=50.0, dundurs=0.05)
+    for friction in (0.2, 0.3):
+        given = {"friction": friction, "dundurs": 0.05}
+        rest = spence.slip_width(half_width=1.0, **given)
+        assert abs(spence.load(**law, **given) / bonded - 1.0) < rest
+
+
+def test_more_digits_take_few_systems(monkeypatch):
+    """Power iteration took a product with a matrix of many digits for a part of a digit."""
+    context, solved, solve = mpmath.MPContext(), [], np.linalg.solve
+    context.dps = 30
+    monkeypatch.setattr(np.linalg, "solve", lambda *a: solved.append(0) or solve(*a))
+    spence._flat(context.mpf(2), context.mpf("0.05"), context)
+    assert len(solved) <= 4

@@ -89,6 +89,10 @@ SCENES = {
                     lambda: scene(FLAT, moment=0.4)),
     "less tilt": (lambda: scene(WEDGE, tilt=2.0), "prescribe less tilt",
                   lambda: scene(WEDGE, tilt=0.5)),
+    "a profile that rises on both sides": (
+        lambda: scene(sie.Polynomial((0.0, 0.0, 0.5, 1e-3))), "rises on both sides",
+        lambda: scene(sie.FromFunction("x + 3e-3*x*x", domain=(-9.0, 9.0))),
+    ),
     "narrower domain": (
         lambda: scene(sie.FromFunction("arctanh(x)", domain=(-1.0, 1.0)), normal_load=5.0),
         "narrow the domain",

@@ -441,3 +441,14 @@ def test_positions_in_rows_of_unequal_length_are_refused_by_their_name(name):
 @pytest.mark.parametrize("x", [5e-324, -5e-324, 1e-310])
 def test_the_height_of_a_function_is_taken_at_the_smallest_doubles(x):
     assert sie.FromFunction("sinh(x)").height(x) == pytest.approx(0.0, abs=1e-300)
+
+
+@pytest.mark.parametrize("given", [{"normal_load": 1.0}, {"half_width": 0.5}])
+@pytest.mark.parametrize("bodies", [{}, {"dundurs": 0.3, "friction": 0.3}])
+def test_no_patches_are_sought_under_a_profile_without_lowest_point(monkeypatch, given, bodies):
+    sought = []
+    monkeypatch.setattr(sie.frictionless, "several_patches", sought.append)
+    scene = sie.Scene(profile=sie.Polynomial((0.0, 0.0, 0.5, 1e-3)), modulus=2.0, **given, **bodies)
+    with pytest.raises(sie.LoadError, match="falls without bound to the left"):
+        _ = sie.solve(scene).edges
+    assert not sought

@@ -146,6 +146,21 @@ def test_slip_zone_remains_under_any_friction_of_very_dissimilar_bodies():
     assert flat_punch(0.5, 1e9).modulus.rest > 1e-3
 
 
+@pytest.mark.parametrize("profile", [sie.Flat(1.0), sie.Parabola(1.0)])
+def test_friction_far_above_one_is_certified_or_refused(profile):
+    assert solved(profile, 0.5, 990.0).check().ok
+    assert solved(profile, 0.05, 1e9).check().ok  # sticks all over
+    with pytest.raises(sie.ContactError, match="give friction = 1000 or less"):
+        _ = solved(profile, 0.5, 1010.0).edges
+
+
+def test_exponents_of_large_friction_keep_their_digits():
+    """Beside the edge p goes with the power -h, h = 1/2 - θ = arctan(1/(β f))/π."""
+    flat = FlatFunctions(flat_punch(0.5, 1e9))
+    assert flat.h == pytest.approx(2e-9 / math.pi, rel=1e-15)
+    assert flat.sine == pytest.approx(2e-9, rel=1e-15)
+
+
 def test_panels_end_where_doubles_do_not_tell_a_jump_from_the_end():
     (panels,) = resolved_panels(lambda y, _: 1.0 * (y < 1.0 - 1e-14), (1.0,), 0.5)
     assert np.isfinite(panels.series).all()

@@ -9,7 +9,8 @@ c = cos φ, of the stick zone that vanishes there. So the integral is taken over
 by Clenshaw and Curtis' rule with twice as many parts until the sum settles. Where an edge of the
 contact or of the stick zone passes a kink of γ or of the profile, a panel ends, and the nodes crowd
 towards it like a cube. Next to Q = 0 the zones are narrow, or no state has them: there the
-polynomial of the first panel is continued. Each state is found from those that are known.
+polynomial of the first panel is continued, and what the left slip zone may change where no state is
+known is bounded. Each state is found from those that are known.
 
 Source: Trefethen, Approximation Theory and Approximation Practice (2013), ch. 19.
 """
@@ -32,7 +33,7 @@ from sie.numerics.root_finding import false_position
 from sie.problem.coverage import refused_slip
 from sie.progress_bar import reported, step_done
 
-from .integral import RATIO, integral
+from .integral import RATIO, integral, towards_ends
 from .sheared import ShearedContact
 from .slip_rate import LEVELS, SlipRate
 from .tangential import Trial
@@ -40,7 +41,10 @@ from .tangential import Trial
 Array = NDArray[np.float64]
 
 CERTIFIED, WANTED = 1e-6, 5e-7  # of the energy: the error that is allowed, and aimed at
-STARTS = 0.03, 0.12, 0.3  # of u: where the first panel may begin
+# The same for what surfaces may do under loads without a state: a bound that nothing attains
+UNSOLVED = 1e-4
+# Of u: where the first panel begins, and may begin where smaller loads have no state
+START, LATER = 0.03, (0.3, 0.2, 0.13, 0.09, 0.06)
 PARTS, LEAST = (3, 6, 12, 24), 12  # of a panel, and of the last one
 TRUSTED = 0.02  # how much closer a sum may be taken to be than the one with half as many parts
 MOST = 200  # states
@@ -104,14 +108,25 @@ class Growth:
 
     def rate(self, u: float) -> float:
         """dW/du E*/2."""
-        Q, edges, state = self.load(u), self.edges(u), self.state
-        trial = self.search.trial(edges, Q, RATIO**-LEVELS * (edges[2] - edges[1]))
-        passed = PassedState(self.search, trial, Q, state.sign, state.flip)
+        passed = self.passed_state(u)
         if self.search.corners and passed.least_deficit < -CERTIFIED:
-            raise refused_slip(state.search.beta * state.friction, Q / self.search.limit)
+            raise refused_slip(self.search.beta * self.state.friction, passed.Q / self.search.limit)
         angle = 0.5 * math.pi * (1.0 - (1.0 - u) ** 3)
         grown = 1.5 * math.pi * self.search.limit * (1.0 - u) ** 2 * math.sin(2.0 * angle)
         return grown * _power(passed)
+
+    def passed_state(self, u: float) -> PassedState:
+        """The state at u."""
+        Q, edges, state = self.load(u), self.edges(u), self.state
+        trial = self.search.trial(edges, Q, RATIO**-LEVELS * float(np.diff(edges).min()))
+        return PassedState(self.search, trial, Q, state.sign, state.flip)
+
+    def carried_on_left(self, u: float) -> float:
+        """What friction carries in the left slip zone at u."""
+        state = self.passed_state(u)
+        cuts = towards_ends(state.trial.zones.x1, state.trial.zones.e1, state.search.gamma.cuts)
+        carried = integral(state.frame_pressure, cuts)
+        return state.friction * float(carried(cuts[-1:])[0])
 
     @cached_property
     def passed(self) -> list[float]:
@@ -180,28 +195,62 @@ def _power_of_zone(
 def tangential_energy(state: ShearedContact, found: Callable[[float], ShearedContact]) -> float:
     """The energy dissipated while Q grew at constant P; `found` gives the state under another Q.
 
-    Raises ContactError where that is not found to a part CERTIFIED.
+    Raises ContactError where the states found give it less surely than to a part CERTIFIED, or
+    those that are not found may count more than UNSOLVED.
     """
-    growth, reason = Growth(state, found), ""
-    for part in STARTS:
-        try:
-            total, error = _integral(growth, part)
-            break
-        except ContactError as missing:
-            reason = str(missing)
-    else:
+    growth = Growth(state, found)
+    try:
+        total, error, unsolved = _sum_of_states(growth)
+    except ContactError as missing:
         raise ContactError(
             f"the energy that dissimilar bodies dissipate under |Q| = {state.Q:.6g} is a sum over "
-            f"the states under smaller loads, and one of them is not found: {reason}"
+            f"the states under smaller loads, and one of them is not found: {missing}"
+        ) from missing
+    if error > CERTIFIED * total or unsolved > UNSOLVED * total:
+        reason = (
+            "what surfaces do that come into contact under the smallest of these loads is not "
+            "solved"
+            if unsolved > UNSOLVED * total
+            else "zones pass kinks of the profile on the way, or are narrower there than is "
+            "resolved; smooth the profile there"
         )
-    if error > CERTIFIED * total:
         raise ContactError(
             f"the energy that dissimilar bodies dissipate under |Q| = {state.Q:.6g} is known to "
-            f"{error / total:.1g} of it only, as zones pass kinks of the profile on the way, or "
-            "are narrower there than is resolved; smooth the profile, give a larger |Q|, or set "
+            f"{(error + unsolved) / total:.1g} of it only, as {reason}; give a larger |Q|, or set "
             "tangential_load = 0 for the energy under the normal load"
         )
     return total / growth.search.normal.half_modulus
+
+
+def _sum_of_states(growth: Growth) -> tuple[float, float, float]:
+    """∫rate over all loads, its error, and what it may err where no state is found.
+
+    Raises ContactError where too many of the states are not.
+    """
+    first = min([growth.end, *growth.passed])
+    growth.rate(LATER[0] * first)
+    try:
+        return *_integral(growth, START), 0.0
+    except ContactError:
+        start = LATER[0]
+    for part in LATER[1:]:
+        try:
+            growth.rate(part * first)
+        except ContactError:
+            break
+        start = part
+    return *_integral(growth, start), _unsolved(growth, start * first)
+
+
+def _unsolved(growth: Growth, u: float) -> float:
+    """How much the energy may err where states below u are not found.
+
+    Surfaces that stick or slip back in the left slip zone there, where friction carries N, change
+    what the rest carries by at most 2 N of Q. W goes with at most the third power of Q, and at
+    least with that of u.
+    """
+    share = growth.carried_on_left(u) / growth.load(u)
+    return 3.0 * 2.0 * share * growth.rate(u) * u / 3.0
 
 
 def _integral(growth: Growth, part: float) -> tuple[float, float]:
@@ -214,7 +263,9 @@ def _integral(growth: Growth, part: float) -> tuple[float, float]:
         first = len(panels) == 1
         lo, hi, *crowded = panels.pop()
         value, missed = _panel(growth.rate, Panel(lo, hi, *crowded), first, total)
-        if missed > WANTED * (total + value) and growth.states < MOST:
+        # From a later start a shorter first panel would be continued farther than it is long
+        cut = not first or part == START
+        if cut and missed > WANTED * (total + value) and growth.states < MOST:
             middle = 0.5 * (lo + hi)
             below = 0.5 * lo if first else lo
             panels += [(below, middle, False, crowded[1]), (middle, hi, crowded[0], False)]

@@ -88,7 +88,8 @@ class FlatPunch:
     @property
     def exponent(self) -> float:
         """h = 1/2 - θ, θ = arctan(βf)/π: p ~ (1 - x)^-h."""
-        return 0.5 - self.theta
+        # Of a large βf, 1/2 - θ would lose digits
+        return math.atan2(1.0, self.beta * self.friction) / math.pi
 
     @cached_property
     def kernel_of_one(self) -> Array:

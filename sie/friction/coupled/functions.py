@@ -29,6 +29,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from sie.errors import ContactError
 from sie.numerics.elliptic import elliptic_functions
 
 from .flat import FlatPunch, flat_punch, long_rule, sum_of_poles
@@ -38,6 +39,8 @@ from .tables import Points, Table, joined
 Array = NDArray[np.float64]
 Function = Callable[[Array, Array], Array]
 
+# β f up to which certificates hold: q = f p, and f p - q is known to so many roundings of f p
+STEEPEST = 500.0
 ZERO, ONE = (0.0, 1.0), (1.0, 0.0)  # as (t, 1 - t)
 
 
@@ -49,7 +52,8 @@ class FlatFunctions:
         self.beta, self.friction, self.theta = punch.beta, punch.friction, punch.theta
         self.c, self.rest, self.h = punch.modulus.k, punch.modulus.rest, punch.exponent
         # sin πh = cos πθ and cos πh = sin πθ, κ = cot πh
-        self.sine, self.cosine = math.cos(math.pi * self.theta), math.sin(math.pi * self.theta)
+        kappa = self.beta * self.friction
+        self.sine, self.cosine = 1.0 / math.hypot(1.0, kappa), kappa / math.hypot(1.0, kappa)
         root = math.sqrt(self.c)  # as far from c as from 1 in the elliptic coordinate
         self.middle, self.beyond = root, self.rest / (1.0 + root)
         self.from_c_to_middle = float(self.beyond_c(self.middle, self.beyond))
@@ -381,5 +385,15 @@ def _between(t: Array, e: Array, s: Array, rest: Array) -> Array:
 
 @lru_cache(maxsize=8)
 def flat_functions(beta: float, friction: float) -> FlatFunctions:
-    """Those of `flat_punch`, with their tables as far as these were asked for."""
-    return FlatFunctions(flat_punch(beta, friction))
+    """Those of `flat_punch`, with their tables as far as these were asked for.
+
+    Raises ContactError where friction is too large for an answer of enough digits.
+    """
+    punch = flat_punch(beta, friction)
+    if beta * friction > STEEPEST and not punch.bonded:
+        raise ContactError(
+            f"friction = {friction:.6g} is too large for an answer that is certified: the shear in "
+            "slip is so many times the pressure, and the rest has few digits; give friction = "
+            f"{STEEPEST / beta:.6g} or less, as zones hardly change above"
+        )
+    return FlatFunctions(punch)

@@ -55,7 +55,8 @@ class SlipGradient:
         at = y[slipped]
         top = np.minimum(self.ahead, at / flat.c - origin)
         gamma[slipped] = flat.friction * H[slipped] - self._beside_shear(at, top)
-        gamma[slipped] += self.superposition._sum(self._kernels, at, top, over_s=True)
+        whole = np.full(len(at), self.ahead)
+        gamma[slipped] += self.superposition._sum(self._kernels, at, whole, over_s=True)
         return gamma
 
     def beside(self, y: Array, H: Array) -> Array:

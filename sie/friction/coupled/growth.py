@@ -192,18 +192,22 @@ def _collocated(
     near = [other for other in solved if panel.lo - other.hi < NEAR * (other.hi - other.lo)]
     for other in near:
         known -= _beside(flat, other, x, (panel.lo - other.hi) + ahead)
-    known -= _far(flat, [other for other in solved if other not in near], x)
+    known -= _far(flat, [other for other in solved if other not in near], panel, ahead)
     return replace(panel, series=np.asarray(np.linalg.solve(matrix, known), dtype=float))
 
 
-def _far(flat: FlatFunctions, panels: list[GrowthPanel], x: Array) -> Array:
-    """∫P' ρ D(ρ) ds over panels that are as far from x as half their length."""
+def _far(flat: FlatFunctions, panels: list[GrowthPanel], panel: GrowthPanel, ahead: Array) -> Array:
+    """∫P' ρ D(ρ) ds over panels half their length or more before x = panel.lo + ahead."""
     if not panels:
-        return np.zeros(len(x))
-    s, weight = (np.concatenate(column) for column in zip(*(p.places for p in panels), strict=True))
-    origin = panels[0].origin
-    t, e = (origin + s) / (origin + x[:, None]), (x[:, None] - s) / (origin + x[:, None])
-    integral: Array = flat.outside(t, e) @ weight
+        return np.zeros(len(ahead))
+    inside, weight = (
+        np.concatenate(column) for column in zip(*(p.places for p in panels), strict=True)
+    )
+    lo = np.repeat([p.lo for p in panels], [len(p.places[0]) for p in panels])
+    x = (panel.origin + panel.lo + ahead)[:, None]
+    # Differences of x and s themselves would be rounded to the half-width
+    apart = (panel.lo - lo) - inside + ahead[:, None]
+    integral: Array = flat.outside((panel.origin + lo + inside) / x, apart / x) @ weight
     return integral
 
 
@@ -233,11 +237,11 @@ def load_slope(
     """
     total = np.zeros(len(x))
     for panel in growth:
-        length = min(panel.hi, ahead) - panel.lo
-        if length > 0.0:
+        end = min(panel.hi, ahead)
+        if end > panel.lo:
             # Next to the edge rounding may leave x on it, or behind it
-            beyond = np.maximum((x - panel.origin) - (panel.lo + length), EPS * x)
-            total += _up_to(flat, panel, length, x - panel.origin, beyond)
+            beyond = np.maximum((x - panel.origin) - end, EPS * x)
+            total += _up_to(flat, panel, end - panel.lo, x - panel.origin, beyond)
     return total / x
 
 

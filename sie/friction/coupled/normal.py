@@ -229,7 +229,8 @@ def _refuse_falling(growth: tuple[GrowthPanel, ...], ahead: float, axis: float) 
     The profile is then not convex, and the contact would recede there.
     """
     for panel in growth:
-        s, mass = panel.places
+        inside, mass = panel.places
+        s = panel.lo + inside
         near = s < ahead
         if (mass[near] < -FALLING * np.abs(mass).max()).any():
             where = axis + panel.origin + float(s[near][np.argmin(mass[near])])

@@ -100,9 +100,9 @@ class GrowthPanel:
 
     @cached_property
     def places(self) -> tuple[Array, Array]:
-        """s - origin and P' ds of a Gauss rule over the panel."""
+        """s - origin - lo and P' ds of a Gauss rule over the panel."""
         ahead, weight = self.rule(self.hi - self.lo, max(len(self.series), NODES))
-        return self.lo + ahead, weight * self(ahead)
+        return ahead, weight * self(ahead)
 
     def load(self, ahead: float) -> float:
         """∫P' ds from its beginning to origin + ahead.
@@ -289,55 +289,61 @@ class Superposition:
 
         They begin or end at the kernel's own places, or the panel's.
         """
-        all_, origin = self.stack, self.stack.origin
-        begin = (x - origin) + x * kernel.above
-        end = x / kernel.lo - origin if kernel.lo else np.full(len(x), np.inf)
-        top = np.minimum(b, all_.hi[:, None])
-        lo, hi = np.maximum(begin, all_.lo[:, None]), np.minimum(end, top)
-        own = begin >= all_.lo[:, None], end <= top
-        # Between two places of its own an interval may be shorter than the doubles are apart
-        longer = (lo < hi) | ((lo == hi) & own[0] & own[1])
-        first = np.where(own[0], kernel.power, all_.at_start[:, None])
-        last = np.where(own[1], kernel.at_c, 0.0)
+        all_, from_origin = self.stack, x - self.stack.origin
+        start, top = all_.lo[:, None], np.minimum(b, all_.hi[:, None])
+        # From x on: in x/t, a little more than x, the digits of a narrow slip zone are lost
+        below_lo = x * (kernel.above + kernel.span) if kernel.lo else np.full(len(x), np.inf)
+        behind = (from_origin - start) + x * kernel.above
+        beyond = (from_origin - top) + below_lo
+        length = np.where(
+            behind >= 0.0,
+            np.where(beyond <= 0.0, x * kernel.span, (top - from_origin) - x * kernel.above),
+            np.where(beyond <= 0.0, (from_origin - start) + below_lo, top - start),
+        )
+        first = np.where(behind >= 0.0, kernel.power, all_.at_start[:, None])
+        last = np.where(beyond <= 0.0, kernel.at_c, 0.0)
         for at_start in {kernel.power, *all_.at_start.tolist()}:
             for at_end in {kernel.at_c, 0.0}:
-                k, i = np.nonzero(longer & (first == at_start) & (last == at_end))
+                k, i = np.nonzero((length > 0.0) & (first == at_start) & (last == at_end))
                 if k.size:
-                    at = x[i], lo[k, i], hi[k, i]
-                    owned = own[0][k, i], own[1][k, i]
-                    yield (at_start, at_end), self._part(kernel, k, i, at, owned)
+                    ends = behind[k, i], length[k, i], (top - from_origin)[k, i]
+                    yield (at_start, at_end), self._part(kernel, k, i, x[i], ends)
 
     def _part(
         self,
         kernel: Kernel,
         panel: NDArray[np.intp],
         which: NDArray[np.intp],
-        at: tuple[Array, Array, Array],
-        own: tuple[NDArray[np.bool_], NDArray[np.bool_]],
+        x: Array,
+        ends: tuple[Array, Array, Array],
     ) -> Part:
-        """The intervals (lo, hi) of these x on these panels."""
-        (x, lo, hi), (own_start, own_end), all_ = at, own, self.stack
-        c, origin = self.flat.c, all_.origin
-        from_lo, nearest = lo - all_.lo[panel], NEAREST * (origin + hi)
-        length = hi - lo
-        if math.isfinite(kernel.span):
-            length = np.where(own_start & own_end, x * kernel.span, length)
+        """Intervals of these x on these panels.
+
+        Given are how far the kernel begins behind the beginning of the panel, how long they are,
+        and how far x lies before the end of the panel.
+        """
+        (behind, length, ahead), all_, c = ends, self.stack, self.flat.c
+        own_start, own_end = behind >= 0.0, ahead >= x * (kernel.above + kernel.span)
+        from_lo = np.maximum(behind, 0.0)
+        start = all_.lo[panel] + from_lo
+        nearest = NEAREST * (all_.origin + start + length)
         to_kink = from_lo + all_.kink[panel]
-        from_x = np.where(own_start, x * kernel.above, (origin - x) + lo)
-        to_pole = np.maximum((origin - x / kernel.pole) + lo, nearest)
+        from_x = x * kernel.above - np.minimum(behind, 0.0)
+        to_pole = -behind if kernel.pole == kernel.hi else (all_.origin - x / kernel.pole) + start
         before = np.where(
             own_start,
             np.minimum(from_x if kernel.above else x, np.maximum(to_kink, nearest)),
-            np.minimum(to_pole, all_.behind[panel]),
+            np.minimum(np.maximum(to_pole, nearest), all_.behind[panel]),
         )
         if kernel.hi == c:
-            to_c = np.where(own_start, 0.0, np.maximum((origin - x / c) + lo, 0.0))
+            to_c = np.maximum(-behind, 0.0)
         else:
-            to_c = np.where(own_end, x * kernel.behind, np.maximum((x / c - origin) - hi, 0.0))
+            to_c = np.maximum(x * (self.flat.rest / c) - ahead, 0.0)
+            to_c = np.where(own_end, x * kernel.behind, to_c)
         after = np.full(len(x), np.inf)
         if kernel.at_c:
             after = np.where(own_end, length, np.maximum(to_c, nearest))
-        near = np.minimum(to_kink, origin + lo)
+        near = np.minimum(to_kink, all_.origin + start)
         return Part(which, panel, from_x, from_lo, length, to_c, before, after, near)
 
     def _integral(

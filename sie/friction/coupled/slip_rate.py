@@ -37,7 +37,7 @@ class SlipRate:
     def __init__(self, zones: Zones, beta: float, friction: float) -> None:
         self.beta, theta = beta, math.atan(beta * friction) / math.pi
         exponents = 0.5 + theta, 0.5 - theta
-        rule = stick_rule(zones, exponents, np.zeros(0), RATIO**-LEVELS * zones.stuck)
+        rule = stick_rule(zones, exponents, np.zeros(0), RATIO**-LEVELS * zones.narrowest)
         none = np.zeros(len(rule.x))
 
         def with_poles(one: float, other: float) -> StickProblem:

@@ -64,6 +64,11 @@ class Zones(NamedTuple):
         return self.e2 - self.e1
 
     @property
+    def narrowest(self) -> float:
+        """The length of the shortest of the three zones."""
+        return float(np.diff(self).min())
+
+    @property
     def slipping(self) -> tuple[tuple[float, float, float], ...]:
         """(side, end at the stick zone, edge) of both slip zones."""
         return (-1.0, self.e1, self.x1), (1.0, self.e2, self.x2)
