@@ -1,0 +1,307 @@
+"""Slip, gap, energy, limits and refusals of dissimilar bodies under P."""
+
+from __future__ import annotations
+
+import math
+import pickle
+
+import numpy as np
+import pytest
+from pressed_cases import PROFILES, scene, solved
+
+import sie
+from sie.friction.coupled.flat import flat_punch
+from sie.friction.coupled.functions import FlatFunctions, flat_functions
+from sie.friction.coupled.growth import power_law_moment
+from sie.numerics.gauss_jacobi import gauss_jacobi
+
+# -- slip, gap, energy -----------------------------------------------------------------------------
+
+
+def test_slip_grows_with_the_load_in_slip_and_stays_in_stick():
+    lighter, heavier = (solved(normal_load=P) for P in (1.0, 1.1))
+    stuck = np.linspace(0.05, 0.95, 10) * lighter.stick[0][1]
+    slipping = np.linspace(1.05, 1.4, 5) * lighter.stick[0][1]
+    assert lighter.slip(stuck) == pytest.approx(heavier.slip(stuck), rel=1e-11)
+    assert (heavier.slip(slipping) > lighter.slip(slipping)).all()
+
+
+def test_slip_of_a_flat_is_the_integral_of_its_gradient():
+    solution = solved(sie.Flat(1.0))
+    x = np.linspace(0.7, 0.9, 5)
+    step = 1e-5
+    gradient = (solution.slip(x + step) - solution.slip(x - step)) / (2.0 * step)
+    gamma = solution.shear.hilbert(x) + 0.3 * solution.pressure(x)
+    assert gradient == pytest.approx(gamma, rel=1e-7)  # E*/2 = 1
+
+
+@pytest.mark.parametrize("exponent", [10.0, 30.0, 170.0])
+def test_certificate_holds_for_large_exponents(exponent):
+    certificate = solved(sie.Power(exponent, 0.4)).check()
+    assert certificate.ok
+    assert max(certificate.residual, certificate.shear.residual) < 5e-12
+
+
+def test_slip_of_a_power_law_scales_with_the_half_width():
+    one, other = (solved(sie.Power(2.5, 0.4), half_width=b) for b in (1.0, 2.0))
+    x = np.array([0.1, 0.5, 0.7, 0.95])
+    assert other.slip(2.0 * x) == pytest.approx(2.0**2.5 * one.slip(x), rel=1e-11)
+
+
+def test_energy_is_the_work_of_friction_on_the_slip_of_small_steps():
+    loads = np.linspace(0.0, 1.0, 81)[1:]
+    x = np.linspace(0.0, 1.0, 4001)[1:]
+    slips, tractions = [np.zeros(len(x))], [np.zeros(len(x))]
+    for P in loads:
+        solution = solved(normal_load=P)
+        inside = x <= solution.half_width
+        g, q = np.zeros(len(x)), np.zeros(len(x))
+        g[inside], q[inside] = solution.slip(x[inside]), solution.shear(x[inside])
+        slips.append(g)
+        tractions.append(q)
+    work = sum(
+        ((q0 + q1) * 0.5 * (g1 - g0)).sum()
+        for g0, g1, q0, q1 in zip(slips, slips[1:], tractions, tractions[1:], strict=False)
+    )
+    assert solved().energy_lost == pytest.approx(2.0 * work * (x[1] - x[0]), rel=5e-3)
+
+
+@pytest.mark.parametrize("name", ["rounded flat", "kinked"])
+def test_energy_grows_with_the_load_by_friction_on_the_slip_of_the_flat(name):
+    x, w = gauss_jacobi(24, 0.0, 0.0)[::2]
+    nodes, weights = gauss_jacobi(6, 0.0, 0.0)[::2]
+    flat, rates = flat_functions(0.3, 0.3), []
+    for P in 2.0 + 0.1 * nodes:
+        state = solved(PROFILES[name], normal_load=P).coupled[1]
+        places = np.array([flat.c * state.b, *(y for y in state.marks if y > flat.c * state.b)])
+        lo, length = places[:-1, None], np.diff(places)[:, None]
+        # Broken powers of the distances from both ends become smooth
+        part = x**4 * (35.0 - 84.0 * x + 70.0 * x**2 - 20.0 * x**3)
+        rest, dx = part[::-1], w * 140.0 * (x * (1.0 - x)) ** 3
+        y, to_end = (lo + length * part).ravel(), (state.b - places[1:, None]) + length * rest
+        p = state.pressure(y, to_end.ravel())
+        e = to_end.ravel() / state.b
+        g = flat.slip(1.0 - e, e, y / state.b - flat.c)
+        rates.append(2.0 * 0.3 * float((length * dx).ravel() @ (p * g)))
+    heavy, light = (solved(PROFILES[name], normal_load=P).energy_lost for P in (2.1, 2.0))
+    assert heavy - light == pytest.approx(0.1 * float(weights @ np.array(rates)), rel=1e-8)
+
+
+@pytest.mark.parametrize("pair", [(0.45, 0.1), (0.3, 0.04), (0.3, 0.3), (0.1, 0.3)])
+def test_slip_of_a_flat_is_smooth_where_two_expressions_of_it_meet(pair):
+    flat = flat_functions(*pair)
+    from_c = (flat.rest - flat.beyond) * np.exp(0.4 * np.linspace(-1.0, 1.0, 81))
+    e = flat.rest - from_c
+    g = flat.slip(1.0 - e, e, from_c)
+    fitted = np.polynomial.chebyshev.chebvander(np.linspace(-1.0, 1.0, 81), 24)
+    missed = g - fitted @ np.linalg.lstsq(fitted, g, rcond=None)[0]
+    assert np.abs(missed).max() < 1e-12 * np.abs(g).max()
+
+
+@pytest.mark.parametrize("name", ["wedge", "parabola", "rounded flat", "polynomial"])
+def test_gap_opens_beside_the_contact_as_its_slope_says(name):
+    solution = solved(PROFILES[name])
+    b = solution.half_width
+    x = b * np.array([1.0, 1.3, 2.0, 4.0])
+    gap = solution.gap(x)
+    assert gap[0] == 0.0 and (np.diff(gap) > 0.0).all()
+    step = 1e-5 * b
+    slope = (solution.gap(x[1:] + step) - solution.gap(x[1:] - step)) / (2.0 * step)
+    equation = PROFILES[name].slope(x[1:]) - solution.pressure.hilbert(x[1:])  # E*/2 = 1
+    assert slope == pytest.approx(equation, rel=1e-7)
+
+
+# -- symmetry, scale, limits -----------------------------------------------------------------------
+
+
+def test_the_other_sign_of_beta_turns_shear_and_slip_alone():
+    one, other = solved(beta=0.3), solved(beta=-0.3)
+    x = np.linspace(-1.0, 1.0, 21) * one.half_width
+    assert (one.pressure(x) == other.pressure(x)).all()
+    assert (one.shear(x) == -other.shear(x)).all()
+    assert (one.slip(x) == -other.slip(x)).all()
+    assert one.energy_lost == other.energy_lost
+
+
+@pytest.mark.parametrize(("length", "stress"), [(1e-6, 1e12), (1e3, 1e-9)])
+def test_answer_is_free_of_units(length, stress):
+    one = solved(sie.RoundedFlat(0.5, 1.0), normal_load=0.6)
+    other = sie.solve(
+        sie.Scene(
+            profile=sie.RoundedFlat(0.5 * length, length),
+            modulus=2.0 * stress,
+            dundurs=0.3,
+            friction=0.3,
+            normal_load=0.6 * length * stress,
+        )
+    )
+    x = np.linspace(0.01, 0.99, 9) * one.half_width
+    assert other.half_width == pytest.approx(length * one.half_width, rel=1e-13)
+    assert other.pressure(length * x) == pytest.approx(stress * one.pressure(x), rel=1e-11)
+    assert other.shear(length * x) == pytest.approx(stress * one.shear(x), rel=1e-11)
+    assert other.energy_lost == pytest.approx(length**2 * stress * one.energy_lost, rel=1e-10)
+
+
+@pytest.mark.parametrize("name", ["flat", "parabola", "rounded flat"])
+def test_pressure_tends_to_that_of_similar_bodies_quadratically(name):
+    x = 0.4
+    similar = sie.solve(sie.Scene(profile=PROFILES[name], modulus=2.0, normal_load=0.7))
+    errors = [
+        float(solved(PROFILES[name], beta, beta, normal_load=0.7).pressure(x) - similar.pressure(x))
+        for beta in (1e-2, 1e-3)
+    ]
+    assert abs(errors[0]) < 1e-3 and errors[1] == pytest.approx(0.01 * errors[0], rel=1e-2)
+
+
+def test_beta_below_rounding_is_that_of_similar_bodies():
+    solution = solved(beta=1e-13)
+    assert solution.shear is sie.ZERO and solution.check().shear is None
+
+
+def test_rounded_flat_tends_to_a_parabola_and_to_a_flat():
+    parabola = solved(sie.Parabola(1.0), normal_load=0.5)
+    nearly = solved(sie.RoundedFlat(1e-5, 1.0), normal_load=0.5)
+    assert nearly.half_width == pytest.approx(parabola.half_width, rel=1e-4)
+    flat, sharp = solved(sie.Flat(1.0)), solved(sie.RoundedFlat(1.0, 1e-7))
+    x = np.array([0.0, 0.3, 0.6, 0.8])
+    assert sharp.pressure(x) == pytest.approx(flat.pressure(x), rel=1e-3)
+    assert sharp.shear(x) == pytest.approx(flat.shear(x), abs=1e-3)
+
+
+def test_moments_of_power_laws_are_those_of_similar_bodies_as_beta_vanishes():
+    # If β = 0, P = E* A m b^m W with W = sqrt(π)/2 Γ((m+1)/2)/Γ(m/2+1), so that 2 m M W = 1
+    flat = flat_functions(1e-7, 1e-7)
+    for m in (1.0, 2.0, 3.7, 9.0):
+        W = 0.5 * math.sqrt(math.pi) * math.gamma(0.5 * (m + 1.0)) / math.gamma(0.5 * m + 1.0)
+        assert 2.0 * m * W * power_law_moment(flat, m) == pytest.approx(1.0, abs=1e-12)
+
+
+# -- values and refusals ---------------------------------------------------------------------------
+
+
+def test_solution_of_two_bodies_answers_as_one_of_their_constants():
+    steel, titanium = sie.Elastic(210e3, 0.3), sie.Elastic(110e3, 0.34)
+    profile = sie.RoundedFlat(1.0, 50.0)
+    pair = sie.Scene(
+        profile=profile, body=titanium, indenter=steel, friction=0.3, normal_load=500.0
+    )
+    constants = sie.Scene(
+        profile=profile, modulus=pair.Estar, dundurs=pair.beta, friction=0.3, normal_load=500.0
+    )
+    one, other = sie.solve(pair), sie.solve(constants)
+    assert one.check().ok
+    assert one.half_width == other.half_width and one.stick == other.stick
+
+
+def test_solution_keeps_its_contact_only_while_nothing_of_it_changes():
+    solution = solved()
+    _ = solution.half_width
+    assert solution.with_(bulk_stress=0.0).coupled is solution.coupled
+    assert solution.with_(friction=0.4).stick != solution.stick
+    similar = solution.with_(dundurs=0.0)
+    assert similar.half_width != solution.half_width and similar.shear is sie.ZERO
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({"moment": 0.01}, "in place of the moment"),
+        ({"bulk_stress": 0.01}, "bulk_stress"),
+    ],
+)
+def test_what_is_not_solved_is_refused_with_what_to_do(changes, words):
+    with pytest.raises(sie.ContactError, match=words):
+        sie.solve(scene(normal_load=1.0, **changes))
+
+
+@pytest.mark.parametrize(
+    ("profile", "words"),
+    [
+        (sie.Row([sie.Parabola(1.0).shifted(x) for x in (-2.0, 2.0)]), "in 2 patches"),
+        (sie.Periodic(sie.Parabola(1.0), 4.0), "without its period"),
+        (sie.Polynomial((0.0, 0.0, -0.5, 0.0, 0.5)), "patches"),
+    ],
+)
+def test_contact_in_several_patches_is_refused(profile, words):
+    scene = sie.Scene(profile=profile, modulus=2.0, dundurs=0.3, friction=0.3, normal_load=0.01)
+    with pytest.raises(sie.ContactError, match=words):
+        _ = sie.solve(scene).edges
+
+
+def test_first_yield_without_poissons_ratio_is_refused_before_any_work():
+    solution = sie.solve(
+        sie.Scene(profile=sie.Wedge(0.1), modulus=2.0, dundurs=0.3, friction=0.3, normal_load=1.0)
+    )
+    with pytest.raises(ValueError, match="give poisson"):
+        solution.elastic_limit()
+    assert "pressed" not in vars(solution)
+
+
+@pytest.mark.parametrize(("beta", "friction", "load"), [(0.0864, 0.0696, 1.07), (0.033, 0.3, 0.29)])
+def test_a_symmetric_trace_is_solved_whatever_the_rounding_of_its_axis(beta, friction, load):
+    x = np.linspace(-3.0, 3.0, 61)
+    loads = {"modulus": 2.0, "dundurs": beta, "friction": friction, "normal_load": load}
+    trace, parabola = (
+        sie.solve(sie.Scene(profile=profile, **loads))
+        for profile in (sie.Sampled(x, 0.5 * x * x), sie.Parabola(1.0))
+    )
+    assert trace.stick[0] == pytest.approx(parabola.stick[0], rel=1e-9)
+
+
+def test_a_path_of_dissimilar_bodies_is_refused():
+    with pytest.raises(sie.ContactError, match="path of dissimilar bodies"):
+        sie.follow(scene(), sie.Path([(1.0, 0.0), (0.5, 0.0)]))
+
+
+def test_the_pressure_under_a_wedge_is_infinite_on_its_axis():
+    assert float(solved(sie.Wedge(0.1)).pressure(0.0)) == math.inf
+
+
+def test_the_plan_is_the_footprint():
+    solution = solved()
+    _ = solution.shear(0.1), solution.check()
+    expected = sie.plan(solution.scene, want=("shear", "check")).stages
+    stages = {"coupled", "normal", "pressure", "certificate", "tangential", "tractions"}
+    assert set(vars(solution)) & stages == expected
+
+
+def test_a_scene_of_dissimilar_bodies_survives_a_pickle():
+    assert pickle.loads(pickle.dumps(scene())) == scene()
+
+
+@pytest.mark.parametrize("changes", [{}, {"coupling": "goodman"}, {"tilt": 0.01}])
+def test_a_solution_of_dissimilar_bodies_survives_a_pickle(changes):
+    solution = solved(normal_load=1.0, **changes)
+    stress = solution.stress(0.1, 0.2).xx
+    again = pickle.loads(pickle.dumps(solution))
+    assert again.edges == solution.edges and again.stress(0.1, 0.2).xx == stress
+
+
+def test_a_point_of_a_path_of_dissimilar_bodies_survives_a_pickle():
+    path = sie.Path(((0.0, 0.0), (1.0, 0.05)))
+    solution = sie.follow(scene(half_width=None, normal_load=1.0), path)[-1]
+    stress = solution.stress(0.1, 0.2).xx
+    again = pickle.loads(pickle.dumps(solution))
+    assert again.edges == solution.edges and again.stress(0.1, 0.2).xx == stress
+
+
+def test_surface_stress_where_a_parabola_touched_first_is_that_beside_it():
+    solution = solved()
+    beside = solution.stress(1e-9, 0.0).xx
+    assert solution.stress(0.0, 0.0).xx == pytest.approx(float(beside), rel=1e-7)
+
+
+def test_slip_next_to_the_edge_takes_an_integral_over_the_contact_at_nodes_of_one_table_only(
+    monkeypatch,
+):
+    places, one = [], FlatFunctions._J
+
+    def counted(self, t, e, S):
+        places.append(len(t))
+        return one(self, t, e, S)
+
+    flat = FlatFunctions(flat_punch(0.3, 0.02))
+    assert flat._S_in_stick.size  # which takes it too
+    monkeypatch.setattr(FlatFunctions, "_J", counted)
+    regular, _ = flat.slip_near_edge
+    assert sum(places) == regular.series.size

@@ -1,0 +1,251 @@
+"""Both equations of dissimilar bodies under P hold, and an independent program agrees."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import mpmath
+import numpy as np
+import pytest
+from pressed_cases import PROFILES, solved
+
+import sie
+from sie.certificate.coupled_check import coupled_certificate
+from sie.friction.coupled.functions import flat_functions
+from sie.friction.coupled.half_potential import DEGREE, HalfPotential, Panels
+from sie.friction.coupled.zones import NODES, _from_others
+from sie.numerics.gauss_jacobi import gauss_jacobi
+
+# -- the two equations -----------------------------------------------------------------------------
+
+
+def tractions_of_a_flat(beta, friction):
+    """p and q as functions of x and 1 - x."""
+    flat = flat_functions(beta, friction)
+
+    def values(function, x, rest):
+        t, e = np.array([float(x)]), np.array([float(rest)])
+        return float(function(t, e, np.abs(flat.rest - e))[0])
+
+    def shear(x, rest):
+        return friction * values(flat.pressure, x, rest) - values(flat.shear_deficit, x, rest)
+
+    return lambda x, rest: values(flat.pressure, x, rest), shear, flat.c, flat.h
+
+
+@pytest.mark.parametrize(("beta", "friction"), [(0.3, 0.3), (0.5, 0.2)])
+@pytest.mark.parametrize("part", [0.3, 0.8])
+def test_both_equations_hold_in_stick_by_mpmaths_quadrature(beta, friction, part):
+    context = mpmath.MPContext()
+    context.dps = 15
+    p, q, c, h = tractions_of_a_flat(beta, friction)
+    x, start, power = part * c, 0.5 * (1.0 + c), 1.0 / (1.0 - h)
+
+    def principal(f, parity):
+        at_x = f(x, 1.0 - x)
+
+        def integrand(t, rest):
+            return (f(t, rest) - at_x) / (x - t) + parity * f(t, rest) / (x + t)
+
+        def next_to_edge(u):  # smooth in u, as f ~ (1 - t)^-h
+            rest = (1.0 - start) * u**power
+            return integrand(1.0 - rest, rest) * power * (1.0 - start) * u ** (power - 1.0)
+
+        total = context.quad(next_to_edge, [0, 1])
+        for a, b in ((0, x), (x, c), (c, start)):
+            total += context.quad(lambda t: integrand(t, 1.0 - t), [a, b])
+        return (total + at_x * context.log(x / (1.0 - x))) / context.pi
+
+    assert abs(principal(p, 1.0) - beta * q(x, 1.0 - x)) < 1e-8 * p(x, 1.0 - x)
+    assert abs(principal(q, -1.0) + beta * p(x, 1.0 - x)) < 1e-8 * p(x, 1.0 - x)
+
+
+@pytest.mark.parametrize("name", PROFILES)
+@pytest.mark.parametrize(("beta", "friction"), [(0.3, 0.3), (0.07, 0.3), (0.5, 0.1)])
+def test_certificate_holds_for_every_profile(name, beta, friction):
+    certificate = solved(PROFILES[name], beta, friction).check()
+    assert certificate.ok
+    assert certificate.residual < 1e-10
+
+
+@pytest.mark.parametrize("name", ["flat", "parabola", "rounded flat"])
+def test_certificate_is_not_ok_for_another_mismatch(name):
+    right = solved(PROFILES[name])
+    wrong = coupled_certificate(right.coupled[1], replace(right.scene, dundurs=0.3001), 1e-13)
+    assert not wrong.ok
+
+
+@pytest.mark.parametrize("name", PROFILES)
+def test_shear_is_friction_times_pressure_in_slip_and_less_in_stick(name):
+    solution = solved(PROFILES[name])
+    hi, m = solution.stick[0][1], solution.centre
+    slip = m + np.linspace(1.0001 * (hi - m), 0.999 * solution.half_width, 20)
+    stick = m + np.linspace(0.001, 0.999, 30) * (hi - m)
+    assert solution.shear(slip) == pytest.approx(0.3 * solution.pressure(slip), rel=1e-12)
+    ratio = solution.shear(stick) / (0.3 * solution.pressure(stick))
+    assert (ratio < 1.0).all() and (np.diff(ratio) > 0.0).all()
+
+
+@pytest.mark.parametrize("name", ["flat", "wedge", "parabola", "rounded flat"])
+def test_potentials_jump_by_the_traction_across_the_contact(name):
+    solution = solved(PROFILES[name])
+    x = solution.half_width * np.array([-0.93, -0.31, 0.05, 0.42, 0.77])
+    depth = 1e-9 * solution.half_width
+    for traction in (solution.pressure, solution.shear):
+        above, below = traction.cauchy(x + 1j * depth), traction.cauchy(x - 1j * depth)
+        jump = -(above - below).imag / 2.0
+        assert jump == pytest.approx(traction(x), abs=1e-6 * float(traction(0.3 * x).max()))
+        on_it = traction.cauchy(x)
+        assert on_it.real == pytest.approx(traction.hilbert(x), abs=1e-12)
+        assert on_it.imag == pytest.approx(-traction(x), abs=1e-12)
+
+
+@pytest.mark.parametrize("name", ["flat", "parabola", "rounded flat"])
+def test_potentials_are_those_of_a_plain_quadrature_far_from_the_surface(name):
+    solution = solved(PROFILES[name])
+    r = solution.half_width
+    z = r * np.array([0.3 + 0.8j, -1.4 + 0.5j, 3.0j])
+    phi = (np.arange(4000) + 0.5) * math.pi / 4000
+    t, weight = r * np.cos(phi), r * np.sin(phi) * math.pi / 4000
+    for traction in (solution.pressure, solution.shear):
+        plain = (traction(t) * weight / (z[:, None] - t)).sum(axis=1) / math.pi
+        assert np.abs(traction.cauchy(z) - plain).max() < 3e-4 / r
+        step = 1e-4 * r
+        difference = (traction.cauchy(z + step) - traction.cauchy(z - step)) / (2.0 * step)
+        assert traction.cauchy_derivative(z) == pytest.approx(difference, rel=1e-6)
+
+
+@pytest.mark.parametrize("depth", [1e-3, 1e-13, 1e-200])
+def test_potential_of_a_constant_is_a_logarithm_however_near_a_node_of_its_rule(depth):
+    series = np.zeros((2, DEGREE))
+    series[0, 0] = 1.0
+    half = HalfPotential(Panels(np.array([0.0, 1.0]), np.array([1.0, 2.0]), series, 0.5))
+    z = np.append(half.quadrature[0][:DEGREE], [-0.3, 3.0]) + 1j * depth
+    F, dF = half(z, derivative=True)
+    np.testing.assert_allclose(F, np.log(z / (z - 1.0)) / math.pi, rtol=1e-14)
+    np.testing.assert_allclose(dF, (1.0 / z - 1.0 / (z - 1.0)) / math.pi, rtol=1e-13)
+
+
+@pytest.mark.parametrize("name", ["flat", "parabola", "rounded flat"])
+def test_a_potential_at_many_points_is_that_at_each(name):
+    density = solved(PROFILES[name], 0.07, 0.3).shear
+    x, y = np.meshgrid(np.linspace(-2.0, 2.0, 41), np.geomspace(1e-3, 10.0, 25))
+    z = (x + 1j * y).ravel()
+    few = [density.potentials(part) for part in np.array_split(z, len(z) // 5)]
+    many = density.potentials(z)
+    for k, rounding in enumerate((1e-13, 1e-11)):
+        one_by_one = np.concatenate([pair[k] for pair in few])
+        assert many[k] == pytest.approx(one_by_one, abs=rounding * np.abs(one_by_one).max())
+
+
+def test_a_potential_at_many_points_takes_one_rule_for_several_panels(monkeypatch):
+    density = solved(PROFILES["parabola"], 0.07, 0.3).shear
+    x, y = np.meshgrid(np.linspace(-2.0, 2.0, 41), np.linspace(0.02, 2.0, 41))
+    terms = []
+    sums = HalfPotential._of_few
+
+    def counted(self, z, rule, *others):
+        terms.append(len(z) * len(rule[0]))
+        return sums(self, z, rule, *others)
+
+    monkeypatch.setattr(HalfPotential, "_of_few", counted)
+    density.cauchy(x + 1j * y)
+    assert sum(terms) < 0.3 * 2 * x.size * density.panels.series.size
+
+
+def test_potential_and_derivative_together_take_each_half_once(monkeypatch):
+    density = solved(PROFILES["parabola"]).shear
+    halves = []
+    half = HalfPotential.__call__
+
+    def counted(self, z, derivative):
+        halves.append(derivative)
+        return half(self, z, derivative)
+
+    monkeypatch.setattr(HalfPotential, "__call__", counted)
+    density.potentials(np.array([0.3 + 0.2j, 2.0 + 1.0j]))
+    assert halves == [True, True]
+
+
+@pytest.mark.parametrize("side", [1, -1, 0])
+def test_potential_and_derivative_are_those_that_are_asked_for_alone(side):
+    density = solved(PROFILES["parabola"]).shear
+    z = np.array([[0.3 + 0.2j, -0.4], [2.0, 0.1 - 0.7j], [1e40 + 1j, complex(math.nan, 1.0)]])
+    F, dF = density.potentials(z, side)
+    np.testing.assert_array_equal(F, density.cauchy(z, side))
+    np.testing.assert_array_equal(dF, density.cauchy_derivative(z, side))
+
+
+def test_potential_far_away_is_the_load_over_the_distance():
+    half = solved(sie.Parabola(1.0)).tractions.pressure._half
+    z = np.array([1e8j, 1e99j, 1e120 + 1e120j])
+    F, dF = half(z, derivative=True)
+    np.testing.assert_allclose(F, 0.5 / (math.pi * z), rtol=1e-7)
+    np.testing.assert_allclose(dF, -0.5 / (math.pi * z * z), rtol=1e-7)
+
+
+@pytest.mark.parametrize("length", [1.0, 1e-40])
+def test_a_value_from_the_other_nodes_of_a_panel_is_that_of_a_polynomial(length):
+    x = gauss_jacobi(NODES, 0.0, 0.0).x
+    others = x**3 - 2.0 * x
+    weights = _from_others(length * x, 4)
+    assert weights @ others == pytest.approx(others[4], rel=1e-12)
+
+
+@pytest.mark.parametrize("pair", [(0.3, 0.3), (0.1, 1.0), (0.5, 10.0)])
+def test_pressure_beside_c_takes_the_function_of_the_shear_to_rounding_of_pressures(pair):
+    flat = flat_functions(*pair)
+    t = np.linspace(flat.c, flat.middle, 5)
+    e = np.linspace(flat.rest, flat.beyond, 5)
+    apart = np.abs(flat.S_beside_c(t, e) - flat.S(t, e))
+    assert (apart <= 1e-13 * flat.A(t, e)).all()
+
+
+def test_surface_stress_is_in_balance_with_the_tractions():
+    solution = solved(sie.RoundedFlat(0.5, 1.0), poisson=0.3, normal_load=0.6)
+    x = np.linspace(-0.95, 0.95, 11) * solution.half_width
+    surface, below = solution.surface_stress(x), solution.stress(x, 1e-10)
+    assert surface.yy == pytest.approx(-solution.pressure(x), abs=1e-12)
+    assert surface.xy == pytest.approx(-solution.shear(x), abs=1e-12)
+    assert below.xx == pytest.approx(surface.xx, abs=1e-6)
+
+
+# -- an independent program ------------------------------------------------------------------------
+
+
+def flat_on_a_grid(beta, friction, n=120):
+    """The printed equations (1) and (12) on n equal cells by an active set: stick half-width and
+    pressures.
+    """
+    edges = np.linspace(-1.0, 1.0, n + 1)
+    x = 0.5 * (edges[1:] + edges[:-1])
+    # ∫ ln|x - t| dt over the cells: both equations integrated once are displacements
+    d = x[:, None] - edges
+    primitive = d * np.log(np.abs(d)) - d
+    log = (primitive[:, :-1] - primitive[:, 1:]) / math.pi
+    step = np.where(x[:, None] > x, 1.0, 0.0) + 0.5 * np.eye(n)
+    step = step * (edges[1] - edges[0])
+    half, width = n // 2, edges[1] - edges[0]
+    for stuck in range(half, 0, -1):
+        A, rhs = np.zeros((2 * n + 1, 2 * n + 1)), np.zeros(2 * n + 1)
+        A[:n, :n], A[:n, n : 2 * n], A[:n, -1] = log, -beta * step, 1.0
+        for k in range(n):
+            if abs(k - (n - 1) / 2) < stuck:
+                A[n + k, n : 2 * n], A[n + k, :n] = log[k], beta * (step[k] - 0.5 * width)
+            else:
+                A[n + k, n + k], A[n + k, k] = 1.0, -friction * np.sign(x[k])
+        A[-1, :n], rhs[-1] = width, 1.0
+        p, q = np.split(np.linalg.solve(A, rhs)[: 2 * n], 2)
+        if (np.abs(q) <= friction * p * (1.0 + 1e-9)).all():
+            break
+    return stuck * width, x, p, q
+
+
+def test_flat_agrees_with_an_active_set_on_a_grid():
+    c, x, p, q = flat_on_a_grid(0.3, 0.3)
+    solution = solved(sie.Flat(1.0))
+    assert c == pytest.approx(solution.stick[0][1], abs=2.0 * 2.0 / 120)
+    inner, cell = np.abs(x) < 0.5, 2.0 / 120  # a scheme of the first order
+    assert p[inner] == pytest.approx(solution.pressure(x[inner]), rel=cell)
+    assert q[inner] == pytest.approx(solution.shear(x[inner]), abs=cell * float(p.min()))

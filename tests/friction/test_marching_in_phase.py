@@ -1,0 +1,242 @@
+"""Marched paths of loads in phase, a mesh beside them, and what is said about them."""
+
+import numpy as np
+import pytest
+from history_cases import HERTZ, LOPSIDED, P0, F, S, f
+from marched_cases import (
+    ALL,
+    BOTH_STICK,
+    TOGETHER,
+    TRAVELLING,
+    TURNED,
+    UNTIL_STUCK,
+    all_marched,
+    followed,
+    inside,
+    parts_of,
+    path_of,
+)
+
+import sie
+from oracles.kalker import Mesh
+from oracles.load_history import history as on_a_mesh
+from sie.friction.load_history import marching
+from sie.friction.load_history.joined_zones import joined
+from sie.friction.load_history.receding_step import Receded
+from sie.friction.load_history.slip_rates import SlipRates
+
+OPPOSITE = [(1, 0, 0), (0.8, 0.05, 0.5)]
+# Slip in two directions while the contact grows.
+APART = [(1, 0, 0), (1.1, 0.05, 0.9)]
+
+# -- loads in phase --------------------------------------------------------------------------------
+
+
+IN_PHASE = [(1, 0, 0), (0.73, 0.28, -0.112), (1, 0, 0), (0.73, 0.28, -0.112)]
+
+
+def test_loads_that_return_in_phase_bring_back_the_shear_that_they_left():
+    """An edge that grew and stuck slips as it retreats, until it is where it was."""
+    first, grown, again = followed(HERTZ, IN_PHASE)[1:]
+    x = inside(first)
+    assert grown.history.turning_points[2].marched and grown.history.turning_points[3].marched
+    assert again.shear(x) == pytest.approx(first.shear(x), abs=1e-9 * f)
+
+
+def test_a_mesh_tends_to_the_shear_of_loads_in_phase():
+    """Twice the elements and increments, half the error."""
+    states, errors = followed(HERTZ, IN_PHASE), []
+    given = [(P * P0, Q * F, sigma * S, 0.0) for P, Q, sigma in IN_PHASE]
+    for n in (60, 120):
+        mesh = Mesh((-1.2, 1.2), n, 1.0)
+        found = on_a_mesh(mesh, HERTZ.profile.height, f, given, n // 6)
+        pairs = zip(states[1:], found[1:], strict=True)
+        errors.append(max(np.abs(a.shear(mesh.x) - b.shear).mean() for a, b in pairs))
+    assert errors[1] < 0.7 * errors[0] < 0.7 * 0.02 * f
+
+
+RETURNS = [(1, 0, 0), (1.15, 0.135, 0.08), (1.015, 0.0135, 0.008), (1.15, 0.135, 0.08)]
+RETURNS_UNDER_MEAN = [(1, 0, 0), (1.45, 0.44, 0.35), (1, 0.1, 0.06), (1.45, 0.44, 0.35)]
+
+
+def test_a_second_zone_of_slip_joins_the_first_one_as_loads_return_in_phase():
+    state = followed(HERTZ, RETURNS)[-1]
+    before, after = parts_of(state)
+    mark = state.history[1].stick[0][0]
+    assert before.stick.x1 < mark - 0.01 and after.share == 1.0
+    assert after.stick.x1 == pytest.approx(mark, abs=1e-5) and after.slips_on
+    assert state.check().ok
+
+
+@pytest.mark.parametrize("earlier", [1e-6, 1e-5])
+def test_zones_that_join_leave_the_same_state_from_whenever_it_is_sought(earlier):
+    before, after = parts_of(followed(HERTZ, RETURNS)[-1])
+    begun = before.share - earlier
+    again = joined(before.until(begun).held, after.change, after.signs, (begun, after.share))
+    x = np.linspace(*after.kept_in(after.before.pressure.contact)[0], 43)[1:-1]
+    assert again.stick.x1 == pytest.approx(after.stick.x1, abs=1e-9)
+    assert again.shear(x) == pytest.approx(after.shear(x), abs=1e-9 * f)
+
+
+def test_a_mesh_tends_to_the_shear_after_two_zones_of_slip_have_joined(monkeypatch):
+    """For so long a part only the force of what came into contact is known well."""
+    monkeypatch.setattr(marching, "SOON", (0.01,))
+    monkeypatch.setattr(marching, "KNOWN", 1e-6)
+    state = sie.follow(HERTZ, path_of(RETURNS_UNDER_MEAN))[-1]
+    assert [type(part).__name__ for part in parts_of(state)] == ["EdgeSticks", "Joined"]
+    given, errors = [(P * P0, Q * F, s * S, 0.0) for P, Q, s in RETURNS_UNDER_MEAN], []
+    for n in (60, 120):
+        mesh = Mesh((-1.25, 1.25), n, 1.0)
+        found = on_a_mesh(mesh, HERTZ.profile.height, f, given, n // 6)[-1]
+        errors.append(np.abs(state.shear(mesh.x) - found.shear).mean())
+    assert errors[1] < 0.6 * errors[0] < 0.6 * 0.02 * f
+
+
+CAUGHT_UP = [(1, 0, 0), (1.34, -0.34, 0.16), (0.66, 0.34, -0.16)]
+
+
+@pytest.fixture(scope="module")
+def caught_up():
+    """The end of the stick zone recedes on the left, and the edge of contact faster."""
+    return followed(HERTZ, CAUGHT_UP)[-1]
+
+
+def test_slip_turns_where_an_edge_of_contact_catches_up_with_its_zone(caught_up):
+    before, after = caught_up.history.turning_points[2].marched
+    assert before.signs == (-1.0, 1.0) and after.signs == (1.0, 1.0)
+    assert 0.0 < before.stick.x1 - before.pressure.contact.x1 < 1e-5
+    assert caught_up.check().ok
+
+
+def test_a_mesh_tends_to_the_energy_where_an_edge_catches_up_with_a_slip_zone(caught_up):
+    """Twice the elements and increments, less than half the error."""
+    errors = []
+    given = [(P * P0, Q * F, sigma * S, 0.0) for P, Q, sigma in CAUGHT_UP]
+    for n in (60, 120):
+        mesh = Mesh((-1.3, 1.3), n, 1.0)
+        found = on_a_mesh(mesh, HERTZ.profile.height, f, given, n // 6)[-1]
+        assert np.abs(caught_up.shear(mesh.x) - found.shear).mean() < 1e-3 * f
+        errors.append(abs(found.energy - caught_up.energy_lost))
+    assert errors[1] < 0.5 * errors[0] < 0.5 * 0.05 * caught_up.energy_lost
+
+
+# Loads that stick until they are back at the start (P 1), and slip beyond.
+DETOUR = [(1, 0, 0), (1.2, 0.1, 0.05), (0.9, -0.05, -0.025)]
+
+
+def test_a_detour_that_sticks_costs_no_energy_and_few_states(monkeypatch):
+    """The rest of the way slips as the straight way does, which layers answer."""
+    states, power = [], SlipRates.power
+
+    def counted(self, pressure, stick):
+        states.append(stick)
+        return power(self, pressure, stick)
+
+    monkeypatch.setattr(SlipRates, "power", counted)
+    detour, straight = (sie.follow(HERTZ, path_of(p)) for p in (DETOUR, DETOUR[::2]))
+    assert detour.turning_points[2].marched and not straight.turning_points[1].marched
+    assert detour[-1].energy_lost == pytest.approx(straight[-1].energy_lost, rel=1e-9)
+    assert len(states) < 300
+
+
+def test_an_end_next_to_the_mark_where_loads_return_balances_them_to_rounding():
+    """What the equations miss there has another slope beyond the mark."""
+    profile = sie.Polynomial((0.0, 0.05, 1.0, 0.4, 0.6))
+    scene = sie.Scene(profile=profile, modulus=2.0, normal_load=0.375, friction=0.5, tilt=0.02)
+    most, least = (0.3491272, -0.0438307, -0.1277112), (0.3724127, -0.00438307, -0.01277112)
+    path = sie.Path([(0.375, 0, 0), most, least, most])
+    part = sie.follow(scene, path).turning_points[-1].marched[-1]
+    assert max(part.until(part.share - rest).error for rest in (1e-7, 2.2e-8)) < 1e-13
+
+
+# -- a mesh ----------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("points", [*ALL, TOGETHER])
+def test_a_mesh_comes_near_the_marched_shear_and_energy(points):
+    """To the first order of its elements and increments."""
+    states, mesh = followed(LOPSIDED, points), Mesh((-1.25, 1.25), 80, 1.0)
+    loads = [(*point, 0.0)[:4] for point in points]
+    given = [(P * P0, Q * F, sigma * S, tilt) for P, Q, sigma, tilt in loads]
+    found = on_a_mesh(mesh, LOPSIDED.profile.height, f, given, 16)
+    for state, true in zip(states, found, strict=True):
+        assert np.abs(state.shear(mesh.x) - true.shear).mean() <= 0.006 * 0.5 * f
+    assert states[-1].energy_lost == pytest.approx(found[-1].energy, rel=0.02)
+
+
+@pytest.mark.parametrize("points", [OPPOSITE, UNTIL_STUCK], ids=["two directions", "an end stops"])
+def test_a_mesh_tends_to_the_slip_of_new_points_and_the_shift(points):
+    """Twice the elements and increments, about half the error."""
+    state, given = followed(HERTZ, points)[-1], [(*at, 0.0) for at in path_of(points).points]
+    errors = []
+    for n in (60, 120):
+        mesh = Mesh((-1.3, 1.3), n, 1.0)
+        found = on_a_mesh(mesh, HERTZ.profile.height, f, given, n // 10)[-1]
+        touching = found.pressure > 0.0
+        slip = state.slip(mesh.x[touching])
+        off = np.abs(slip - found.slip[touching]).mean() / np.abs(slip).max()
+        errors.append((off, abs(found.shift / state.shift - 1.0)))
+    (slip, shift), (finer_slip, finer_shift) = errors
+    assert finer_slip < 0.7 * slip < 0.7 * 0.02
+    assert finer_shift < 0.7 * shift < 0.7 * 0.05
+
+
+@pytest.mark.parametrize(
+    ("run", "points"),
+    [(followed, TOGETHER), (all_marched, APART)],
+    ids=["one direction", "two directions"],
+)
+def test_the_slip_at_an_edge_is_the_integral_over_the_zone_of_slip(run, points):
+    part = run(LOPSIDED, points).turning_points[-1].marched[-1]
+    for state in (part.until(0.01), part.until(0.9)):
+        along = state.slip(np.array(state.pressure.interval))
+        assert [state.slip_at_edge(k) for k in (0, 1)] == pytest.approx(along, rel=1e-10)
+
+
+def test_no_zone_of_slip_on_the_way_is_opened_for_points_that_come_into_contact(monkeypatch):
+    history = followed(LOPSIDED, TOGETHER)
+    opened, on_one_side = [], Receded._on_one_side
+    monkeypatch.setattr(Receded, "_on_one_side", lambda *at: opened.append(at) or on_one_side(*at))
+    (_, x2), (_, wider) = history[2].edges, history[3].edges
+    history[3].slip(x2 + (wider - x2) * np.linspace(0.1, 0.9, 5))
+    assert {part for part, *_ in opened} <= {
+        part for point in history.turning_points for part in point.marched
+    }
+
+
+# -- what is told ----------------------------------------------------------------------------------
+
+
+def test_the_certificate_says_that_a_state_was_marched_and_how_well_its_ends_are_known():
+    told = str(followed(HERTZ, TURNED)[1].check())
+    assert "marched, as slip turns at one edge" in told and "of its half-width" in told
+
+
+def test_a_path_says_which_steps_are_marched():
+    plan = str(followed(HERTZ, TURNED[:2]).plan)
+    assert "layers" in plan.splitlines()[0] and "marched: slip turns" in plan.splitlines()[1]
+    plan = str(followed(HERTZ, BOTH_STICK[:2]).plan)
+    assert "marched: the contact grows and sticks" in plan
+
+
+def test_a_second_zone_of_slip_is_refused_with_the_loads_at_which_it_opens():
+    with pytest.raises(sie.ContactError, match=r"step 2 .*second zone of slip opens") as refused:
+        followed(HERTZ, [*TRAVELLING, (1, -0.5, -3)])
+    assert 0.0 < refused.value.reached["share"] < 0.01 and refused.value.reached["step"] == 2
+
+
+def test_a_second_zone_of_slip_that_does_not_join_the_first_one_soon_is_refused():
+    with pytest.raises(sie.ContactError, match=r"second zone .* an edge sticks and grows") as told:
+        followed(HERTZ, RETURNS_UNDER_MEAN)
+    assert told.value.reached["step"] == 3 and 0.9 < told.value.reached["share"] < 1.0
+
+
+def test_the_loads_at_which_a_second_zone_opens_are_told_to_a_millionth_of_the_step():
+    """Up to there one zone sticks, and beyond it two do."""
+    points = [(1, -0.29, 0.13), (1, 0.04, -0.17), (1, -0.24, 0.37), (1, 0.32, -0.26)]
+    with pytest.raises(sie.ContactError, match="second zone of slip opens") as refused:
+        followed(HERTZ, points)
+    share, (start, end) = refused.value.reached["share"], np.array(points[-2:])
+    for further, zones in ((-1e-6, 1), (1e-6, 2)):
+        at = tuple(start + (share + further) * (end - start))
+        assert len(followed(HERTZ, [*points[:-1], at])[-1].stick) == zones

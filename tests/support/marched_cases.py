@@ -1,0 +1,68 @@
+"""Paths that are marched, and what their states are compared with."""
+
+from functools import cache
+from typing import Any
+
+import numpy as np
+from history_cases import P0, F, Points, S
+
+import sie
+from sie.friction.load_history.load_steps import loads_of, turning_points
+from sie.history import History
+from sie.problem.request import ECONOMY
+
+# Points are (P/P0, Q/F, σ/S, tilt).
+MEAN_STRESS = [(1, 0, 0.3), (1, 0.5, 0.3), (1, -0.5, 0.3), (1, 0.5, 0.3)]
+TURNED = [(1, 0.4, 0), (1, 0.4, 0.25), (1, 0.4, -0.25)]
+TRAVELLING = [(1, 0, 0), (1, 0.5, 3)]
+TO_THE_EDGE = [(1, 0, 0), (1, 0.67, 0.9)]
+# An edge of contact grows and sticks: slip begins at the other one, or after both have stuck.
+ONE_STICKS = [(1, 0, 0), (1.3, 0.5, 0.6)]
+BOTH_STICK = [(1, 0, 0), (1.6, 0.2, 0.2), (1.9, 0.7, 0.5)]
+# An end advances while the pressure changes: to the end of the step, until its zone of slip
+# vanishes at an edge that grows, or that retreats, and at once from farther out.
+ADVANCES = [(1, 0, 0), (1.17, 0.25, -0.485)]
+UNTIL_STUCK = [(1, 0, 0), (1.07, -0.325, -0.42)]
+TOGETHER = [(1, 0, 0, 0), (1.2, 0.55, 0.1, -0.02), (0.9, -0.3, -0.1, 0.02), (1.2, 0.55, 0.1, -0.02)]
+
+
+def followed(scene: sie.Scene, points: Points, parts: int = 1) -> History:
+    return history_of(scene, path_of(points).subdivided(parts))
+
+
+@cache
+def history_of(scene: sie.Scene, path: sie.Path) -> History:
+    """Tests share what they only read."""
+    return sie.follow(scene, path)
+
+
+def path_of(points: Points) -> sie.Path:
+    tilt = [point[3] for point in points] if len(points[0]) == 4 else ()
+    return sie.Path([(P * P0, Q * F, sigma * S) for P, Q, sigma, *_ in points], tilt=tilt)
+
+
+def all_marched(scene: sie.Scene, points: Points) -> History:
+    """The same, every step but the first one marched."""
+
+    def steps(scene: sie.Scene, path: sie.Path, contacts: Any) -> tuple[Any, ...]:
+        found = [turning_points(scene, path, contacts)[0]]
+        for loads in loads_of(path)[1:]:
+            found.append(contacts.march(found[-1], loads))
+        return tuple(found)
+
+    return History(scene, path_of(points), 1e-13, ECONOMY, steps)
+
+
+def inside(solution: sie.Solution, n: int = 41) -> Any:
+    """Points of the contact away from its edges, where q falls like a square root."""
+    x1, x2 = solution.edges
+    return 0.5 * (x1 + x2) + 0.49 * (x2 - x1) * np.linspace(-1.0, 1.0, n)
+
+
+GROWING = [ONE_STICKS, BOTH_STICK]
+ALL = [MEAN_STRESS, TURNED, TRAVELLING, TO_THE_EDGE, *GROWING, ADVANCES]
+
+
+def parts_of(solution: Any) -> Any:
+    """The parts of the step to a point of a path that was marched to."""
+    return solution.history.turning_points[solution.index].marched

@@ -1,0 +1,33 @@
+"""Dissimilar bodies under P alone, and what their fields are compared with."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import sie
+
+PROFILES = {
+    "flat": sie.Flat(1.0),
+    "wedge": sie.Wedge(0.1),
+    "parabola": sie.Parabola(1.0),
+    "power": sie.Power(2.5, 0.4),
+    "rounded flat": sie.RoundedFlat(0.5, 1.0),
+    "polynomial": sie.Polynomial((0.0, 0.0, 0.5, 0.0, 0.2)),
+    "function": sie.FromFunction(slope="sinh(x)"),
+    "function without slope": sie.FromFunction(slope="0*x", domain=(-1.0, 1.0)),
+    "shifted": sie.Parabola(1.0).shifted(3.0),
+    "kinked": sie.Piecewise((-2.0, -0.4, 0.4, 2.0), ((-0.8, 1.0), (0.0, 0.5), (0.8, 1.0))),
+}
+
+
+def scene(
+    profile: sie.Profile | None = None, beta: float = 0.3, friction: float = 0.3, **loads: Any
+) -> sie.Scene:
+    loads = loads or {"normal_load": 1.0}
+    return sie.Scene(
+        profile=profile or sie.Parabola(1.0), modulus=2.0, dundurs=beta, friction=friction, **loads
+    )
+
+
+def solved(*args: Any, **kwargs: Any) -> sie.Solution:
+    return sie.solve(scene(*args, **kwargs))
