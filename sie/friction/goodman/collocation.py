@@ -79,7 +79,10 @@ class Past:
 
 
 class Trial(NamedTuple):
-    """A panel to be found: a part of one of the growth, with e where it begins; None at nothing."""
+    """A panel to be found: a part of one of the growth, with e and de/dr where it begins.
+
+    e is None at nothing.
+    """
 
     flat: RecedingFlat
     panel: Panel
@@ -87,6 +90,7 @@ class Trial(NamedTuple):
     ends: tuple[float, float]
     side: float
     start: float | None
+    slope: float
     plain: bool
 
 
@@ -136,13 +140,13 @@ class Collocation:
 
     def solve(self) -> tuple[Stage, float]:
         """The stage, and what V times r misses between its points, of the load."""
-        values = self._guess()
-        if self.trial.start is None:
-            # A growth in proportion is found as exactly as rounding allows
-            constant = self.stage(values)
-            missed = self._missed(constant)
-            if missed <= PROPORTIONAL:
-                return constant, missed
+        # A growth in proportion has a constant e, found as exactly as rounding allows
+        start = self.trial.start
+        values = self._guess() if start is None else np.full(len(self.r), start)
+        constant = self.stage(values)
+        if rises(constant) and (missed := self._missed(constant)) <= PROPORTIONAL:
+            return constant, missed
+        values = values if start is None else self._guess()
         before, J = math.inf, None
         lowest, highest = self._limits
         trial = self.stage(values)
@@ -188,17 +192,17 @@ class Collocation:
     def _guess(self) -> Array:
         """The e of one parameter for which V is 0 at the last point.
 
-        It is constant from nothing, as in a growth in proportion, a parabola where both ends
-        advanced before, and a straight line elsewhere.
+        It is constant from nothing, as in a growth in proportion, and a parabola elsewhere.
         """
         lo, hi = self.trial.ends
         start = self.trial.start
-        part = (self.r - lo) / (self.r[-1] - lo)
-        part = np.ones_like(part) if start is None else part**2 if self.trial.plain else part
-        e = 0.0 if start is None else start
+        ahead = self.r - lo
+        part = np.ones_like(ahead) if start is None else (ahead / ahead[-1]) ** 2
+        e, slope = (0.0, 0.0) if start is None else (start, self.trial.slope)
+        base = e + slope * ahead
 
         def lack(end: float) -> float:
-            trial = self.stage(e + (end - e) * part)
+            trial = self.stage(base + (end - base[-1]) * part)
             return float(self.lack(trial, self.r[-1:])[0]) if rises(trial) else -math.inf
 
         lowest, highest = self._limits
@@ -221,7 +225,7 @@ class Collocation:
             middle = 0.5 * (low + high)
             above = lack(end_at(middle)) > 0.0
             low, high = (low, middle) if above else (middle, high)
-        return e + (end_at(high) - e) * part
+        return base + (end_at(high) - base[-1]) * part
 
     def _derivatives(self, values: Array) -> Array:
         """The derivatives of V at the points by the values there."""

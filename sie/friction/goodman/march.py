@@ -26,13 +26,14 @@ from .receding_flat import BEYOND, RecedingFlat
 Array = NDArray[np.float64]
 
 LOOKS = 48  # places on a panel of the growth where the ends' motion is looked at
-MISSED = 1e-9  # of the mean of f p: what V may differ from 0 by between the points
+MISSED = 1e-8  # of the mean of f p: what V may differ from 0 by between the points
 SHORTEST = 1e-9  # of the half-width: a panel that is not cut
-ROUGH = 1e-8  # of the mean of f p: what a panel that is not cut may miss
+ROUGH = 3e-8  # of the mean of f p: what a panel that is not cut may miss
 AIMS, AIMED = 2, 1e-2  # tries to end a panel on a mark; what one may miss of the load before
 AT_MARK = 1e-11  # of the half-width: an end that is so near to a mark is on it
 NEAR_MARK, NUDGE = 1e-2, 1e-4  # of the way of an end, of a panel: where its speed is constant
-MOST = 30  # panels that are tried: each takes some tenths of a second
+MOST, CUTS = 40, 6  # panels that are tried, and cuts of one: each try takes some tenths of a second
+ONSET = 1.0  # of the way since a panel of the growth began: the first panel that recedes
 SHORTER, LONGER = 0.4, 2.5  # the next panel, after one that fails or succeeds
 FAINT = 1e-13  # of the half-width under the load: a part of the growth that leaves no trace
 TURNING = 1e-9  # of the half-width: an end that moves inwards by less is rounding
@@ -70,6 +71,9 @@ class March:
             side = math.copysign(1.0, float(turns[j]))
             stop = self._turning(panel, side, float(looks[j - 1]), float(looks[j]))
             stop = stop if stop > r * (1.0 + FAINT) else r
+            # dm/dr may begin like a root where the panel of the growth does
+            since = stop - panel.begin
+            self._length = ONSET * (since if since > 0.0 else panel.hi - panel.lo)
         if stop > r:
             self.stages.append(Stage(self.flat, panel, centre, r, stop))
         return stop, side
@@ -93,18 +97,20 @@ class March:
     def _recede(self, panel: Panel, centre: float, r: float, side: float) -> tuple[float, float]:
         """One panel of the receding end, as long as it can be."""
         last = self.stages[-1] if self.stages else None
-        e = float(self.flat.natural.e[0])
-        smooth = last is not None and not last.recedes
+        e, slope = float(self.flat.natural.e[0]), 0.0
+        smooth = last is not None and not last.recedes and r > panel.begin
         if last is not None and last.recedes:
-            e = float(last.zone(np.array([last.hi])).e[0])
+            ends = np.array([last.hi - NUDGE * (last.hi - last.lo), last.hi])
+            before, e = last.zone(ends).e.tolist()
+            slope = (e - before) / (ends[1] - ends[0])
         stop = min(panel.hi, r + self._length)
         if stop > panel.hi - 0.1 * (stop - r):
             stop = panel.hi
-        aims, past = AIMS, None
+        aims, cuts, past = AIMS, 0, None
         while True:
             self.tried += 1
             begin = None if last is None else e
-            trial = Trial(self.flat, panel, centre, (r, stop), side, begin, smooth)
+            trial = Trial(self.flat, panel, centre, (r, stop), side, begin, slope, smooth)
             if last is not None and past is None:
                 past = self._past(trial)
             stage, missed = Collocation(trial, past, self.table.load).solve()
@@ -112,7 +118,8 @@ class March:
             if aims and met != stop and r < met < panel.hi:
                 stop, aims = met, aims - 1
                 continue
-            short = stop - r <= SHORTEST * stop
+            cuts += 1
+            short = stop - r <= SHORTEST * stop or cuts > CUTS
             if missed <= MISSED or (short and missed <= ROUGH):
                 break
             if short or self.tried > MOST:

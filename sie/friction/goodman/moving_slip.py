@@ -28,6 +28,7 @@ Array = NDArray[np.float64]
 KEPT = 0.7  # of the stick zone, from the end that recedes: it stuck under the lighter load
 LIGHTEST = 0.8  # of the half-width of the contact: no lighter load is looked at
 LATER = 1e-3  # of a half-width: after the stick zone began to recede, its end has moved
+OF_SHEAR = 1e-7  # of the largest shear: what is promised of (12), and kept by a factor of ten
 RESOLVED = 1e-10  # of the largest shear: a panel of its series
 HALVINGS = 60
 ON_PANEL = 8  # nodes of a rule for the slip between two places
@@ -109,6 +110,7 @@ class MovingSlip(GoodmanSlip):
     """The state after the normal load, and Q at constant P; `before` is the shear before Q."""
 
     before: NormalShear | None = None
+    of_shear = OF_SHEAR
 
     @property
     def _normal(self) -> NormalShear:
