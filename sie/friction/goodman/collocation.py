@@ -19,12 +19,11 @@ from sie.numerics.interval import EPS
 from .growth import Panel
 from .moving_history import MovingHistory, Stage
 from .receding_flat import BEYOND, RecedingFlat
+from .root_series import RootSeries
 
 Array = NDArray[np.float64]
 
 DEGREE = 12  # of the polynomial
-PAST, RESOLVED, NARROW = 16, 1e-11, 1e-3  # points of what came before, and when they suffice
-TOLD = 1e-12  # of the half-width: distances of places
 NEWTONS, HALVINGS = 20, 6
 GUESSES, FARTHEST = 14, 25.0  # bisections for the first guess, of a logarithm from its largest
 HALVED, PROPORTIONAL = 46, 1e-10  # bisections from nothing, and what is then missed of the load
@@ -34,48 +33,6 @@ DIFFERENCE = 1e-7  # of a value: the step of a difference quotient
 FRACTION = 1e-4  # of the way that the end goes: the same
 LOOKS = 48  # places at which the end has to move inwards
 ROUNDING = 1e-12  # of the half-width: an end that moves by less stands
-
-
-class Past:
-    """V under the load at which a panel begins, as series between marks in roots of distances.
-
-    Between two marks y = lo + (hi - lo) sin²θ; panels of θ are cut until they resolve V.
-    """
-
-    def __init__(self, history: MovingHistory, ends: Array, side: float) -> None:
-        self.ends = ends
-        open_ = [(k, 0.0, 0.5 * math.pi) for k in range(len(ends) - 1)]
-        done: list[tuple[int, float, float, Array]] = []
-        largest = 0.0
-        while open_:
-            gap, lo, hi = (np.array(column) for column in zip(*open_, strict=True))
-            theta = lo[:, None] + 0.5 * (hi - lo)[:, None] * (1.0 + chebyshev.points(PAST))
-            y = ends[gap][:, None] + np.diff(ends)[gap][:, None] * np.sin(theta) ** 2
-            # Nearer to the end of the stick zone than doubles tell V is a root of the distance
-            least = ends[0] + TOLD * history.stages[-1].hi
-            told = np.maximum(y, least)
-            V = history.lack(side * told.ravel(), -side).reshape(y.shape)
-            V *= np.sqrt(np.maximum(y - ends[0], 0.0) / (told - ends[0]))
-            largest = max(largest, float(np.abs(V).max()))
-            series = chebyshev.transform(V)
-            tail = np.abs(series[:, -3:]).max(axis=1)
-            fine = (tail <= RESOLVED * largest) | (hi - lo < NARROW)
-            done += [(gap[k], lo[k], hi[k], series[k]) for k in np.flatnonzero(fine)]
-            rest = [(gap[k], lo[k], 0.5 * (lo[k] + hi[k]), hi[k]) for k in np.flatnonzero(~fine)]
-            open_ = [part for k, a, m, b in rest for part in ((k, a, m), (k, m, b))]
-        done.sort(key=lambda piece: piece[:2])
-        self.lo, self.hi = (np.array([piece[j] for piece in done]) for j in (1, 2))
-        self.begin = np.array([piece[0] + piece[1] / math.pi for piece in done])
-        self.series = np.stack([piece[3] for piece in done])
-
-    def __call__(self, y: Array) -> Array:
-        k = np.clip(np.searchsorted(self.ends, y) - 1, 0, len(self.ends) - 2)
-        part = np.clip((y - self.ends[k]) / (self.ends[k + 1] - self.ends[k]), 0.0, 1.0)
-        theta = np.arcsin(np.sqrt(part))
-        j = np.maximum(np.searchsorted(self.begin, k + theta / math.pi, side="right") - 1, 0)
-        place = 2.0 * (theta - self.lo[j]) / (self.hi[j] - self.lo[j]) - 1.0
-        values: Array = chebyshev.evaluate(self.series[j].T, place)
-        return values
 
 
 class Trial(NamedTuple):
@@ -97,7 +54,7 @@ class Trial(NamedTuple):
 class Collocation:
     """The equations of one panel."""
 
-    def __init__(self, trial: Trial, past: Past | None, load: float) -> None:
+    def __init__(self, trial: Trial, past: RootSeries | None, load: float) -> None:
         self.trial, self.past, self.load = trial, past, load
         if trial.start is None:
             self.places = self.nodes = chebyshev.points(DEGREE)

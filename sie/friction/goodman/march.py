@@ -18,10 +18,11 @@ from numpy.typing import NDArray
 
 from sie.errors import ContactError
 
-from .collocation import Collocation, Past, Trial
+from .collocation import Collocation, Trial
 from .growth import ContactTable, Panel
 from .moving_history import MovingHistory, Stage
 from .receding_flat import BEYOND, RecedingFlat
+from .root_series import RootSeries
 
 Array = NDArray[np.float64]
 
@@ -29,6 +30,7 @@ LOOKS = 48  # places on a panel of the growth where the ends' motion is looked a
 MISSED = 1e-8  # of the mean of f p: what V may differ from 0 by between the points
 SHORTEST = 1e-9  # of the half-width: a panel that is not cut
 ROUGH = 3e-8  # of the mean of f p: what a panel that is not cut may miss
+TOLD = 1e-12  # of the half-width: distances of places
 AIMS, AIMED = 2, 1e-2  # tries to end a panel on a mark; what one may miss of the load before
 AT_MARK = 1e-11  # of the half-width: an end that is so near to a mark is on it
 NEAR_MARK, NUDGE = 1e-2, 1e-4  # of the way of an end, of a panel: where its speed is constant
@@ -136,7 +138,7 @@ class March:
         self.stages.append(stage)
         return stop, 0.0 if over else side
 
-    def _met(self, stage: Stage, past: Past) -> float:
+    def _met(self, stage: Stage, past: RootSeries) -> float:
         """Where the end comes to the first mark, the stage's end where it comes to none."""
         marks = past.ends[1:-1]
         r = np.array([stage.lo, stage.hi - NUDGE * (stage.hi - stage.lo), stage.hi])
@@ -157,7 +159,7 @@ class March:
             lo, hi = (middle, hi) if below else (lo, middle)
         return hi
 
-    def _past(self, trial: Trial) -> Past:
+    def _past(self, trial: Trial) -> RootSeries:
         """V under the load at which a panel begins, where the end may come on it."""
         history, r, side = MovingHistory(tuple(self.stages)), trial.ends[0], trial.side
         natural = Stage(self.flat, trial.panel, trial.centre, *trial.ends, side)
@@ -171,7 +173,14 @@ class March:
         pieces = sorted({x for x in (*inner, second, right) if least < x < min(top, right)})
         ends = np.array([first, *pieces, min(top, right)])
         keep = np.append(True, np.diff(ends) > FAINT * self.table.end)
-        return Past(history, ends[keep], side)
+        told = first + TOLD * r
+
+        def lack(y: Array) -> Array:
+            # Nearer to the end of the stick zone than doubles tell V is a root of the distance
+            V = history.lack(side * np.maximum(y, told), -side)
+            return V * np.sqrt(np.clip((y - first) / (told - first), 0.0, 1.0))
+
+        return RootSeries(lack, ends[keep])
 
     def marks(self) -> list[float]:
         """Places at which an end was when it changed its motion."""

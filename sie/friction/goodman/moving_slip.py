@@ -14,13 +14,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie.errors import ContactError
-from sie.friction.coupled.half_potential import HalfPotential
-from sie.friction.coupled.traction import resolved_panels
 from sie.friction.slip_state import Step
 from sie.numerics.gauss_jacobi import gauss_jacobi
 from sie.numerics.interval import Interval
 
 from .moving_history import MovingHistory, Stage
+from .root_series import RootSeries
 from .slip import SMALL, GoodmanSlip
 
 Array = NDArray[np.float64]
@@ -29,7 +28,6 @@ KEPT = 0.7  # of the stick zone, from the end that recedes: it stuck under the l
 LIGHTEST = 0.8  # of the half-width of the contact: no lighter load is looked at
 LATER = 1e-3  # of a half-width: after the stick zone began to recede, its end has moved
 OF_SHEAR = 1e-7  # of the largest shear: what is promised of (12), and kept by a factor of ten
-RESOLVED = 1e-10  # of the largest shear: a panel of its series
 HALVINGS = 60
 ON_PANEL = 8  # nodes of a rule for the slip between two places
 KIND = "outwards on both sides while the normal load grew, the stick zone receded, β q neglected"
@@ -76,21 +74,8 @@ class NormalShear:
         return limited
 
     @cached_property
-    def _halves(self) -> tuple[HalfPotential, HalfPotential]:
-        """Series of q on both sides of the middle of the stick zone."""
-        c1, c2 = self.stick
-        middle = 0.5 * (c1 + c2)
-
-        def half(side: float) -> HalfPotential:
-            inner = sorted(side * (x - middle) for x in self.marks[1:-1])
-            ends = (*(y for y in inner if y > SMALL * (c2 - c1)), 0.5 * (c2 - c1))
-
-            def row(y: Array, _: Array) -> Array:
-                return self.direct(middle + side * y)[None]
-
-            return HalfPotential(resolved_panels(row, ends, 0.0, RESOLVED)[0])
-
-        return half(1.0), half(-1.0)
+    def _series(self) -> RootSeries:
+        return RootSeries(self.direct, np.array(self.marks))
 
     def __call__(self, x: Array) -> Array:
         """q in the contact."""
@@ -98,9 +83,7 @@ class NormalShear:
         f_p = self.step.scene.friction * self.step.pressure(x)
         q = np.where(x >= c2, f_p, -f_p)
         stuck = (x > c1) & (x < c2)
-        y = x[stuck] - 0.5 * (c1 + c2)
-        right, left = self._halves
-        values = np.where(y < 0.0, left.traction(np.abs(y)), right.traction(np.abs(y)))
+        values = self._series(x[stuck])
         q[stuck] = np.clip(values, -f_p[stuck], f_p[stuck])
         return q
 
