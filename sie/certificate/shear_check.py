@@ -227,6 +227,7 @@ def _on_own_rule(density: Density, contact: Interval, marks: Sequence[float], sl
 
 # -- while the normal load grows ------------------------------------------------------------------
 
+OF_SHEAR = 1e-10  # of the largest shear: what is promised of (12)
 NODES, RATIO = 12, 3.0  # panels towards a mark, in the root of the distance
 # ... and so many: at an edge the shear goes with a logarithm as well where the slip zone is narrow
 AT_EDGE, INSIDE = 17, 9
@@ -262,7 +263,7 @@ def goodman_certificate(state: GrownSlip, kind: str, tol: float) -> ShearCertifi
         condition=1.0,
         advancing=True,
         kind=f"{state.kind}; {kind}",
-        tol=max(tol, state.of_shear),
+        tol=max(tol, OF_SHEAR),
     )
 
 

@@ -165,10 +165,7 @@ class GrownSlip(Slip):
     zones       the zones under Q, None before
     marks       places where q is not smooth, with the edges
     lighter     the state under a lighter normal load, None where the contact does not grow
-    of_shear    what is promised of (12), of the largest shear
     """
-
-    of_shear = 1e-10
 
     step: Step
     zones: SlipZones | None

@@ -134,7 +134,7 @@ def test_zone_past_two_breaks_at_one_distance_keeps_its_force():
 
 @pytest.mark.parametrize("pieces", [((-3, 1), (0, 2)), ((0, 0, -1), (0, 1))])
 def test_contact_that_grows_to_one_side_alone_at_first_is_refused(pieces):
-    with pytest.raises(sie.ContactError, match=r"stick\s+zone.* (would )?recede"):
+    with pytest.raises(sie.ContactError, match=r"stick zone.* would recede"):
         _ = solved(sie.Piecewise((-3, 0, 3), pieces), 0.2, 0.3).stick
 
 
@@ -286,6 +286,7 @@ def test_report_says_how_far_the_approximation_is():
     [
         ({"tilt": 0.4, "profile": sie.Flat(1.0)}, "reached a corner .* symmetric"),
         ({"profile": sie.Flat(1.0), "tangential_load": 0.05}, "corner behind sticks"),
+        ({"profile": sie.RoundedFlat(0.5, 1.0), "tilt": 0.02, "friction": 0.07}, "would recede"),
         ({"bulk_stress": 0.1}, "bulk_stress"),
         ({"tangential_load": 0.2}, "slide"),
     ],

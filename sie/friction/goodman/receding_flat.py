@@ -30,15 +30,12 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from sie.friction.coupled.tables import Table
-from sie.numerics.elliptic import TERMS, modulus_of_ratio
+from sie.numerics.elliptic import TERMS, modulus_of, modulus_of_ratio
+from sie.numerics.interval import EPS
 
 Array = NDArray[np.float64]
 
-NARROWEST = 1e-13  # of the slip zone of a flat that advances: the narrowest that is tabulated
-BEYOND = 0.5  # of k or of that slip zone: so far the table goes on past it
-HALVINGS = 60
-MEANS = 40  # of the arithmetic-geometric mean, which converges quadratically in the end
+NEAREST, SETTLED = 1e-15, 4.0 * EPS  # of K'/K: when it is found
 
 
 class Zone(NamedTuple):
@@ -84,30 +81,21 @@ class RecedingFlat:
         e, k, rest, K, d, mu, off = (np.array([v]) for v in values)
         return Zone(e, k, rest, K, d, mu, off, np.atleast_1d(zeta))
 
-    @cached_property
-    def _table(self) -> Table:
-        m = modulus_of_ratio(self.ratio)
-        beyond = BEYOND * min(m.k, m.rest)
-        last = NARROWEST * m.rest
-        return Table((m.k - beyond, m.rest + beyond), (1.0 - last, last), (m.k, last), self._ratios)
+    def zone(self, e: float) -> Zone:
+        """The stick zone that begins at t1 = e - 1, wider than that which advances."""
+        from scipy.optimize import brentq  # noqa: PLC0415 -- heavy, and for dissimilar bodies only
 
-    def zone(self, e: Array) -> Zone:
-        """The stick zones that begin at t1 = e - 1, within what is tabulated."""
-        m = modulus_of_ratio(self.ratio)
-        e = np.clip(e, NARROWEST * m.rest, m.rest + BEYOND * min(m.k, m.rest))
-        ratio = self._table(1.0 - e, e)
-        return _zone(e, ratio, self.ratio)
+        start = np.array([e])
 
-    def _ratios(self, t: Array, e: Array) -> Array:
-        """K'/K of κ by bisection."""
-        whole = _ratio_of(t, np.sqrt(e * (1.0 + t)))
-        lo, hi = np.minimum(whole, self.ratio), np.maximum(whole, self.ratio)
-        for _ in range(HALVINGS):
-            middle = 0.5 * (lo + hi)
-            below = _resultant(_zone(e, middle, self.ratio)) < 0.0
-            lo, hi = np.where(below, middle, lo), np.where(below, hi, middle)
-        values: Array = 0.5 * (lo + hi)
-        return values
+        def resultant(ratio: float) -> float:
+            return float(_resultant(_zone(start, np.array([ratio]), self.ratio))[0])
+
+        least = modulus_of(1.0 - e, math.sqrt(e * (2.0 - e)))
+        whole = least.K_complement / least.K
+        if not whole < self.ratio or resultant(self.ratio) * resultant(whole) >= 0.0:
+            return self.natural
+        found = float(brentq(resultant, whole, self.ratio, xtol=NEAREST * whole, rtol=SETTLED))
+        return _zone(start, np.array([found]), self.ratio)
 
 
 @lru_cache(maxsize=8)
@@ -115,18 +103,18 @@ def receding_flat(ratio: float) -> RecedingFlat:
     return RecedingFlat(ratio)
 
 
-def ratio(zone: Zone, r: Array, places: Distances) -> Array:
-    """q/(f p) of the change in stick, for contacts of half-width r."""
+def ratio(zone: Zone, places: Distances) -> Array:
+    """q/(f p) of the change in stick."""
     k, mu, off = zone.k, zone.mu, zone.off
     spread = off * (1.0 + mu)  # 1 - μ²
-    here = off + mu * (places.left / r)  # 1 + μ t
-    below = places.first / (r * k) * spread / (here * (off + mu * zone.e))
+    here = off + mu * places.left  # 1 + μ t
+    below = places.first / k * spread / (here * (off + mu * zone.e))
     until = off + mu * (2.0 - zone.right_slip)
-    above = places.second / (r * k) * spread / (here * until)
+    above = places.second / k * spread / (here * until)
     below, above = np.maximum(below, 0.0), np.maximum(above, 0.0)
     sn = np.where(below < 1.0, below - 1.0, 1.0 - above)
     cn2 = below * above
-    dn2 = places.left * places.right / (r * r) * spread / (here * here)
+    dn2 = places.left * places.right * spread / (here * here)
     v = sn * _first(cn2, dn2)
     zeta = _zeta(zone, sn, cn2, dn2, v)
     pole = np.sqrt(dn2) * np.sqrt(above / np.maximum(below, 1e-300))
@@ -170,18 +158,6 @@ def _modulus(ratio: Array) -> tuple[Array, Array, Array]:
     small, large = (theta2 / theta3) ** 2, (theta4 / theta3) ** 2
     K = 0.5 * math.pi * theta3 * theta3
     return np.where(swap, large, small), np.where(swap, small, large), np.where(swap, tau * K, K)
-
-
-def _ratio_of(k: Array, complement: Array) -> Array:
-    def mean(g: Array) -> Array:
-        a = np.ones_like(g)
-        for _ in range(MEANS):
-            a, g = 0.5 * (a + g), np.sqrt(a * g)
-        return a
-
-    # K = π/(2 mean(k')), K' = π/(2 mean(k))
-    values: Array = mean(complement) / mean(k)
-    return values
 
 
 def _first(x: Any, y: Any) -> Array:

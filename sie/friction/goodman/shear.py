@@ -306,8 +306,11 @@ class GoodmanGrowth:
         return totals(row, mass * values, len(count))
 
     @cached_property
-    def recedes(self) -> bool:
-        """Whether an end of the stick zone would move inwards: then this does not hold."""
+    def recedes(self) -> float:
+        """A half-width at which an end of the stick zone would move inwards, 0 where none does.
+
+        Then this does not hold.
+        """
         carried = 0.0
         for panel in self.table.panels:
             ahead = panel.length * (np.arange(LOOKS + 1) / LOOKS) ** 2
@@ -317,8 +320,8 @@ class GoodmanGrowth:
             carried = float(load[-1])
             receding = (rise < -TURNING * self.table.end) & (load > FAINT * self.table.load)
             if receding.any():
-                return True
-        return False
+                return panel.lo + float(ahead[1:][receding][-1])
+        return 0.0
 
 
 def _flat_pressure(at: Nodes) -> Array:

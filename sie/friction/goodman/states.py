@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import math
+
+from sie.errors import ContactError
 from sie.friction.slip_state import Step
 from sie.problem.load_limit import refuse_corner, refuse_sliding
 
 from .functions import goodman_flat
 from .growth import Search
-from .march import March
-from .moving_slip import MovingSlip, NormalShear
+from .moving_slip import MovingShear, MovingSlip
+from .proportion import Proportion, in_proportion
 from .receding_flat import receding_flat
 from .slip import GoodmanSlip, contact_table
 
@@ -25,9 +28,19 @@ def goodman_slip(step: Step, search: Search) -> GoodmanSlip:
     flat = goodman_flat(abs(scene.beta), scene.friction)
     table = contact_table(step, search, flat)
     state = GoodmanSlip(step, flat, table)
-    if any(side.recedes for side in state.sides):
-        march = March(receding_flat(flat.beta / flat.friction), table)
-        history = march.run()
-        shear = NormalShear(step, history, table.middle, tuple(march.marks()))
+    half_width = max(side.recedes for side in state.sides)
+    if half_width:
+        growth = in_proportion(table)
+        if growth is None:
+            raise ContactError(
+                f"the contact moves aside faster than it grows: its stick zone, {flat.k:.4g} of "
+                f"the width, would recede at one end at a half-width of {half_width:.6g}, and "
+                "Goodman's approximation is solved for stick zones that only grow, or recede in "
+                "proportion to the contact as under a wedge; raise the friction, reduce the tilt, "
+                "or give dundurs = 0 to neglect β"
+            )
+        turn, power = growth
+        rates = Proportion(receding_flat(flat.beta / flat.friction), abs(turn), power)
+        shear = MovingShear(step, rates, table.first_centre, math.copysign(1.0, turn))
         state = MovingSlip(step, flat, table, before=shear)
     return state.under_tangential_load() if step.Q else state
