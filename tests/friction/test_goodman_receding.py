@@ -103,6 +103,31 @@ def test_certificate_holds_where_a_stick_zone_recedes_in_proportion(part, other)
     assert shear.equilibrium < 1e-11
 
 
+@pytest.mark.parametrize("friction", [0.05, 0.5, 1.2])
+def test_certificate_holds_under_a_tilted_flat_of_which_one_corner_touches(friction):
+    solution = solved(profile=sie.Flat(1.0), tilt=0.2, dundurs=0.4, friction=friction)
+    (x1, x2), (c1, c2) = solution.edges, solution.stick[0]
+    assert x1 == -1.0
+    assert x1 < c1 < c2 < x2 < 1.0
+    shear = solution.check().shear
+    assert shear.ok
+    assert shear.residual < 1e-11
+    # 1e-9 of the force where the slip zone at the corner is 3e-5 of the half-width
+    assert shear.equilibrium < 1e-8
+
+
+def test_stick_zone_next_to_a_corner_of_a_tilted_flat_is_refused():
+    with pytest.raises(sie.ContactError, match=r"nearer than 1e-07 of the half-width"):
+        _ = solved(profile=sie.Flat(1.0), tilt=0.2, dundurs=0.04, friction=0.5).stick
+
+
+@pytest.mark.parametrize("part", [0.0, -0.4])
+def test_wedge_with_one_side_almost_parallel_to_the_body_is_solved(part):
+    shear = solved(part, tilt=0.1153 * 0.99).check().shear
+    assert shear.ok
+    assert shear.residual < 1e-11
+
+
 def test_certificate_fails_where_the_receding_end_is_wrong(monkeypatch):
     right = Proportion(receding_flat(0.4775 / 0.3421), 0.8, 0.0).advance
     monkeypatch.setattr(Proportion, "advance", right * 1.01)
@@ -111,8 +136,8 @@ def test_certificate_fails_where_the_receding_end_is_wrong(monkeypatch):
     assert shear.residual > 1e-5
 
 
-@pytest.mark.parametrize("ratio_", [0.2, 1.4, 20.0, 300.0])
-@pytest.mark.parametrize("beyond", [1e-6, 0.1, 0.9, 1.0 - 1e-9])
+@pytest.mark.parametrize("ratio_", [0.5, 1.4, 20.0, 300.0])
+@pytest.mark.parametrize("beyond", [0.3, 0.9, 1.0 - 1e-9])
 def test_shear_from_both_ends_of_the_stick_zone_is_one(ratio_, beyond):
     flat = receding_flat(ratio_)
     k, rest = float(flat.natural.k[0]), float(flat.natural.e[0])

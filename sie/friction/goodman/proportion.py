@@ -30,6 +30,7 @@ from numpy.typing import NDArray
 from sie.errors import ContactError
 from sie.numerics import chebyshev
 from sie.numerics.interval import EPS
+from sie.profiles.slope import Slope
 
 from .growth import ContactTable
 from .receding_flat import Distances, RecedingFlat, Zone, ratio
@@ -43,6 +44,7 @@ SAME = 1e-10  # of dm/dr and of dP/dr: what they may differ by from those in pro
 NOISE = 256.0 * EPS  # of the half-width: to so much the contacts of the table are known
 LOOKS, FAINTEST = 24, 1e-6  # places on a panel, and half-widths that leave no trace
 FARTHEST = 30  # ln of the distances of t1 from -ν and -k, over each other, at most
+NARROWEST = 1e-7  # of the half-width: nearer to first touch force and slip have too few digits
 SETTLED = 1e-14  # the error of that logarithm
 
 
@@ -113,15 +115,20 @@ class Proportion:
             if lack(far) * outwards >= 0.0:
                 break
         else:
-            raise self._not_found()
+            raise self._too_near()
         place = float(brentq(lack, near, far, xtol=SETTLED, rtol=4.0 * EPS))
-        return most / (1.0 + math.exp(-place))
+        advance = most / (1.0 + math.exp(-place))
+        if advance < NARROWEST:
+            raise self._too_near()
+        return advance
 
     @staticmethod
-    def _not_found() -> ContactError:
+    def _too_near() -> ContactError:
         return ContactError(
-            "an end of the stick zone recedes while the load grows, and where it is in Goodman's "
-            "approximation is not told by doubles; give dundurs = 0 to neglect β"
+            f"an end of the stick zone is nearer than {NARROWEST:.0e} of the half-width to the "
+            "place of first touch, or to where it would be in a contact that does not move aside, "
+            "and its shear in Goodman's approximation is not told by doubles; reduce the friction, "
+            "or give dundurs = 0 to neglect β"
         )
 
     @cached_property
@@ -226,3 +233,26 @@ def in_proportion(table: ContactTable) -> tuple[float, float] | None:
         if not (same | (part < FAINTEST)).all():
             return None
     return turn, power
+
+
+def on_straight_pieces(
+    table: ContactTable, slope: Slope, sharp: tuple[bool, bool]
+) -> tuple[float, float] | None:
+    """dm/dr and s = 0 where all of the contact is straight but for a bend at first touch.
+
+    So it is under a tilted wedge, and under a tilted flat of which one edge stays at the corner
+    that touched first: dm/dr is then ±1. None elsewhere.
+    """
+    # A contact that has reached both corners no longer grows
+    if table.start or all(sharp) or slope.functions:
+        return None
+    lo, hi, near = table.middle - table.end, table.middle + table.end, NOISE * table.end
+    inner = slope.breaks[(slope.breaks > lo + near) & (slope.breaks < hi - near)]
+    first, last = np.searchsorted(slope.breaks, [lo + near, hi - near])
+    bent = slope.coefficients[first - 1 : last, 1:].any()
+    if bent or (np.abs(inner - table.first_centre) > near).any():
+        return None
+    turn = (table.middle - table.first_centre) / table.end
+    if not table.cornered:
+        return (turn, 0.0) if 1.0 - abs(turn) >= NARROWEST else None
+    return (math.copysign(1.0, turn), 0.0) if abs(abs(turn) - 1.0) <= NOISE else None

@@ -11,7 +11,7 @@ from sie.problem.load_limit import refuse_corner, refuse_sliding
 from .functions import goodman_flat
 from .growth import Search
 from .moving_slip import MovingShear, MovingSlip
-from .proportion import Proportion, in_proportion
+from .proportion import Proportion, in_proportion, on_straight_pieces
 from .receding_flat import receding_flat
 from .slip import GoodmanSlip, contact_table
 
@@ -27,8 +27,11 @@ def goodman_slip(step: Step, search: Search) -> GoodmanSlip:
         refuse_corner(step.normal.edges.sharp, step.Q)
     flat = goodman_flat(abs(scene.beta), scene.friction)
     table = contact_table(step, search, flat)
-    state = GoodmanSlip(step, flat, table)
-    half_width = max(side.recedes for side in state.sides)
+    state: GoodmanSlip = GoodmanSlip(step, flat, table)
+    growth = on_straight_pieces(table, step.slope, step.normal.edges.sharp)
+    if growth and abs(growth[0]) <= flat.k:
+        growth = None
+    half_width = 0.0 if growth else max(side.recedes for side in state.sides)
     if half_width:
         growth = in_proportion(table)
         if growth is None:
@@ -39,6 +42,7 @@ def goodman_slip(step: Step, search: Search) -> GoodmanSlip:
                 "proportion to the contact as under a wedge; raise the friction, reduce the tilt, "
                 "or give dundurs = 0 to neglect β"
             )
+    if growth:
         turn, power = growth
         rates = Proportion(receding_flat(flat.beta / flat.friction), abs(turn), power)
         shear = MovingShear(step, rates, table.first_centre, math.copysign(1.0, turn))
