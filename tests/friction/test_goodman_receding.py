@@ -116,6 +116,18 @@ def test_certificate_holds_under_a_tilted_flat_of_which_one_corner_touches(frict
     assert shear.equilibrium < 1e-8
 
 
+def test_receding_end_and_shear_at_a_corner_are_those_of_a_grid():
+    given = {"dundurs": 0.3, "friction": 0.15, "load": 0.02, "tilt": -0.05}
+    solution = solved(profile=sie.Flat(1.0), **given)
+    (x1, x2), (c1, c2) = solution.edges, solution.stick[0]
+    m, r = 0.5 * (x1 + x2), 0.5 * (x2 - x1)
+    # 320 cells of the printed equations in 320 increments of the load, of the mean p 0.1
+    assert (c1 - m) / r == pytest.approx(0.00625, abs=0.007)
+    assert (c2 - m) / r == pytest.approx(0.8375, abs=0.007)
+    q = solution.shear(m + r * np.array([-0.5, 0.0, 0.2])) * 0.2 * r / 0.02
+    assert q == pytest.approx([-0.00551329, -0.0095494, -0.0104539], rel=4e-4)
+
+
 def test_stick_zone_next_to_a_corner_of_a_tilted_flat_is_refused():
     with pytest.raises(sie.ContactError, match=r"nearer than 1e-07 of the half-width"):
         _ = solved(profile=sie.Flat(1.0), tilt=0.2, dundurs=0.04, friction=0.5).stick
