@@ -172,9 +172,9 @@ class Proportion:
         )
 
     def lack(self, first: Array, second: Array) -> tuple[Array, Flags]:
-        """What |q| is below f p at distances from t1 and t2, over f P/r, and where q is -f p less.
+        """What q differs by from a limit at distances from t1 and t2, over f P/r, and from which.
 
-        It is next to t1, and f p less next to t2.
+        q = -f p + lack where the flag is true, in the half next to t1, and f p - lack elsewhere.
         """
         stick, left = self._stick, first < second
         of_first = stick.near_first.at(self._series[0], np.minimum(first, 0.5 * stick.width))
