@@ -151,6 +151,7 @@ class ContactTable:
     first_centre, middle    centres of the contact then
     stick                   the part of a contact that sticks
     corner_load             what the corners at both ends of a contact carry that no longer grows
+    cornered                whether an edge of an unsymmetric contact is at a corner
     """
 
     def __init__(
@@ -168,14 +169,8 @@ class ContactTable:
         upright = edges.tilt == 0.0 and self.search.axis is not None
         self.law = law if upright else None
         self.corner_load = 0.0
-        if any(edges.sharp):
-            if self.search.axis is None:
-                raise ContactError(
-                    "the contact is not symmetric and has reached a corner of the indenter: its "
-                    "stick zone would recede there while the load grows, which Goodman's "
-                    "approximation does not solve; give a profile that is symmetric, or smooth at "
-                    "both edges"
-                )
+        self.cornered = any(edges.sharp) and self.search.axis is None
+        if any(edges.sharp) and not self.cornered:
             whole = self.search.load(edges.contact, self.search.integrals(edges.contact))
             self.corner_load = edges.normal_load - whole
         self.first_centre = 0.5 * (z1 + z2)
@@ -229,6 +224,13 @@ class ContactTable:
     @cached_property
     def panels(self) -> tuple[Panel, ...]:
         """Ascending; () under a flat punch."""
+        if self.cornered:
+            raise ContactError(
+                "the contact is not symmetric and has reached a corner of the indenter: its "
+                "stick zone would recede there while the load grows, which Goodman's "
+                "approximation does not solve; give a profile that is symmetric, or smooth at "
+                "both edges"
+            )
         if self.law is not None:
             m = self.law.exponent
             rate = np.array([m * self._mean_pressure * self.end ** (1.0 - m)])

@@ -30,7 +30,6 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from sie.errors import ContactError
 from sie.friction.coupled.panels import totals
 from sie.friction.coupled.profile import NEAREST
 from sie.numerics.gauss_jacobi import gauss_jacobi
@@ -96,7 +95,6 @@ class GoodmanGrowth:
     def __init__(self, flat: GoodmanFlat, table: ContactTable, mirrored: bool = False) -> None:
         self.flat, self.table, self.side = flat, table, -1.0 if mirrored else 1.0
         self._looks: dict[int, tuple[Array, Array]] = {}
-        self._refuse_receding()
 
     def shear(self, y: Array) -> Array:
         """q in the stick zone."""
@@ -307,8 +305,12 @@ class GoodmanGrowth:
         values = integrand(Nodes(*(column.ravel() for column in at))).reshape(mass.shape)
         return totals(row, mass * values, len(count))
 
-    def _refuse_receding(self) -> None:
-        """ContactError where an end of the stick zone moves inwards."""
+    @cached_property
+    def recedes(self) -> float:
+        """A half-width at which an end of the stick zone would move inwards, 0 where none does.
+
+        Then this does not hold.
+        """
         carried = 0.0
         for panel in self.table.panels:
             ahead = panel.length * (np.arange(LOOKS + 1) / LOOKS) ** 2
@@ -318,13 +320,8 @@ class GoodmanGrowth:
             carried = float(load[-1])
             receding = (rise < -TURNING * self.table.end) & (load > FAINT * self.table.load)
             if receding.any():
-                raise ContactError(
-                    "the contact moves aside faster than it grows: its stick zone, "
-                    f"{self.flat.k:.4g} of the width, would recede at one end at a half-width of "
-                    f"{panel.lo + float(ahead[1:][receding][-1]):.6g}, and Goodman's approximation "
-                    "is solved for stick zones that only grow; raise the friction, reduce the "
-                    "tilt, or give dundurs = 0 to neglect β"
-                )
+                return panel.lo + float(ahead[1:][receding][-1])
+        return 0.0
 
 
 def _flat_pressure(at: Nodes) -> Array:

@@ -32,10 +32,10 @@ from sie.friction.slip_state import GrownSlip, Step
 from sie.friction.slip_zones import Drive, SlipZones, edge_frame, slip_zones
 from sie.numerics.gauss_jacobi import gauss_jacobi
 from sie.numerics.interval import EPS, Interval
-from sie.problem.load_limit import refuse_corner, refuse_sliding, remaining
+from sie.problem.load_limit import remaining
 
 from .frame import DeficitFrame
-from .functions import GoodmanFlat, goodman_flat
+from .functions import GoodmanFlat
 from .growth import ContactTable, Search
 from .shear import GoodmanGrowth
 
@@ -125,7 +125,7 @@ class GoodmanSlip(GrownSlip):
         step = self.step
         found = step.contact_under(LIGHTER * step.normal_load, step.normal.edges.tilt)
         before = replace(step, normal=found, pressure=step.pressure_on(found), Q=0.0)
-        return goodman_slip(before, self.table.search)
+        return GoodmanSlip(before, self.flat, contact_table(before, self.table.search, self.flat))
 
     @cached_property
     def marks(self) -> tuple[float, ...]:  # type: ignore[override]
@@ -336,18 +336,7 @@ class GoodmanSlip(GrownSlip):
         return total / self.table.search.half_modulus
 
 
-def goodman_slip(step: Step, search: Search) -> GoodmanSlip:
-    """The state of a scene's contact after P and Q; ContactError where it is not solved.
-
-    `search` finds contacts of the same slope up to this one.
-    """
-    scene = step.scene
-    if step.Q:
-        refuse_sliding(scene.friction, step.normal_load, step.Q)
-        refuse_corner(step.normal.edges.sharp, step.Q)
-    law = scene.profile.power_law
-    flat = goodman_flat(abs(scene.beta), scene.friction)
-    table = ContactTable(search, step.normal.edges, step.slope.breaks.tolist(), law, flat.k)
-    state = GoodmanSlip(step, flat, table)
-    _ = state.sides
-    return state.under_tangential_load() if step.Q else state
+def contact_table(step: Step, search: Search, flat: GoodmanFlat) -> ContactTable:
+    """The contacts up to that of a step."""
+    breaks = step.slope.breaks.tolist()
+    return ContactTable(search, step.normal.edges, breaks, step.scene.profile.power_law, flat.k)
