@@ -28,8 +28,8 @@ from sie.traction.base import on_line
 from .gradient import SlipGradient
 from .integral import Integral, integral, on_marks, towards_ends
 from .sheared import LOOKED_AT, ShearedContact
-from .spreading_history import Places
 from .spreading_march import Beginning, SpreadingMarch
+from .spreading_zones import Places
 from .tables import interpolated
 from .tangential import TangentialSearch, Trial
 from .two_sided import Known, TwoSidedTraction, both_tractions

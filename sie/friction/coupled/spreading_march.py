@@ -27,7 +27,8 @@ from sie.progress_bar import step_done
 
 from .contact import CoupledContact
 from .edge_rate import EdgeRates
-from .spreading_history import SEEN, SpreadingHistory, SpreadingPanel
+from .spreading_history import SpreadingHistory
+from .spreading_zones import SEEN, SpreadingPanel
 
 Array = NDArray[np.float64]
 
