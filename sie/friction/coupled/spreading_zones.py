@@ -29,7 +29,7 @@ SEEN = 1e-20  # of ε: narrower strips change no digit of a traction
 WEIGHT_NODES = 18  # of a panel, for the weights of the rates; of the first, from LEAST of it on
 FIRST_NODES, LEAST = 40, 1e-9
 EARLIEST = -60.0  # ln of a part of the first panel: places that are passed before were at s = 0
-BISECTIONS = 64
+BISECTIONS, CLOSE = 64, 4e-16  # steps at most; of ln s, the last one, a rounding of 1
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,7 +57,8 @@ class SpreadingPanel:
     def __call__(self, s: Array) -> tuple[Array, Array, Array]:
         """w, ε2 and ε3."""
         y = self.variable(s)
-        w, e2, e3 = (np.exp(chebyshev.evaluate(row, y)) for row in self.series)
+        rows = self.series.T.reshape(-1, 3, *(1,) * y.ndim)
+        w, e2, e3 = np.exp(chebyshev.evaluate(rows, y))
         return w, e2, e3
 
     def slopes(self, s: Array) -> tuple[Array, Array]:
@@ -220,15 +221,25 @@ class SpreadingZones:
                 values: Array = chebyshev.evaluate(panel.series[1], 2.0 / panel.length * v - 1.0)
                 return values
 
+            def steep(v: Array, panel: SpreadingPanel = panel) -> Array:
+                c = np.polynomial.chebyshev.chebder(panel.series[1]) * 2.0 / panel.length
+                values: Array = np.polynomial.chebyshev.chebval(2.0 / panel.length * v - 1.0, c)
+                return values
+
             k = np.flatnonzero(np.isinf(found) & (places.s > panel.start) & (aim < rise(hi)))
             if not k.size:
                 continue
             a, b = np.full(len(k), lo), hi[k]
+            middle = 0.5 * (a + b)
             for _ in range(BISECTIONS):
-                middle = 0.5 * (a + b)
-                short = rise(middle) < aim[k]
-                a, b = np.where(short, middle, a), np.where(short, b, middle)
-            found[k] = panel.lo * np.exp(0.5 * (a + b))
+                gap = rise(middle) - aim[k]
+                a, b = np.where(gap < 0.0, middle, a), np.where(gap < 0.0, b, middle)
+                step = middle - gap / steep(middle)
+                last, inside = middle, (step >= a) & (step <= b)
+                middle = np.where(inside, step, 0.5 * (a + b))
+                if float(np.abs(middle - last).max()) < CLOSE:
+                    break
+            found[k] = panel.lo * np.exp(middle)
         return found
 
     def times(self, places: Places) -> tuple[Array, Array]:
