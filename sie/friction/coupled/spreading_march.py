@@ -49,9 +49,10 @@ ROUNDS = 12  # of what the panels before add
 # Of a logarithm: moved by less, what the panels before add is linear to rounding; before, a step is
 # a part of the last one
 LINEAR, NEAR, ROUGHLY = 1e-7, 1e-3, 1e-2
-CUT, SHORTEST = 0.3, 0.02  # of a panel in ln s
+CUT, SHORTEST, LONGER = 0.3, 0.02, 1.6  # of a panel in ln s
 DECAYED, NOISE = 1e-9, 64.0  # of the last coefficients of a panel that is not cut; roundings of b
-MOST = 60  # panels
+MOST, MOST_SUMS = 60, 1600  # panels; times that sums on a panel are taken, of 5 to 10 ms each
+NEXT, BEYOND = 1.02, 1.2  # the last panel goes on beyond the s at which Q seems to be reached
 WIDEST = 0.5  # half-widths: how far the march goes
 
 
@@ -120,7 +121,7 @@ class SpreadingMarch:
             beginning.rates, beginning.normal.b, beginning.normal.slip_width
         )
         self._jacobian: Array | None = None
-        self._far = 0.0
+        self._far, self._ended, self._sums = 0.0, 0.0, 0
 
     @property
     def eta(self) -> float:
@@ -162,7 +163,8 @@ class SpreadingMarch:
                 raise ContactError(
                     f"the contact gained {last.hi:.3g} under |Q| = {load:.6g}, where the march ends"
                 )
-            self._advance(last)
+            ahead = (Q - load) / float(last(np.array([last.hi]))[0][0])
+            self._advance(last, last.hi * NEXT + BEYOND * ahead)
             step_done()
         return self._at_load(Q)
 
@@ -189,12 +191,16 @@ class SpreadingMarch:
                 hi = middle
         return math.exp(0.5 * (lo + hi))
 
-    def _advance(self, last: SpreadingPanel) -> None:
-        """One more panel."""
-        lo, hi = last.hi, last.hi * RATIO
+    def _advance(self, last: SpreadingPanel, enough: float) -> None:
+        """One more panel, which need not go on beyond `enough`."""
+        # As long as the last one, or longer, if that had to be cut
+        fold = math.log(RATIO)
+        if not last.first and last.hi != self._ended:
+            fold = min(fold, LONGER * last.length)
+        lo, hi = last.hi, min(last.hi * math.exp(fold), enough)
         ahead = [k - self.normal.b for k in self.kinks if k - self.normal.b > lo * (1.0 + 1e-9)]
         hi = min(hi, *ahead) if ahead else hi
-        whole = hi
+        whole, stopped = hi, (hi if ahead else 0.0)
         while True:
             found = self._panel(last, lo, hi)
             if found is not None:
@@ -208,13 +214,14 @@ class SpreadingMarch:
                 # The right edge enters what stuck under P alone
                 end = self._entry(found)
                 if lo * 1.01 < end < hi * 0.99:
-                    hi = end
+                    hi = stopped = end
                     continue
             elif math.log(hi / lo) < SHORTEST:
                 raise ContactError(f"the march ends where the contact gained {lo:.6g}")
             hi = lo * (hi / lo) ** CUT
         if hi < whole:
             self._jacobian = None
+        self._ended = hi if hi == stopped else 0.0
         self.history.panels = (*self.history.panels, found)
         self.history.width = self.history.strip_width(hi, *self.history.zones(hi))
 
@@ -327,6 +334,12 @@ class SpreadingMarch:
             return SpreadingPanel(panel.lo, panel.hi, values.reshape(3, n) @ back.T, panel.first)
 
         def missed(values: Array) -> Array:
+            self._sums += 1
+            if self._sums > MOST_SUMS:
+                raise ContactError(
+                    f"the march takes more than {MOST_SUMS} steps where the contact gained "
+                    f"{panel.lo:.3g}"
+                )
             with np.errstate(all="ignore"):
                 return self._missed(of(values), s, known)
 
