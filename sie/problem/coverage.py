@@ -103,6 +103,17 @@ def refused_load(kappa: float, loads: tuple[float, float, float], spreads: bool)
     )
 
 
+def refused_spread(kappa: float, loads: tuple[float, float], why: str) -> ContactError:
+    """The ContactError: under |Q|, of f P, all that is gained sticks, and this is not solved."""
+    Q, limit = loads
+    return ContactError(
+        f"dissimilar bodies with β f = {kappa:.3g} under |Q| = {Q:.6g} = {Q / limit:.3g} f P: "
+        f"what the contact gains under so small a load sticks as it is touched, and {why}; give a "
+        "larger |Q| up to f P or tangential_load = 0, lower the friction, or give dundurs = 0 to "
+        "neglect β"
+    )
+
+
 def refused_energy(Q: float) -> ContactError:
     """The ContactError: the energy under a load whose states depend on those before."""
     return ContactError(

@@ -34,6 +34,7 @@ from .spreading_zones import SEEN, SpreadingPanel
 Array = NDArray[np.float64]
 
 DEGREE, RATIO = 9, 3.0  # of a panel: terms, and how much s grows on it
+STRIP = 0.3  # of s under Q, about: wider strips are refused before the march
 START = 1e-5  # of s under Q: the first panel
 GAIN = 1.3  # of β Q/P half-widths: about s under Q
 FIRST_POINTS = 0.25, 1.0  # of the first panel
@@ -51,7 +52,7 @@ ROUNDS = 12  # of what the panels before add
 LINEAR, NEAR, ROUGHLY = 1e-7, 1e-3, 1e-2
 CUT, SHORTEST, LONGER = 0.3, 0.02, 1.6  # of a panel in ln s
 DECAYED, NOISE = 1e-9, 64.0  # of the last coefficients of a panel that is not cut; roundings of b
-MOST, MOST_SUMS = 60, 1600  # panels; times that sums on a panel are taken, of 5 to 10 ms each
+MOST, MOST_SUMS = 60, 1200  # panels; times that sums on a panel are taken, of 5 to 10 ms each
 NEXT, BEYOND = 1.02, 1.2  # the last panel goes on beyond the s at which Q seems to be reached
 WIDEST = 0.5  # half-widths: how far the march goes
 
@@ -143,12 +144,19 @@ class SpreadingMarch:
         panel = SpreadingPanel(at[0], at[1], series, True)
         self.history.width = self.history.strip_width(s, e2, e3)
         self.history.strip = self.history.width > SEEN * b
-        missed = self._missed(panel, at, self._known(panel, at))
-        if missed[1] < 1.0:
-            series[0, 0] -= math.log(1.0 - missed[1])
-        found = self._solved(SpreadingPanel(at[0], at[1], series, True), at)
+        if self.history.width > STRIP * self._far:
+            raise ContactError(
+                f"a zone of the width {self.history.width:.3g} next to the edge keeps the slip of "
+                f"the normal load, which is not narrow beside the {self._far:.2g} that the contact "
+                "gains"
+            )
+        with np.errstate(all="ignore"):
+            missed = self._missed(panel, at, self._known(panel, at))
+            if missed[1] < 1.0:
+                series[0, 0] -= math.log(1.0 - missed[1])
+            found = self._solved(SpreadingPanel(at[0], at[1], series, True), at)
         if found is None:
-            raise ContactError("no state from which the march begins")
+            raise ContactError("no state is found from which to follow it over smaller loads")
         self.history.panels = (found,)
 
     def marched(self, Q: float) -> float:
@@ -246,7 +254,8 @@ class SpreadingMarch:
         few = chebyshev.transform(np.array([chebyshev.evaluate(c, rough) for c in last.series]))
         y = last.variable(s)
         series = chebyshev.transform(np.array([chebyshev.evaluate(c, y) for c in few]))
-        return self._solved(SpreadingPanel(lo, hi, series), s)
+        with np.errstate(all="ignore"):
+            return self._solved(SpreadingPanel(lo, hi, series), s)
 
     # -- collocation -------------------------------------------------------------------------------
 
@@ -340,8 +349,7 @@ class SpreadingMarch:
                     f"the march takes more than {MOST_SUMS} steps where the contact gained "
                     f"{panel.lo:.3g}"
                 )
-            with np.errstate(all="ignore"):
-                return self._missed(of(values), s, known)
+            return self._missed(of(values), s, known)
 
         J = None if panel.first else self._jacobian
         now, fresh = missed(values), False

@@ -229,14 +229,15 @@ class SpreadingZones:
             k = np.flatnonzero(np.isinf(found) & (places.s > panel.start) & (aim < rise(hi)))
             if not k.size:
                 continue
-            a, b = np.full(len(k), lo), hi[k]
-            middle = 0.5 * (a + b)
+            a: Array = np.full(len(k), lo)
+            b: Array = hi[k]
+            middle: Array = 0.5 * (a + b)
             for _ in range(BISECTIONS):
                 gap = rise(middle) - aim[k]
                 a, b = np.where(gap < 0.0, middle, a), np.where(gap < 0.0, b, middle)
                 step = middle - gap / steep(middle)
                 last, inside = middle, (step >= a) & (step <= b)
-                middle = np.where(inside, step, 0.5 * (a + b))
+                middle = np.where(inside, step, 0.5 * (a + b))  # by halves where Newton leaves
                 if float(np.abs(middle - last).max()) < CLOSE:
                     break
             found[k] = panel.lo * np.exp(middle)
