@@ -23,6 +23,10 @@ NEGLECTED = (
 )
 
 
+class LargerLoad(ContactError):
+    """The load is larger than those under which all that the contact gains sticks."""
+
+
 def refuse_uncovered(scene: Scene) -> None:
     """Raises ValueError unless it is a scene, ContactError for loads that are not covered."""
     refuse_no_scene(scene)

@@ -11,9 +11,10 @@ from oracles.bonded_edge import missed
 from sie.friction.coupled import spreading_contact
 from sie.friction.coupled.bonded_edge import BondedEdge
 from sie.friction.coupled.edge_rate import EdgeRates, Lengths
-from sie.friction.coupled.sheared_contact import LargerLoad, found_state, sheared_contact
+from sie.friction.coupled.sheared_contact import found_state, sheared_contact
 from sie.friction.coupled.spreading_contact import SpreadingContact
 from sie.friction.coupled.tangential import TangentialSearch
+from sie.problem.coverage import LargerLoad
 
 MATERIAL = 0.25, 2.0
 

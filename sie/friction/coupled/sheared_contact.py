@@ -16,7 +16,7 @@ from dataclasses import replace
 from sie.contact.inequalities import TOLERATED
 from sie.contact.known_contact import Edges
 from sie.errors import ContactError
-from sie.problem.coverage import refused_slip
+from sie.problem.coverage import LargerLoad, refused_slip
 from sie.problem.scene import Scene
 
 from .load_path import LoadPath
@@ -26,10 +26,6 @@ from .tangential import TangentialSearch
 Below = Callable[[TangentialSearch, float], ShearedContact]
 
 SMALL = (1e-2, 1e-4, 1e-6)  # parts of f P from which the load is followed upwards
-
-
-class LargerLoad(ContactError):
-    """The load is larger than those under which all that the contact gains sticks."""
 
 
 def refused(search: TangentialSearch, Q: float) -> ShearedContact:

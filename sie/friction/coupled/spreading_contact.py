@@ -23,14 +23,13 @@ from numpy.typing import ArrayLike, NDArray
 
 from sie.errors import ContactError
 from sie.numerics.interval import EPS
-from sie.problem.coverage import refused_spread
+from sie.problem.coverage import LargerLoad, refused_spread
 from sie.traction.base import on_line
 
 from .gradient import SlipGradient
 from .integral import Integral, integral, on_marks, towards_ends
 from .sheared import LOOKED_AT, ShearedContact
-from .sheared_contact import LargerLoad
-from .spreading_march import Beginning, SpreadingMarch
+from .spreading_march import OPEN, Beginning, SpreadingMarch
 from .spreading_zones import Places
 from .tables import interpolated
 from .tangential import TangentialSearch, Trial
@@ -44,10 +43,9 @@ ROUNDINGS = 8.0  # of b - x2: the least distance from x2
 CHECKED = 1e-8  # of f times the mean pressure: by what friction may seem to be exceeded
 NARROW = 1e-12  # half-widths from x1: nearer p and q are rounding if the strip is not seen
 # Of exp(-(π/2 - atan f)/η) b: contacts that gain more have a slip zone at the old edge
-GAINED = 300.0
-# Of the same: contacts that gain less have none, as it opens at 15 to 50
-STICKS = 10.0
-OPEN = "a slip zone is open at the old edge, inside the stick zone"
+GAINED = 40.0
+# Of the same: contacts that gain less have none. With β = 0.3, f = 2 it opens at 11
+STICKS = 5.0
 ROUGHLY = 1e-2  # as CHECKED, where the strip is not resolved
 RESOLVED = 3e-10  # of the parts of its conditions, what the march may miss where Q is reached
 WIDE = 1e-3  # of what was gained, a strip that reaches back to the old edge for too long
@@ -247,13 +245,17 @@ def spreading_state(search: TangentialSearch, Q: float) -> SpreadingContact:
     if part > GAINED:
         raise LargerLoad(OPEN)
     try:
+        if normal.slip_width <= 0.0:
+            raise ContactError("the slip zone of the normal load is narrower than rounding")
         return _marched_state(search, march, Q)
     except LargerLoad:
         raise
-    except ContactError as error:
+    # Integrals whose zones are not finite fail in any of these ways
+    except (ContactError, ArithmeticError, ValueError, IndexError) as error:
         if part > STICKS:
             raise LargerLoad(str(error)) from None
-        why = str(error)
+        covered = isinstance(error, ContactError)
+        why = str(error) if covered else "its zones are not found over smaller loads"
     raise refused_spread(search.beta * f, (Q, search.limit), why)
 
 

@@ -126,7 +126,8 @@ class SpreadingHistory(SpreadingZones):
         """
         k, start, stop, offset = intervals
         touched = start[k].copy()
-        on_strip = np.full(len(k), self.width)
+        # Beyond the panel its series mean nothing
+        on_strip = np.minimum(self.width, stop[k] - touched)
         for _ in range(WIDTHS):
             on_strip = np.minimum(self.width_at(panel, touched + on_strip), stop[k] - touched)
         start[k] = touched + on_strip

@@ -24,12 +24,13 @@ from numpy.typing import NDArray
 from sie.errors import ContactError
 from sie.numerics import chebyshev
 from sie.numerics.interval import EPS
+from sie.problem.coverage import LargerLoad
 from sie.progress_bar import step_done
 
 from .contact import CoupledContact
 from .edge_rate import EdgeRates
 from .spreading_history import SpreadingHistory
-from .spreading_zones import SEEN, SpreadingPanel
+from .spreading_zones import SEEN, Places, SpreadingPanel
 
 Array = NDArray[np.float64]
 
@@ -54,6 +55,8 @@ CUT, SHORTEST, LONGER = 0.3, 0.02, 1.6  # of a panel in ln s
 DECAYED, NOISE = 1e-9, 64.0  # of the last coefficients of a panel that is not cut; roundings of b
 MOST, MOST_SUMS = 60, 1200  # panels; times that sums on a panel are taken, of 5 to 10 ms each
 NEXT, BEYOND = 1.02, 1.2  # the last panel goes on beyond the s at which Q seems to be reached
+EXCEEDED = 1e-6  # of f p at the old edge, by how much q is more
+OPEN = "a slip zone is open at the old edge, inside the stick zone"
 WIDEST = 0.5  # half-widths: how far the march goes
 
 
@@ -171,10 +174,19 @@ class SpreadingMarch:
                 raise ContactError(
                     f"the contact gained {last.hi:.3g} under |Q| = {load:.6g}, where the march ends"
                 )
+            self._refuse_open(last.hi)
             ahead = (Q - load) / float(last(np.array([last.hi]))[0][0])
             self._advance(last, last.hi * NEXT + BEYOND * ahead)
             step_done()
         return self._at_load(Q)
+
+    def _refuse_open(self, s: float) -> None:
+        """Raises LargerLoad if q exceeds f p at the old edge, where both are 0 under P alone."""
+        b, c = self.normal.b, self.history.c
+        places = (np.array([x]) for x in (0.0, b + c, 2.0 * b, s))
+        p, r, _ = self.history.inside(Places(*places))[:, 0]
+        if not r > -EXCEEDED * self.normal.flat.friction * p:
+            raise LargerLoad(OPEN)
 
     def missed(self, s: float) -> float:
         """What the conditions miss at s, which is no node, over their known parts."""

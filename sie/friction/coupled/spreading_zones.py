@@ -223,7 +223,7 @@ class SpreadingZones:
 
             def steep(v: Array, panel: SpreadingPanel = panel) -> Array:
                 c = np.polynomial.chebyshev.chebder(panel.series[1]) * 2.0 / panel.length
-                values: Array = np.polynomial.chebyshev.chebval(2.0 / panel.length * v - 1.0, c)
+                values: Array = chebyshev.evaluate(c, 2.0 / panel.length * v - 1.0)
                 return values
 
             k = np.flatnonzero(np.isinf(found) & (places.s > panel.start) & (aim < rise(hi)))
