@@ -23,6 +23,10 @@ NEGLECTED = (
 )
 
 
+class LargerLoad(ContactError):
+    """The load is larger than those under which all that the contact gains sticks."""
+
+
 def refuse_uncovered(scene: Scene) -> None:
     """Raises ValueError unless it is a scene, ContactError for loads that are not covered."""
     refuse_no_scene(scene)
@@ -100,6 +104,17 @@ def refused_load(kappa: float, loads: tuple[float, float, float], spreads: bool)
     return ContactError(
         f"dissimilar bodies with β f = {kappa:.3g} under |Q| = {Q:.6g} = {Q / limit:.3g} f P: "
         f"{why}, lower the friction, or give dundurs = 0 to neglect β"
+    )
+
+
+def refused_spread(kappa: float, loads: tuple[float, float], why: str) -> ContactError:
+    """The ContactError: under |Q|, of f P, all that is gained sticks, and this is not solved."""
+    Q, limit = loads
+    return ContactError(
+        f"dissimilar bodies with β f = {kappa:.3g} under |Q| = {Q:.6g} = {Q / limit:.3g} f P: "
+        f"what the contact gains under so small a load sticks as it is touched, and {why}; give a "
+        "larger |Q| up to f P or tangential_load = 0, lower the friction, or give dundurs = 0 to "
+        "neglect β"
     )
 
 

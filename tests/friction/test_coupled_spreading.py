@@ -8,9 +8,13 @@ from numpy.polynomial.legendre import leggauss
 
 import sie
 from oracles.bonded_edge import missed
+from sie.friction.coupled import spreading_contact
 from sie.friction.coupled.bonded_edge import BondedEdge
 from sie.friction.coupled.edge_rate import EdgeRates, Lengths
+from sie.friction.coupled.sheared_contact import found_state, sheared_contact
 from sie.friction.coupled.spreading_contact import SpreadingContact
+from sie.friction.coupled.tangential import TangentialSearch
+from sie.problem.coverage import LargerLoad
 
 MATERIAL = 0.25, 2.0
 
@@ -164,15 +168,56 @@ def test_state_is_certified(small_load: sie.Solution) -> None:
 
 
 def test_mirror_images_have_the_same_state(small_load: sie.Solution) -> None:
-    other = sie.solve(_scene(-0.02, beta=-0.25))
-    x = np.linspace(-0.78, 0.76, 7)
-    np.testing.assert_allclose(other.pressure(x), small_load.pressure(x), atol=1e-14)
-    np.testing.assert_allclose(other.shear(x), -small_load.shear(x), atol=1e-14)
+    state = small_load.coupled[1]
+    scene = _scene(-0.02, beta=-0.25)
+    edges, other = sheared_contact(scene, state.search, lambda search, Q: state)
+    assert (edges.contact.x1, edges.contact.x2) == pytest.approx(small_load.edges, abs=1e-15)
+    (p, q), x = other.tractions, np.linspace(-0.78, 0.76, 7)
+    np.testing.assert_allclose(p(x), small_load.pressure(x), atol=1e-14)
+    np.testing.assert_allclose(q(x), -small_load.shear(x), atol=1e-14)
 
 
-def test_a_slip_zone_at_the_old_edge_is_refused() -> None:
-    with pytest.raises(sie.ContactError, match="give a larger"):
-        sie.solve(_scene(0.2, beta=0.3)).edges  # noqa: B018
+def test_a_state_that_breaks_the_law_of_friction_at_the_old_edge_is_refused(
+    small_load: sie.Solution, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    state = small_load.coupled[1]
+    assert isinstance(state, SpreadingContact)
+    monkeypatch.setattr(state.march, "marched", lambda Q: state.s)
+    assert spreading_contact._marched_state(state.search, state.march, 0.04).s == state.s
+    monkeypatch.setattr(SpreadingContact, "least_deficit", -1e-7)
+    with pytest.raises(LargerLoad, match="a slip zone is open at the old edge"):
+        spreading_contact._marched_state(state.search, state.march, 0.04)
+
+
+def test_a_contact_that_gains_much_is_not_marched() -> None:
+    search = sie.solve(_scene(0.1, 0.1, 0.5)).tangential_search
+    with pytest.raises(LargerLoad, match="a slip zone is open at the old edge"):
+        spreading_contact.spreading_state(search, 0.05)
+
+
+def test_a_wide_strip_of_old_slip_is_refused_with_its_width() -> None:
+    # By the eigenvalue of the kernel of the flat 5e-5
+    with pytest.raises(
+        sie.ContactError, match=r"so small a load .* a zone of the width 4\.\d+e-05"
+    ):
+        sie.solve(_scene(1e-5, 0.45, 0.3)).edges  # noqa: B018
+
+
+@pytest.mark.parametrize(
+    ("reason", "sentence"),
+    [
+        (sie.ContactError("the march ends"), "the march ends"),
+        (LargerLoad("the march ends"), "surfaces stick or slip back"),
+    ],
+)
+def test_a_refusal_is_that_of_the_regime_of_the_load(
+    small_load: sie.Solution, reason: sie.ContactError, sentence: str
+) -> None:
+    def spreading(search: TangentialSearch, Q: float) -> SpreadingContact:
+        raise reason
+
+    with pytest.raises(sie.ContactError, match=sentence):
+        found_state(small_load.tangential_search, 0.04, spreading)
 
 
 def test_energy_is_refused_with_its_reason(small_load: sie.Solution) -> None:

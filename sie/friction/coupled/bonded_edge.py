@@ -141,7 +141,8 @@ def _series(a: complex, b: complex, c: complex) -> Complex:
 def _summed(series: NDArray[Any], z: Array) -> NDArray[Any]:
     """The power series at each z."""
     size = float(np.abs(z).max(initial=LEAST))
-    series = series[: 2 + math.ceil(DIGITS / -math.log(size))]
+    if size < 1.0:
+        series = series[: 2 + math.ceil(DIGITS / -math.log(size))]
     total = np.full(z.shape, series[-1])
     for c in series[-2::-1]:
         total *= z

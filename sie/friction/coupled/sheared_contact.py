@@ -16,7 +16,7 @@ from dataclasses import replace
 from sie.contact.inequalities import TOLERATED
 from sie.contact.known_contact import Edges
 from sie.errors import ContactError
-from sie.problem.coverage import refused_slip
+from sie.problem.coverage import LargerLoad, refused_slip
 from sie.problem.scene import Scene
 
 from .load_path import LoadPath
@@ -30,7 +30,7 @@ SMALL = (1e-2, 1e-4, 1e-6)  # parts of f P from which the load is followed upwar
 
 def refused(search: TangentialSearch, Q: float) -> ShearedContact:
     """No state below the zones of `tangential`."""
-    raise ContactError("such loads are not asked for")
+    raise LargerLoad("such loads are not asked for")
 
 
 def sheared_contact(
@@ -52,7 +52,10 @@ def sheared_contact(
 
 
 def found_state(search: TangentialSearch, Q: float, spreading: Below = refused) -> ShearedContact:
-    """The state under Q > 0 with β > 0; `spreading` gives those below the zones of `tangential`."""
+    """The state under Q > 0 with β > 0; `spreading` gives those below the zones of `tangential`.
+
+    Its refusals are the user's where the load lies there.
+    """
     try:
         state = ShearedContact(search, search.found(Q), Q, 1.0, 1.0)
         if not search.corners or keeps_friction_law(state):
@@ -62,7 +65,7 @@ def found_state(search: TangentialSearch, Q: float, spreading: Below = refused) 
         if not search.corners:
             try:
                 return spreading(search, Q)
-            except ContactError:
+            except LargerLoad:
                 raise error from None
         refusal = error
     for load in (part * search.limit for part in SMALL if part * search.limit < Q):

@@ -23,13 +23,14 @@ from numpy.typing import ArrayLike, NDArray
 
 from sie.errors import ContactError
 from sie.numerics.interval import EPS
+from sie.problem.coverage import LargerLoad, refused_spread
 from sie.traction.base import on_line
 
 from .gradient import SlipGradient
 from .integral import Integral, integral, on_marks, towards_ends
 from .sheared import LOOKED_AT, ShearedContact
-from .spreading_history import Places
-from .spreading_march import Beginning, SpreadingMarch
+from .spreading_march import OPEN, Beginning, SpreadingMarch
+from .spreading_zones import Places
 from .tables import interpolated
 from .tangential import TangentialSearch, Trial
 from .two_sided import Known, TwoSidedTraction, both_tractions
@@ -42,7 +43,10 @@ ROUNDINGS = 8.0  # of b - x2: the least distance from x2
 CHECKED = 1e-8  # of f times the mean pressure: by what friction may seem to be exceeded
 NARROW = 1e-12  # half-widths from x1: nearer p and q are rounding if the strip is not seen
 # Of exp(-(π/2 - atan f)/η) b: contacts that gain more have a slip zone at the old edge
-GAINED = 300.0
+GAINED = 40.0
+# Of the same: contacts that gain less have none. With β = 0.3, f = 2 it opens at 11
+STICKS = 5.0
+ROUGHLY = 1e-2  # as CHECKED, where the strip is not resolved
 RESOLVED = 3e-10  # of the parts of its conditions, what the march may miss where Q is reached
 WIDE = 1e-3  # of what was gained, a strip that reaches back to the old edge for too long
 
@@ -230,27 +234,48 @@ class SpreadingContact(ShearedContact):
 def spreading_state(search: TangentialSearch, Q: float) -> SpreadingContact:
     """The state under Q > 0 with β > 0.
 
-    Raises ContactError where a slip zone is open at the old edge, or the march ends before Q.
+    Raises LargerLoad where a slip zone is open at the old edge, or may be where the march ends;
+    ContactError where it is not, and no state is certified.
     """
     normal, f = search.normal, search.friction
     beginning = Beginning(normal, lambda y: normal.half_modulus * search.slope(y))
     march = SpreadingMarch(beginning, tuple(np.abs(search.slope.breaks).tolist()))
-    widest = GAINED * normal.b * math.exp(-(0.5 * math.pi - math.atan(f)) / march.eta)
-    if march.expected(Q) > widest:
-        raise ContactError("a slip zone is open at the old edge, inside the stick zone")
+    # In such parts the place d₊, nearer to which what is touched sticks
+    part = march.expected(Q) / (normal.b * math.exp(-(0.5 * math.pi - math.atan(f)) / march.eta))
+    if part > GAINED:
+        raise LargerLoad(OPEN)
+    try:
+        if normal.slip_width <= 0.0:
+            raise ContactError("the slip zone of the normal load is narrower than rounding")
+        return _marched_state(search, march, Q)
+    except LargerLoad:
+        raise
+    # Integrals whose zones are not finite fail in any of these ways
+    except (ContactError, ArithmeticError, ValueError, IndexError) as error:
+        if part > STICKS:
+            raise LargerLoad(str(error)) from None
+        covered = isinstance(error, ContactError)
+        why = str(error) if covered else "its zones are not found over smaller loads"
+    raise refused_spread(search.beta * f, (Q, search.limit), why)
+
+
+def _marched_state(search: TangentialSearch, march: SpreadingMarch, Q: float) -> SpreadingContact:
+    """The state at the end of the march; raises LargerLoad where a slip zone is open."""
+    normal = search.normal
     s = march.marched(Q)
     if (gap := march.missed(s)) > max(RESOLVED, ROUNDINGS * EPS * normal.b / s):
-        raise ContactError(f"the march misses its conditions by {gap:.1g} of their parts")
+        raise ContactError(f"the march over smaller loads misses its conditions by {gap:.1g}")
     e2, e3 = march.history.zones(s)
     strip = march.history.strip_width(s, e2, e3)
-    if strip > WIDE * s:
+    x1 = -normal.b - s
+    zones = Zones(x1, x1 + strip, normal.c - e2, normal.b - e3)
+    state = SpreadingContact(search, Spread(zones), Q, 1.0, 1.0, march=march, s=s)  # type: ignore[arg-type]
+    narrow = strip <= WIDE * s
+    if state.least_deficit < -(CHECKED if narrow else ROUGHLY):
+        raise LargerLoad(OPEN)
+    if not narrow:
         raise ContactError(
             f"a zone of the width {strip:.3g} next to the edge keeps the slip of the normal load, "
             f"which is not narrow beside the {s:.3g} that the contact gained"
         )
-    x1 = -normal.b - s
-    zones = Zones(x1, x1 + strip, normal.c - e2, normal.b - e3)
-    state = SpreadingContact(search, Spread(zones), Q, 1.0, 1.0, march=march, s=s)  # type: ignore[arg-type]
-    if state.least_deficit < -CHECKED:
-        raise ContactError("a slip zone is open at the old edge, inside the stick zone")
     return state

@@ -16,6 +16,7 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,15 +24,18 @@ from numpy.typing import NDArray
 from sie.errors import ContactError
 from sie.numerics import chebyshev
 from sie.numerics.interval import EPS
+from sie.problem.coverage import LargerLoad
 from sie.progress_bar import step_done
 
 from .contact import CoupledContact
 from .edge_rate import EdgeRates
-from .spreading_history import SEEN, SpreadingHistory, SpreadingPanel
+from .spreading_history import SpreadingHistory
+from .spreading_zones import SEEN, Places, SpreadingPanel
 
 Array = NDArray[np.float64]
 
 DEGREE, RATIO = 9, 3.0  # of a panel: terms, and how much s grows on it
+STRIP = 0.3  # of s under Q, about: wider strips are refused before the march
 START = 1e-5  # of s under Q: the first panel
 GAIN = 1.3  # of β Q/P half-widths: about s under Q
 FIRST_POINTS = 0.25, 1.0  # of the first panel
@@ -42,10 +46,17 @@ FARTHEST = 0.7  # of a logarithm, a step
 SETTLED, ROUNDINGS = 2e-13, 8.0
 STEPS = 40
 LOST = 1e-3  # of the logarithms: conditions that are missed by more may grow no more
-EXTRAPOLATED = 3  # terms
-CUT, SHORTEST = 0.3, 0.02  # of a panel in ln s
+EXTRAPOLATED, ALIKE = 4, 1.5  # terms, on a panel that is at most so much longer in ln s
+ROUNDS = 12  # of what the panels before add
+# Of a logarithm: moved by less, what the panels before add is linear to rounding; before, a step is
+# a part of the last one
+LINEAR, NEAR, ROUGHLY = 1e-7, 1e-3, 1e-2
+CUT, SHORTEST, LONGER = 0.3, 0.02, 1.6  # of a panel in ln s
 DECAYED, NOISE = 1e-9, 64.0  # of the last coefficients of a panel that is not cut; roundings of b
-MOST = 60  # panels
+MOST, MOST_SUMS = 60, 1200  # panels; times that sums on a panel are taken, of 5 to 10 ms each
+NEXT, BEYOND = 1.02, 1.2  # the last panel goes on beyond the s at which Q seems to be reached
+EXCEEDED = 1e-6  # of f p at the old edge, by how much q is more
+OPEN = "a slip zone is open at the old edge, inside the stick zone"
 WIDEST = 0.5  # half-widths: how far the march goes
 
 
@@ -82,6 +93,28 @@ class Beginning:
         return values
 
 
+class Known(NamedTuple):
+    """What is known of the conditions at the nodes of a panel.
+
+    steepness   of the gap at x1 under P alone
+    taken       what the panels before take of it
+    logs        ln ε2 and ln ε3
+    values      of `SpreadingMarch._before` at these
+    slopes      of the values
+    """
+
+    steepness: Array
+    taken: Array
+    logs: Array
+    values: Array
+    slopes: Array
+
+    def before(self, logs: Array, own: tuple[Array, Array]) -> tuple[Array, Array]:
+        """f p - q at e2 and p at x2: what panels add, with what this one does, and under P."""
+        added, alone = self.values + self.slopes * (logs - self.logs)
+        return added + np.array(own), np.exp(alone)
+
+
 class SpreadingMarch:
     """The march, panel by panel."""
 
@@ -92,7 +125,7 @@ class SpreadingMarch:
             beginning.rates, beginning.normal.b, beginning.normal.slip_width
         )
         self._jacobian: Array | None = None
-        self._far = 0.0
+        self._far, self._ended, self._sums = 0.0, 0.0, 0
 
     @property
     def eta(self) -> float:
@@ -114,12 +147,19 @@ class SpreadingMarch:
         panel = SpreadingPanel(at[0], at[1], series, True)
         self.history.width = self.history.strip_width(s, e2, e3)
         self.history.strip = self.history.width > SEEN * b
-        missed = self._missed(panel, at, (self.beginning.steepness(at), np.zeros(2)))
-        if missed[1] < 1.0:
-            series[0, 0] -= math.log(1.0 - missed[1])
-        found = self._solved(SpreadingPanel(at[0], at[1], series, True), at)
+        if self.history.width > STRIP * self._far:
+            raise ContactError(
+                f"a zone of the width {self.history.width:.3g} next to the edge keeps the slip of "
+                f"the normal load, which is not narrow beside the {self._far:.2g} that the contact "
+                "gains"
+            )
+        with np.errstate(all="ignore"):
+            missed = self._missed(panel, at, self._known(panel, at))
+            if missed[1] < 1.0:
+                series[0, 0] -= math.log(1.0 - missed[1])
+            found = self._solved(SpreadingPanel(at[0], at[1], series, True), at)
         if found is None:
-            raise ContactError("no state from which the march begins")
+            raise ContactError("no state is found from which to follow it over smaller loads")
         self.history.panels = (found,)
 
     def marched(self, Q: float) -> float:
@@ -134,9 +174,19 @@ class SpreadingMarch:
                 raise ContactError(
                     f"the contact gained {last.hi:.3g} under |Q| = {load:.6g}, where the march ends"
                 )
-            self._advance(last)
+            self._refuse_open(last.hi)
+            ahead = (Q - load) / float(last(np.array([last.hi]))[0][0])
+            self._advance(last, last.hi * NEXT + BEYOND * ahead)
             step_done()
         return self._at_load(Q)
+
+    def _refuse_open(self, s: float) -> None:
+        """Raises LargerLoad if q exceeds f p at the old edge, where both are 0 under P alone."""
+        b, c = self.normal.b, self.history.c
+        places = (np.array([x]) for x in (0.0, b + c, 2.0 * b, s))
+        p, r, _ = self.history.inside(Places(*places))[:, 0]
+        if not r > -EXCEEDED * self.normal.flat.friction * p:
+            raise LargerLoad(OPEN)
 
     def missed(self, s: float) -> float:
         """What the conditions miss at s, which is no node, over their known parts."""
@@ -144,8 +194,7 @@ class SpreadingMarch:
         kept, at = history.panels, np.array([s])
         history.panels = tuple(p for p in kept if p.hi <= panel.lo)
         try:
-            taken = history.beside(history.at("x1", at, at, at)).real
-            gaps = self._missed(panel, at, (self.beginning.steepness(at), taken))
+            gaps = self._missed(panel, at, self._known(panel, at))
         finally:
             history.panels = kept
         return float(np.abs(gaps).max())
@@ -162,12 +211,16 @@ class SpreadingMarch:
                 hi = middle
         return math.exp(0.5 * (lo + hi))
 
-    def _advance(self, last: SpreadingPanel) -> None:
-        """One more panel."""
-        lo, hi = last.hi, last.hi * RATIO
+    def _advance(self, last: SpreadingPanel, enough: float) -> None:
+        """One more panel, which need not go on beyond `enough`."""
+        # As long as the last one, or longer, if that had to be cut
+        fold = math.log(RATIO)
+        if not last.first and last.hi != self._ended:
+            fold = min(fold, LONGER * last.length)
+        lo, hi = last.hi, min(last.hi * math.exp(fold), enough)
         ahead = [k - self.normal.b for k in self.kinks if k - self.normal.b > lo * (1.0 + 1e-9)]
         hi = min(hi, *ahead) if ahead else hi
-        whole = hi
+        whole, stopped = hi, (hi if ahead else 0.0)
         while True:
             found = self._panel(last, lo, hi)
             if found is not None:
@@ -181,13 +234,14 @@ class SpreadingMarch:
                 # The right edge enters what stuck under P alone
                 end = self._entry(found)
                 if lo * 1.01 < end < hi * 0.99:
-                    hi = end
+                    hi = stopped = end
                     continue
             elif math.log(hi / lo) < SHORTEST:
                 raise ContactError(f"the march ends where the contact gained {lo:.6g}")
             hi = lo * (hi / lo) ** CUT
         if hi < whole:
             self._jacobian = None
+        self._ended = hi if hi == stopped else 0.0
         self.history.panels = (*self.history.panels, found)
         self.history.width = self.history.strip_width(hi, *self.history.zones(hi))
 
@@ -205,51 +259,110 @@ class SpreadingMarch:
     def _panel(self, last: SpreadingPanel, lo: float, hi: float) -> SpreadingPanel | None:
         """The panel that goes on like the last one at first."""
         half, n = 0.5 * math.log(hi / lo), self.n
-        series = np.zeros((3, n))
-        for row, before in zip(series, last.series, strict=True):
-            end = float(before.sum())
-            slope = float((before * np.arange(len(before)) ** 2).sum()) * half / (0.5 * last.length)
-            row[0], row[1] = end + slope, slope
         s = lo * np.exp(half * (1.0 + chebyshev.points(n)))
-        return self._solved(SpreadingPanel(lo, hi, series), s)
+        # A short panel tells little of a longer one
+        terms = EXTRAPOLATED if 2.0 * half < ALIKE * last.length else 2
+        rough = chebyshev.points(min(terms, last.series.shape[1]))
+        few = chebyshev.transform(np.array([chebyshev.evaluate(c, rough) for c in last.series]))
+        y = last.variable(s)
+        series = chebyshev.transform(np.array([chebyshev.evaluate(c, y) for c in few]))
+        with np.errstate(all="ignore"):
+            return self._solved(SpreadingPanel(lo, hi, series), s)
 
     # -- collocation -------------------------------------------------------------------------------
 
-    def _missed(self, panel: SpreadingPanel, s: Array, known: tuple[Array, Array]) -> Array:
-        """What the conditions miss, over their known parts.
-
-        `known` are the steepness at x1, and what the panels before take of it.
-        """
-        history, before = self.history, self.beginning
+    def _missed(self, panel: SpreadingPanel, s: Array, known: Known) -> Array:
+        """What the conditions miss, over their known parts."""
+        history = self.history
         _, e2, e3 = panel(s)
         kept = history.panels
         history.panels = (*kept, panel)
         try:
-            at_x1 = known[1] + history.beside(history.at("x1", s, e2, e3), (panel,)).real
-            at_x2 = history.inside(history.at("x2", s, e2, e3))[0]
-            at_e2 = history.inside(history.at("e2", s, e2, e3))[1]
+            at_x1 = history.beside(history.at("x1", s, e2, e3), (panel,)).real
+            at_x2 = history.inside(history.at("x2", s, e2, e3), (panel,))[0]
+            at_e2 = history.inside(history.at("e2", s, e2, e3), (panel,))[1]
         finally:
             history.panels = kept
-        p, r = before.pressure(e3), before.deficit(self.normal.c - e2)
-        return np.concatenate((1.0 + at_x1 / known[0], 1.0 + at_x2 / p, 1.0 + at_e2 / r))
+        (at_e2, at_x2), (r, p) = known.before(np.log(np.array([e2, e3])), (at_e2, at_x2))
+        at_x1 = at_x1 + known.taken
+        return np.concatenate((1.0 + at_x1 / known.steepness, 1.0 + at_x2 / p, 1.0 + at_e2 / r))
+
+    def _before(self, panel: SpreadingPanel, s: Array, logs: Array) -> Array:
+        """f p - q at e2 and p at x2 for ln ε2 and ln ε3, before this panel adds to them.
+
+        They are what the panels before it add, and the logarithms of those under P alone.
+        """
+        (e2, e3), history = np.exp(logs), self.history
+        kept = history.panels
+        history.panels = (*kept, panel)
+        try:
+            at_x2 = history.inside(history.at("x2", s, e2, e3), kept)[0]
+            at_e2 = history.inside(history.at("e2", s, e2, e3), kept)[1]
+        finally:
+            history.panels = kept
+        alone = self.beginning.deficit(self.normal.c - e2), self.beginning.pressure(e3)
+        return np.array([[at_e2, at_x2], np.log(alone)])
 
     def _solved(self, panel: SpreadingPanel, s: Array) -> SpreadingPanel | None:
-        """The panel whose series meet the conditions at these s."""
+        """The panel whose series meet the conditions at these s.
+
+        What the panels before add is linear in ln ε2 and ln ε3 of each place, until these move by
+        little.
+        """
+        gap, settled = 1.0, self._settled(float(s.min()))
+        known = self._known(panel, s)
+        moved = self._before(panel, s, known.logs + STEP)
+        known = known._replace(slopes=(moved - known.values) / STEP)
+        for _ in range(ROUNDS):
+            finish = gap < NEAR
+            found = self._iterated(panel, s, known, settled if finish else ROUGHLY * gap)
+            if found is None:
+                return found
+            panel, logs = found, np.log(np.array(found(s)[1:]))
+            way = logs - known.logs
+            gap = float(np.abs(way).max())
+            if finish and gap < LINEAR:
+                return panel
+            values = self._before(panel, s, logs)
+            if not np.isfinite(values).all():
+                return None
+            far = np.abs(way) > LINEAR
+            secant = (values - known.values) / np.where(far, way, 1.0)
+            slopes = np.where(far, secant, known.slopes)
+            known = known._replace(logs=logs, values=values, slopes=slopes)
+        return None
+
+    def _known(self, panel: SpreadingPanel, s: Array) -> Known:
+        """What is known at the zones of the panel, with no slopes yet."""
+        logs, at = np.log(np.array(panel(s)[1:])), self.history.at("x1", s, s, s)
+        values = self._before(panel, s, logs)
+        taken = self.history.beside(at).real
+        return Known(self.beginning.steepness(s), taken, logs, values, 0.0 * values)
+
+    def _settled(self, s: float) -> float:
+        early = self._far / s
+        return max(SETTLED * max(early, 1.0), ROUNDINGS * EPS * self.normal.b / s)
+
+    def _iterated(
+        self, panel: SpreadingPanel, s: Array, known: Known, settled: float
+    ) -> SpreadingPanel | None:
+        """The panel that meets the conditions with what is known, by Broyden's steps."""
         n = len(s)
         T = chebyshev.polynomials(n, panel.variable(s)).T
         values, back = (panel.series @ T.T).ravel(), np.linalg.inv(T)
-        taken = self.history.beside(self.history.at("x1", s, s, s)).real
-        known = self.beginning.steepness(s), taken
 
         def of(values: Array) -> SpreadingPanel:
             return SpreadingPanel(panel.lo, panel.hi, values.reshape(3, n) @ back.T, panel.first)
 
         def missed(values: Array) -> Array:
-            with np.errstate(all="ignore"):
-                return self._missed(of(values), s, known)
+            self._sums += 1
+            if self._sums > MOST_SUMS:
+                raise ContactError(
+                    f"the march takes more than {MOST_SUMS} steps where the contact gained "
+                    f"{panel.lo:.3g}"
+                )
+            return self._missed(of(values), s, known)
 
-        early = self._far / float(s.min())
-        settled = max(SETTLED * max(early, 1.0), ROUNDINGS * EPS * self.normal.b / float(s.min()))
         J = None if panel.first else self._jacobian
         now, fresh = missed(values), False
         for _ in range(STEPS):
