@@ -384,6 +384,18 @@ def test_energy_is_refused_where_states_below_the_least_load_count(monkeypatch):
         _ = solution.energy_lost
 
 
+def test_energy_asks_for_no_state_whose_contact_spreads_over_stick(monkeypatch):
+    """Each takes a march of its own, and its zones have no power here."""
+
+    def spreading(search, Q):
+        pytest.fail(f"a march up to Q = {Q:.3g}")
+
+    monkeypatch.setattr("sie.solution.spreading_state", spreading)
+    solution = solved(beta=0.25, friction=2.0, part=0.6)
+    with pytest.raises(sie.ContactError, match="sum over the states under smaller loads"):
+        _ = solution.energy_lost
+
+
 def trials_of(monkeypatch, function):
     """How many times the conditions on four edges are computed."""
     counted, trial = [], TangentialSearch.trial
