@@ -303,9 +303,7 @@ class Solution(Frictionless, StressAnswers):
         if isinstance(state, SpreadingContact):
             raise refused_energy(state.Q)
         search = self.tangential_search
-        return pressed + tangential_energy(
-            state, partial(found_state, search, spreading=spreading_state)
-        )
+        return pressed + tangential_energy(state, partial(found_state, search))
 
     @cached_property
     def certificate(self) -> Certificate | PatchCertificate:

@@ -124,6 +124,18 @@ def growth(solution):
     return Growth(solution.coupled[1], partial(found_state, solution.tangential_search))
 
 
+def test_energy_asks_for_no_state_whose_contact_spreads_over_stick(monkeypatch):
+    """Each takes a march of its own, and its zones have no power here."""
+
+    def spreading(search, Q):
+        pytest.fail(f"a march up to Q = {Q:.3g}")
+
+    monkeypatch.setattr("sie.solution.spreading_state", spreading)
+    solution = solved(beta=0.25, friction=2.0, part=0.6)
+    with pytest.raises(sie.ContactError, match="sum over the states under smaller loads"):
+        _ = solution.energy_lost
+
+
 def test_energy_finds_each_state_from_those_next_to_it(monkeypatch):
     profile = sie.RoundedFlat(1.0, 50.0)
     punch = solved(profile, beta=0.06, friction=0.1, part=0.5, load=0.01)
