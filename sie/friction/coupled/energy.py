@@ -41,8 +41,8 @@ from .tangential import Trial
 Array = NDArray[np.float64]
 
 CERTIFIED, WANTED = 1e-6, 5e-7  # of the energy: the error that is allowed, and aimed at
-# The same for what surfaces may do under loads without a state: a bound that nothing attains
-UNSOLVED = 1e-4
+# The same of what surfaces may do under loads without a state, by a bound on it
+UNSOLVED = 1e-6
 # Of u: where the first panel begins, and may begin where smaller loads have no state
 START, LATER = 0.03, (0.3, 0.2, 0.13, 0.09, 0.06)
 PARTS, LEAST = (3, 6, 12, 24), 12  # of a panel, and of the last one

@@ -8,6 +8,7 @@ begins to oppose Q on the way down, no state follows: the load is found, to be n
 from __future__ import annotations
 
 import math
+from collections.abc import Sized
 from typing import Generic, Protocol, TypeVar
 
 import numpy as np
@@ -48,6 +49,10 @@ class Search(Protocol[T]):
     @property
     def limit(self) -> float:
         """f P."""
+
+    @property
+    def corners(self) -> Sized:
+        """The corners of the profile in the contact."""
 
     @property
     def first_edges(self) -> Array:
@@ -145,7 +150,11 @@ class LoadPath(Generic[T]):
 
 
 def unless_late(search: Search[T], now: T, Q: float) -> T:
-    """The state under Q; ContactError where slip would oppose Q under LATE f P."""
+    """The state under Q; ContactError where slip would oppose Q under LATE f P.
+
+    The same holds where the zones, followed down from Q, end above LATE f P. At corners of the
+    profile they may end for another reason.
+    """
     late = LATE * search.limit
     if late >= Q:
         return now
@@ -153,7 +162,8 @@ def unless_late(search: Search[T], now: T, Q: float) -> T:
     if root is not None:
         opposed = search.least_slip(root.trial) < 0.0
     else:
-        opposed = LoadPath(search).followed(now, Q, late)[2]
+        _, end, opposed = LoadPath(search).followed(now, Q, late)
+        opposed = opposed or (end > late and not search.corners)
     if opposed:
         raise refused_load(search.beta * search.friction, (Q, search.limit, search.limit), True)
     return now
