@@ -183,8 +183,9 @@ class SpreadingMarch:
     def _refuse_open(self, s: float) -> None:
         """Raises LargerLoad if q exceeds f p at the old edge, where both are 0 under P alone."""
         b, c = self.normal.b, self.history.c
-        places = (np.array([x]) for x in (0.0, b + c, 2.0 * b, s))
-        p, r, _ = self.history.inside(Places(*places))[:, 0]
+        from_b, to_c, to_b, at = np.array([[0.0], [b + c], [2.0 * b], [s]])
+        places = Places(from_b, to_c, to_b, at)
+        p, r, _ = self.history.inside(places)[:, 0]
         if not r > -EXCEEDED * self.normal.flat.friction * p:
             raise LargerLoad(OPEN)
 
