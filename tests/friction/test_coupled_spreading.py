@@ -14,6 +14,7 @@ from sie.friction.coupled.edge_rate import EdgeRates, Lengths
 from sie.friction.coupled.sheared_contact import found_state, sheared_contact
 from sie.friction.coupled.spreading_contact import SpreadingContact
 from sie.friction.coupled.spreading_history import SpreadingHistory
+from sie.friction.coupled.spreading_march import START, Beginning, SpreadingMarch
 from sie.friction.coupled.spreading_zones import Places, SpreadingPanel
 from sie.friction.coupled.tangential import TangentialSearch
 from sie.problem.coverage import LargerLoad
@@ -217,6 +218,18 @@ def test_a_contact_that_gains_much_is_not_marched() -> None:
     search = sie.solve(_scene(0.1, 0.1, 0.5)).tangential_search
     with pytest.raises(LargerLoad, match="a slip zone is open at the old edge"):
         spreading_contact.spreading_state(search, 0.05)
+
+
+@pytest.mark.parametrize(("beta", "f", "part"), [(0.258, 1.53, 1e-3), (0.134, 1.47, 1.9e-6)])
+def test_the_march_begins_under_tiny_loads(beta: float, f: float, part: float) -> None:
+    search = sie.solve(_scene(part, beta, f)).tangential_search
+    normal = search.normal
+    begin = Beginning(normal, lambda y: normal.half_modulus * search.slope(y))
+    march = SpreadingMarch(begin)
+    march.started(START * march.expected(part * f))
+    (first,) = march.history.panels
+    assert first.first
+    assert march.history.load(math.inf) > 1e-6 * part * f
 
 
 def test_a_wide_strip_of_old_slip_is_refused_with_its_width() -> None:

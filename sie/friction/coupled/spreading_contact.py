@@ -241,7 +241,9 @@ def spreading_state(search: TangentialSearch, Q: float) -> SpreadingContact:
     beginning = Beginning(normal, lambda y: normal.half_modulus * search.slope(y))
     march = SpreadingMarch(beginning, tuple(np.abs(search.slope.breaks).tolist()))
     # In such parts the place d₊, nearer to which what is touched sticks
-    part = march.expected(Q) / (normal.b * math.exp(-(0.5 * math.pi - math.atan(f)) / march.eta))
+    part = march.expected(Q) / (
+        normal.b * math.exp(-(0.5 * math.pi - math.atan(f)) / beginning.rates.eta)
+    )
     if part > GAINED:
         raise LargerLoad(OPEN)
     try:
