@@ -13,6 +13,9 @@ from sie.friction.coupled.bonded_edge import BondedEdge
 from sie.friction.coupled.edge_rate import EdgeRates, Lengths
 from sie.friction.coupled.sheared_contact import found_state, sheared_contact
 from sie.friction.coupled.spreading_contact import SpreadingContact
+from sie.friction.coupled.spreading_history import SpreadingHistory
+from sie.friction.coupled.spreading_march import START, Beginning, SpreadingMarch
+from sie.friction.coupled.spreading_zones import Places, SpreadingPanel
 from sie.friction.coupled.tangential import TangentialSearch
 from sie.problem.coverage import LargerLoad
 
@@ -132,6 +135,28 @@ def test_rates_carry_q_alone_and_obey_equation_1() -> None:
     assert moment / math.pi == pytest.approx(F.real, abs=1e-3)
 
 
+def test_integrals_are_cut_where_the_strip_leaves_an_old_place() -> None:
+    def panel(lo: float, hi: float) -> SpreadingPanel:
+        # w = 1, ε2 = 10 s^(1/2), ε3 = 0.9 s
+        middle, half = 0.5 * math.log(lo * hi), 0.5 * math.log(hi / lo)
+        ways = (math.log(10.0) + 0.5 * middle, 0.5 * half), (math.log(0.9) + middle, half)
+        return SpreadingPanel(lo, hi, np.array([(0.0, 0.0), *ways]))
+
+    history, lo, hi = SpreadingHistory(EdgeRates(0.36, 0.57), 0.76, 0.1), 1e-8, 1e-6
+    history.panels = (panel(lo, hi),)
+    history.width = history.strip_width(hi, *history.zones(hi))
+    x = 0.3 * history.width
+    places = Places(*(np.array([v]) for v in (x, 1.42 - x, 1.52 - x)), np.array([hi]))
+    leaves = history.width - x
+    for _ in range(3):
+        leaves = float(history.width_at(history.panels[0], np.array([leaves]))[0]) - x
+    assert lo < leaves < 0.5 * hi
+    whole = history.inside(places)
+    history.panels = panel(lo, leaves), panel(leaves, hi)
+    # An integral that is not cut there misses 5e-3
+    np.testing.assert_allclose(history.inside(places), whole, rtol=1e-10)
+
+
 def test_edges_are_those_of_a_march_by_reciprocity(small_load: sie.Solution) -> None:
     # By the four conditions of `oracles.bonded_edge`, marched with γ as the unknown function
     (x1, x2), ((_, e2),) = small_load.edges, small_load.stick
@@ -193,6 +218,18 @@ def test_a_contact_that_gains_much_is_not_marched() -> None:
     search = sie.solve(_scene(0.1, 0.1, 0.5)).tangential_search
     with pytest.raises(LargerLoad, match="a slip zone is open at the old edge"):
         spreading_contact.spreading_state(search, 0.05)
+
+
+@pytest.mark.parametrize(("beta", "f", "part"), [(0.258, 1.53, 1e-3), (0.134, 1.47, 1.9e-6)])
+def test_the_march_begins_under_tiny_loads(beta: float, f: float, part: float) -> None:
+    search = sie.solve(_scene(part, beta, f)).tangential_search
+    normal = search.normal
+    begin = Beginning(normal, lambda y: normal.half_modulus * search.slope(y))
+    march = SpreadingMarch(begin)
+    march.started(START * march.expected(part * f))
+    (first,) = march.history.panels
+    assert first.first
+    assert march.history.load(math.inf) > 1e-6 * part * f
 
 
 def test_a_wide_strip_of_old_slip_is_refused_with_its_width() -> None:

@@ -48,7 +48,7 @@ GAINED = 40.0
 STICKS = 5.0
 ROUGHLY = 1e-2  # as CHECKED, where the strip is not resolved
 RESOLVED = 3e-10  # of the parts of its conditions, what the march may miss where Q is reached
-WIDE = 1e-3  # of what was gained, a strip that reaches back to the old edge for too long
+WIDE = 5e-3  # of what was gained, a strip: beside wider ones 1e-9 of the shear is not certified
 
 
 class Spread(NamedTuple):
@@ -241,7 +241,9 @@ def spreading_state(search: TangentialSearch, Q: float) -> SpreadingContact:
     beginning = Beginning(normal, lambda y: normal.half_modulus * search.slope(y))
     march = SpreadingMarch(beginning, tuple(np.abs(search.slope.breaks).tolist()))
     # In such parts the place d₊, nearer to which what is touched sticks
-    part = march.expected(Q) / (normal.b * math.exp(-(0.5 * math.pi - math.atan(f)) / march.eta))
+    part = march.expected(Q) / (
+        normal.b * math.exp(-(0.5 * math.pi - math.atan(f)) / beginning.rates.eta)
+    )
     if part > GAINED:
         raise LargerLoad(OPEN)
     try:

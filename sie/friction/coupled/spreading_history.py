@@ -27,6 +27,7 @@ SHORTER = 0.5 * LONGEST  # of a panel of v: beside the kernel its integrand has 
 AT_ONCE = 1e-34  # of an interval, to a singularity at its end
 FAR, ON_FAR = 1.0, 14  # lengths of a panel to the next singularity: there one rule does, with nodes
 BEFORE_STRIP = 0.03  # widths of the strip: nearer to the edge panels may be long
+STRIPS = 2.0  # widths: no place beyond them is on the strip, whose width changes little
 WIDTHS = 3  # steps towards the width of the strip when its end passes a place
 NONE = np.zeros(0)
 CASES = tuple((i, j) for i in (False, True) for j in (False, True))  # at start, at end
@@ -87,6 +88,8 @@ class SpreadingHistory(SpreadingZones):
             k = np.flatnonzero((stop > start) & (fresh == at_start) & (last == at_end))
             if at_start and self.strip and k.size:
                 k = self._in_strip(total, panel, places, (k, start, stop, offset))
+            elif self.strip and k.size:
+                self._leaving_strip(total, panel, places, (k, start, stop, base))
             marks = ("touched",) * at_start + ("e2",) * at_end
             powers = 0.0, (-0.5 - self.rates.theta) * at_end
             near = BEFORE_STRIP * self.width if at_start and self.strip else 0.0
@@ -136,6 +139,28 @@ class SpreadingHistory(SpreadingZones):
         self._add(total, panel, places, piece._replace(offset=np.zeros(len(k)), span=on_strip))
         offset[k] = on_strip
         return k[touched + on_strip < stop[k]]
+
+    def _leaving_strip(
+        self,
+        total: Array,
+        panel: SpreadingPanel,
+        places: Places,
+        intervals: tuple[Indices, Array, Array, Array],
+    ) -> None:
+        """Adds what places slip that the strip still covers at the start, and moves starts."""
+        k, start, stop, base = intervals
+        # The strip ends at x when x1 has moved by its width less x + b
+        k = k[(start + places.from_b)[k] < STRIPS * self.width]
+        if not k.size:
+            return
+        end = stop[k]
+        for _ in range(WIDTHS):
+            at = np.clip(end, start[k], stop[k])
+            end = self.width_at(panel, np.maximum(at, panel.lo)) - places.from_b[k]
+        inside = (end > start[k]) & (end < stop[k])
+        k, end = k[inside], end[inside]
+        self._add(total, panel, places, Piece(k, start[k], end, base[k], 0.0 * end))
+        start[k], base[k] = end, 0.0
 
     def beside(
         self, places: Places, panels: tuple[SpreadingPanel, ...] | None = None

@@ -127,16 +127,13 @@ class SpreadingMarch:
         self._jacobian: Array | None = None
         self._far, self._ended, self._sums = 0.0, 0.0, 0
 
-    @property
-    def eta(self) -> float:
-        return self.beginning.rates.eta
-
     def expected(self, Q: float) -> float:
         """About s under Q."""
         return GAIN * self.normal.flat.beta * Q / self.normal.load * self.normal.b
 
     def started(self, s: float) -> None:
         """The first panel, up to s."""
+        self._far = s / START
         b, rest = self.normal.b, self.normal.slip_width
         at = s * np.array(FIRST_POINTS)
         e2, e3 = 1.6 * s + math.sqrt(s * rest), 0.9 * s
@@ -165,9 +162,7 @@ class SpreadingMarch:
     def marched(self, Q: float) -> float:
         """Panels up to the load Q; s there."""
         history, b = self.history, self.normal.b
-        guess = self.expected(Q)
-        self._far = guess
-        self.started(START * guess)
+        self.started(START * self.expected(Q))
         while (load := history.load(math.inf)) < Q:
             last = history.panels[-1]
             if last.hi > WIDEST * b or len(history.panels) > MOST:
@@ -183,8 +178,9 @@ class SpreadingMarch:
     def _refuse_open(self, s: float) -> None:
         """Raises LargerLoad if q exceeds f p at the old edge, where both are 0 under P alone."""
         b, c = self.normal.b, self.history.c
-        places = (np.array([x]) for x in (0.0, b + c, 2.0 * b, s))
-        p, r, _ = self.history.inside(Places(*places))[:, 0]
+        from_b, to_c, to_b, at = np.array([[0.0], [b + c], [2.0 * b], [s]])
+        places = Places(from_b, to_c, to_b, at)
+        p, r, _ = self.history.inside(places)[:, 0]
         if not r > -EXCEEDED * self.normal.flat.friction * p:
             raise LargerLoad(OPEN)
 
@@ -310,6 +306,8 @@ class SpreadingMarch:
         little.
         """
         gap, settled = 1.0, self._settled(float(s.min()))
+        if panel.first:
+            return self._iterated(panel, s, None, settled)
         known = self._known(panel, s)
         moved = self._before(panel, s, known.logs + STEP)
         known = known._replace(slopes=(moved - known.values) / STEP)
@@ -344,9 +342,9 @@ class SpreadingMarch:
         return max(SETTLED * max(early, 1.0), ROUNDINGS * EPS * self.normal.b / s)
 
     def _iterated(
-        self, panel: SpreadingPanel, s: Array, known: Known, settled: float
+        self, panel: SpreadingPanel, s: Array, known: Known | None, settled: float
     ) -> SpreadingPanel | None:
-        """The panel that meets the conditions with what is known, by Broyden's steps."""
+        """The panel that meets the conditions by Broyden's steps; None known: as it is there."""
         n = len(s)
         T = chebyshev.polynomials(n, panel.variable(s)).T
         values, back = (panel.series @ T.T).ravel(), np.linalg.inv(T)
@@ -361,7 +359,8 @@ class SpreadingMarch:
                     f"the march takes more than {MOST_SUMS} steps where the contact gained "
                     f"{panel.lo:.3g}"
                 )
-            return self._missed(of(values), s, known)
+            trial = of(values)
+            return self._missed(trial, s, known or self._known(trial, s))
 
         J = None if panel.first else self._jacobian
         now, fresh = missed(values), False
