@@ -144,7 +144,7 @@ def test_certificate_is_not_ok_with_an_edge_moved(edge, part):
 
 
 def test_sliding_is_advised_where_surfaces_beside_the_first_contact_are_the_last_to_slip():
-    assert "let the bodies slide" in refused(None, 0.43, 9.0, 0.9)
+    assert "let the bodies slide" in refused_zones(None, 0.43, 9.0, 0.9)
 
 
 @pytest.mark.parametrize(
