@@ -185,7 +185,7 @@ def test_the_beginning_of_the_path_has_no_contact():
 
 
 def test_points_where_the_normal_load_grows_and_then_the_tangential_one_are_those_of_scenes():
-    path = sie.Path([(0.0, 0.0), (0.5, 0.0), (1.0, 0.0), (1.0, -0.05), (1.0, -0.2)])
+    path = sie.Path([(0.0, 0.0), (0.5, 0.0), (1.0, 0.0), (1.0, -0.15), (1.0, -0.2)])
     history = sie.follow(scene(), path)
     assert [row["energy_lost"] for row in history.rows()] == sorted(
         row["energy_lost"] for row in history.rows()
