@@ -64,6 +64,11 @@ class ShearedContact:
     # -- zones and loads ---------------------------------------------------------------------------
 
     @property
+    def spreads(self) -> bool:
+        """Whether the slip of the normal load goes on in a strip at an edge that spreads."""
+        return False
+
+    @property
     def axis(self) -> float:
         return self.search.normal.axis
 

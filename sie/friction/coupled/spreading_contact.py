@@ -73,6 +73,10 @@ class SpreadingContact(ShearedContact):
         return self.trial
 
     @property
+    def spreads(self) -> bool:
+        return True
+
+    @property
     def strip(self) -> float:
         """The width of the strip at x1 with q = -f p."""
         return self.march.history.strip_width(self.s, *self.march.history.zones(self.s))
