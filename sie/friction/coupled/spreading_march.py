@@ -368,11 +368,7 @@ class SpreadingMarch:
             if not np.isfinite(now).all():
                 return None
             if J is None or J.shape[0] != 3 * n:
-                J, fresh = np.empty((3 * n, 3 * n)), True
-                for j in range(3 * n):
-                    moved = values.copy()
-                    moved[j] += STEP
-                    J[:, j] = (missed(moved) - now) / STEP
+                J, fresh = _differences(missed, values, now), True
             try:
                 step = -np.linalg.solve(J, now)
             except np.linalg.LinAlgError:
@@ -395,3 +391,10 @@ class SpreadingMarch:
                     self._jacobian = J
                 return of(values)
         return None
+
+
+def _differences(missed: Callable[[Array], Array], values: Array, now: Array) -> Array:
+    """The derivatives of what is missed, `now` at the values."""
+    columns = [missed(values + STEP * unit) - now for unit in np.eye(len(values))]
+    J: Array = np.array(columns).T / STEP
+    return J
