@@ -15,8 +15,9 @@ from oracles import spence
 from sie.friction.coupled import flat as coupled_flat
 from sie.friction.coupled.flat import flat_punch
 from sie.friction.coupled.functions import FlatFunctions
+from sie.friction.coupled.load_rate import GrowthPanel
 from sie.friction.coupled.panels import graded
-from sie.friction.coupled.profile import GrowthPanel, Superposition
+from sie.friction.coupled.profile import Superposition
 from sie.friction.coupled.tables import interpolated
 from sie.friction.coupled.traction import on_panels, resolved_panels
 

@@ -25,8 +25,9 @@ from .flat import double_exponential
 from .functions import FlatFunctions
 from .growth import load_slope
 from .half_potential import DISTANT, Panels
+from .load_rate import GrowthPanel
 from .panels import INNERMOST, graded, totals
-from .profile import GrowthPanel, Kernel, Superposition
+from .profile import Kernel, Superposition
 from .tables import interpolated
 from .traction import CoupledTraction, joined_panels
 

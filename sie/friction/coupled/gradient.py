@@ -25,8 +25,9 @@ from numpy.typing import NDArray
 
 from sie.numerics import chebyshev
 
+from .load_rate import GrowthPanel
 from .panels import graded, totals
-from .profile import GrowthPanel, Kernel, Superposition
+from .profile import Kernel, Superposition
 from .tables import Table
 from .traction import ROUGH, SAME
 

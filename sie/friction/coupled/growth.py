@@ -32,8 +32,8 @@ from sie.numerics.gauss_jacobi import with_weight
 from sie.numerics.interval import EPS
 
 from .functions import FlatFunctions
+from .load_rate import GrowthPanel, Stack
 from .panels import LONGEST, NODES, graded, totals
-from .profile import GrowthPanel, Stack
 
 Array = NDArray[np.float64]
 

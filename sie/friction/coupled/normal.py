@@ -29,7 +29,7 @@ from sie.progress_bar import reported
 from .contact import FALLING, CoupledContact
 from .functions import FlatFunctions, flat_functions
 from .growth import Piece, power_law_growth, solved_growth
-from .profile import GrowthPanel
+from .load_rate import GrowthPanel
 from .uneven_contact import UnevenContact, uneven_contact
 
 Array = NDArray[np.float64]
