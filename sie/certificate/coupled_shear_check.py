@@ -16,6 +16,7 @@ from __future__ import annotations
 
 import itertools
 import math
+from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
@@ -87,11 +88,21 @@ def sheared_certificate(state: State, scene: Scene, tol: float) -> Certificate:
         moment=abs(float(weight @ (values.p * (nodes - m))) - (p.moment - m * P)) / (P * r),
         lowest_pressure=min(float(values.p.min()) / peak, 0.0),
         lowest_gap=float(gaps.min(initial=0.0)) / float(np.abs(gaps).max(initial=EPS)),
-        abscissae=min(rounding, EPS / NARROW),
+        abscissae=min(rounding, EPS / NARROW, _one_ulp(p, x) / peak),
         tol=max(tol, PROMISED),
         shear=_of_shear(state, scene, values, drift, tol),
         notes=notes(H, peak / scene.Estar),
     )
+
+
+def _one_ulp(p: Callable[[Array], Array], x: Array) -> float:
+    """The largest change of p by one ulp of x.
+
+    Zones far narrower than the contact need not change p by much: it goes with a power of the
+    distance in them.
+    """
+    beside = np.nextafter(x, -np.inf), np.nextafter(x, np.inf)
+    return max(float(np.abs(p(other) - p(x)).max()) for other in beside)
 
 
 def _kept_gradient(state: State, x: Array, beta: float) -> Array:
