@@ -46,12 +46,16 @@ from analytic._core.parameters import positive, refuse
 from analytic.goodman import SPENCE
 
 POINTS = 0.15  # per bit and unit of t: as many as the singularity at 1/k² asks for
-WIDEST = 39.0  # of |ln(k²/(1-k²))|: thinner zones need more points than are worth it
+# of ln(k²/(1-k²)): narrower slip zones need more points than are worth it, and of a narrower stick
+# zone products leave the range of doubles
+LARGEST_STICK, LEAST_STICK = 39.0, -640.0
 # 1 - k over exp(-arctan(f)/eta), tanh(pi eta) = beta, is 8 for small beta f and at most 31 (beta =
 # 0.4, f = 1000)
 MOST_SLIP = 32
 NEAR = 1e-9  # in ln(k²/(1-k²)): its accuracy in doubles
 SEARCHES, STEPS = 30, 20
+SLIP = "the slip zones are narrower than {} of the contact; give friction nearer to dundurs."
+STICK = "the stick zone is narrower than {} of the contact; give a larger friction."
 ONE = "friction or dundurs is an array; give one number of each, for the stick zone is searched."
 
 
@@ -212,13 +216,9 @@ def _bracket(
     """Places next to each other between which the miss, which falls with y, changes sign."""
     value = miss(y)[0]
     while True:
-        ahead = min(y + step, WIDEST) if value > 0 else max(y - step, -WIDEST)
-        refuse(
-            ahead == y,
-            "the slip zones or the stick zone are thinner than {} of the contact; give friction "
-            "nearer to dundurs.",
-            1e-17,
-        )
+        ahead = min(y + step, LARGEST_STICK) if value > 0 else max(y - step, LEAST_STICK)
+        refuse(ahead == y == LARGEST_STICK, SLIP, 1e-17)
+        refuse(ahead == y == LEAST_STICK, STICK, 1e-139)
         other = miss(ahead)[0]
         if (other > 0) != (value > 0):
             ends = sorted([(y, value), (ahead, other)])

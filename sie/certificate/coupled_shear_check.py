@@ -16,6 +16,7 @@ from __future__ import annotations
 
 import itertools
 import math
+from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
@@ -87,11 +88,28 @@ def sheared_certificate(state: State, scene: Scene, tol: float) -> Certificate:
         moment=abs(float(weight @ (values.p * (nodes - m))) - (p.moment - m * P)) / (P * r),
         lowest_pressure=min(float(values.p.min()) / peak, 0.0),
         lowest_gap=float(gaps.min(initial=0.0)) / float(np.abs(gaps).max(initial=EPS)),
-        abscissae=min(rounding, EPS / NARROW),
+        abscissae=min(rounding, EPS / NARROW, _one_ulp(p, values.p, values, x) / peak),
         tol=max(tol, PROMISED),
         shear=_of_shear(state, scene, values, drift, tol),
         notes=notes(H, peak / scene.Estar),
     )
+
+
+def _one_ulp(
+    traction: Callable[[Array], Array], at_nodes: Array, values: Values, x: Array
+) -> float:
+    """What one ulp of x does to a traction, and of the nodes to its principal value.
+
+    Zones far narrower than the contact need not change it by much: it goes with a power of the
+    distance in them.
+    """
+    middle = 0.5 * sum(values.ends)
+    change = np.abs(traction(np.nextafter(x, middle)) - traction(x))
+    of_nodes = np.abs(traction(np.nextafter(values.x, middle)) - at_nodes)
+    apart = np.abs(x[:, None] - values.x)
+    apart[apart == 0.0] = np.inf
+    summed = (values.weight * of_nodes / apart).sum(axis=1) / np.pi
+    return float((change + summed).max())
 
 
 def _kept_gradient(state: State, x: Array, beta: float) -> Array:

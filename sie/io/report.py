@@ -163,7 +163,8 @@ def shear_summary(solution: Solution, units: Units) -> str:
         rows.append(("bulk stress", f"{_number(scene.bulk_stress)} {units.stress}"))
     rows += _zones("stick", [(*zone, "") for zone in solution.stick], r, units.length)
     slipped = [
-        (lo, hi, f", q = {'+' if sign > 0.0 else '-'}f p") for lo, hi, sign in slipping(solution)
+        (lo, hi, f"{_narrow(solution, lo, hi, units.length)}, q = {'+' if sign > 0.0 else '-'}f p")
+        for lo, hi, sign in slipping(solution)
     ]
     rows += _zones("slip", slipped, r, units.length) if slipped else []
     rows += [
@@ -172,6 +173,16 @@ def shear_summary(solution: Solution, units: Units) -> str:
     ]
     table = [_path_table(solution, units)] if isinstance(solution, PathSolution) else []
     return "\n\n".join([named_rows(*rows), *table])
+
+
+def _narrow(solution: Solution, lo: float, hi: float, length: str) -> str:
+    """The width of a slip zone whose ends look alike."""
+    r, (x1, x2) = solution.half_width, solution.edges
+    if _number(lo, r) != _number(hi, r):
+        return ""
+    left, right = solution.slip_widths
+    width = left if lo == x1 else right if hi == x2 else hi - lo
+    return f" ({width:.3g} {length} wide)"
 
 
 def energy_summary(solution: Solution, units: Units) -> str:

@@ -17,6 +17,8 @@ def in_proportion(scene: Scene, path: Path) -> bool:
     if not _dissimilar(scene) or scene.tilt or scene.moment or not _by_loads_alone(path):
         return False
     start, *points = path.points
+    if not points:
+        return False
     last, Q, _ = points[-1]
     growing = all(a[0] < b[0] for a, b in zip(path.points, points, strict=False))
     in_line = all(abs(q * last - Q * p) <= 8.0 * EPS * abs(Q) * p for p, q, _ in points)

@@ -48,6 +48,15 @@ def test_the_load_of_a_parabola_is_that_of_the_table(beta, f, ratio, pressure, m
     assert found == pytest.approx(0.25 / moment, rel=2e-11)
 
 
+@pytest.mark.parametrize(("beta", "f"), [(0.24, 0.016), (0.5, 0.01), (0.5, 0.004)])
+def test_a_stick_zone_however_narrow_is_that_of_the_solver(beta, f):
+    found = spence.stick_half_width(half_width=1.0, friction=f, dundurs=beta)
+    assert found < 1e-9
+    assert found == pytest.approx(flat_punch(beta, f).modulus.k, rel=1e-11)
+    wide = spence.stick_half_width(half_width=1.0, friction=f, dundurs=beta, lib=mpmath.mp)
+    assert float(wide) == pytest.approx(found, rel=1e-11)
+
+
 @pytest.mark.parametrize("exponent", [1.0, 1.5, 2.0, 3.0, 6.0])
 @pytest.mark.parametrize(("beta", "f"), [(0.1, 0.1), (0.3, 0.2), (0.2, 0.3)])
 def test_the_solver_carries_the_load_of_the_power_law(beta, f, exponent):

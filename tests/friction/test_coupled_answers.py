@@ -253,6 +253,12 @@ def test_a_path_of_dissimilar_bodies_is_refused():
         sie.follow(scene(), sie.Path([(1.0, 0.0), (0.5, 0.0)]))
 
 
+def test_a_path_of_one_point_is_p_and_then_q():
+    (only,) = sie.follow(scene(half_width=None, normal_load=1.0), sie.Path([(1.0, 0.1)]))
+    expected = sie.solve(scene(half_width=None, normal_load=1.0, tangential_load=0.1))
+    assert only.stick == expected.stick
+
+
 def test_the_pressure_under_a_wedge_is_infinite_on_its_axis():
     assert float(solved(sie.Wedge(0.1)).pressure(0.0)) == math.inf
 

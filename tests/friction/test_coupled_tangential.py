@@ -110,6 +110,16 @@ def test_certificate_is_not_ok_for_another_mismatch():
     assert not wrong.ok
 
 
+def test_certificate_is_as_strict_where_slip_zones_are_narrow():
+    right = solved(None, 0.1, 1.0)
+    pressed = sie.solve(replace(right.scene, tangential_load=0.0))
+    assert pressed.slip_widths[1] < 1e-8
+    certificate = right.check()
+    assert certificate.ok and certificate.abscissae < 1e-12
+    wrong = replace(right.scene, dundurs=0.1 * (1.0 + 1e-7))
+    assert not sheared_certificate(right.coupled[1], wrong, 1e-13).ok
+
+
 def test_certificate_is_not_ok_for_another_load():
     right = solved()
     other = replace(right.scene, tangential_load=right.tangential_load * (1.0 + 1e-6))

@@ -291,3 +291,12 @@ def test_the_gap_beside_a_contact_that_repeats_is_reported_where_there_is_one(lo
     solution = sie.solve(file.scene)
     words = report.gap_summary(solution, file.units).replace(";", "").split()
     assert all(float(gap) > 0.0 for gap in (words[1], words[7]))
+
+
+def test_slip_zones_whose_ends_look_alike_are_told_by_their_width():
+    scene = sie.Scene(
+        profile=sie.Flat(2.0), modulus=2.0, dundurs=0.07, friction=0.4, normal_load=1.0
+    )
+    solution = sie.solve(scene)
+    width = f"({solution.slip_widths[1]:.3g} mm wide), q = +f p"
+    assert width in report.shear_summary(solution, scene_file.UNITS)
