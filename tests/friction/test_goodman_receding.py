@@ -180,7 +180,7 @@ def test_a_tilt_to_the_other_side_mirrors_the_receding_stick_zone():
 def test_a_rounded_tip_of_a_tilted_wedge_is_not_taken_as_in_proportion():
     # The curved part is a millionth of the contact
     tip = sie.Piecewise((-30.0, -1e-6, 1e-6, 30.0), ((-0.2,), (-0.09, 1.1e5), (0.02,)))
-    with pytest.raises(sie.ContactError, match=r"would recede at one end .* in proportion"):
+    with pytest.raises(sie.ContactError, match=r"recedes at one end is not found beyond"):
         _ = solved(profile=tip, tilt=0.0).stick
 
 

@@ -1,6 +1,7 @@
-"""The state after a growth in proportion in which the stick zone receded at one end.
+"""The state after a growth in which the stick zone receded at one end.
 
-The pressure is that without friction, the stick zone and the shear in it are those of `proportion`.
+The pressure is that without friction. In a growth in proportion the stick zone and the shear in it
+are those of `proportion`, elsewhere those of `marched_shear`.
 Under Q at constant P the change is that of `slip`: it depends on the shear before Q alone.
 """
 
@@ -8,6 +9,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,6 +27,32 @@ KEPT = 0.7  # of the stick zone, from the end that recedes: it stuck under the l
 LIGHTEST = 0.8  # of the half-width: no lighter load is looked at
 ON_PANEL = 8  # nodes of a rule for the slip between two places
 KIND = "outwards on both sides while the normal load grew, the stick zone receded, β q neglected"
+
+
+class ShearBeforeQ(Protocol):
+    """The shear that the normal load alone leaves, for β > 0.
+
+    step        the contact and its pressure
+    touch       the place of first touch
+    stick       the stick zone
+    marks       places inside where the shear is not smooth
+    lighter     the same under a lighter load
+    untouched   what stuck under the lighter load, and ever since
+    """
+
+    @property
+    def step(self) -> Step: ...
+    @property
+    def touch(self) -> float: ...
+    @property
+    def stick(self) -> tuple[float, float]: ...
+    @property
+    def marks(self) -> tuple[float, ...]: ...
+    @property
+    def lighter(self) -> ShearBeforeQ: ...
+    @property
+    def untouched(self) -> tuple[float, float]: ...
+    def __call__(self, x: Array) -> Array: ...
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,6 +76,26 @@ class MovingShear:
         first, second = (self.touch + r * end for end in self.growth.stick)
         return min(first, second), max(first, second)
 
+    @property
+    def marks(self) -> tuple[float, ...]:
+        return (self.touch,)
+
+    @cached_property
+    def lighter(self) -> MovingShear:
+        """The shear under a lighter load, under which most of the stick zone stuck."""
+        step = self.step
+        first, second = self.growth.stick
+        part = max(LIGHTEST, (first + KEPT * (second - first)) / second)
+        load = step.normal_load * part ** (1.0 + self.growth.power)
+        found = step.contact_under(load, step.normal.edges.tilt)
+        before = replace(step, normal=found, pressure=step.pressure_on(found), Q=0.0)
+        return replace(self, step=before)
+
+    @property
+    def untouched(self) -> tuple[float, float]:
+        (a, b), (c, d) = self.stick, self.lighter.stick
+        return max(a, c), min(b, d)
+
     def __call__(self, x: Array) -> Array:
         """q in the contact."""
         step, r = self.step, self.step.pressure.contact.r
@@ -68,10 +116,10 @@ class MovingShear:
 class MovingSlip(GoodmanSlip):
     """The state after the normal load, and Q at constant P; `before` is the shear before Q."""
 
-    before: MovingShear | None = None
+    before: ShearBeforeQ | None = None
 
     @property
-    def _normal(self) -> MovingShear:
+    def _normal(self) -> ShearBeforeQ:
         assert self.before is not None
         return self.before
 
@@ -91,7 +139,7 @@ class MovingSlip(GoodmanSlip):
     def marks(self) -> tuple[float, ...]:  # type: ignore[override]
         x1, x2 = self.step.pressure.interval
         apart, marks = SMALL * self.contact.r, [x1]
-        for x in sorted({self._normal.touch, *self.normal_stick, *self.stick[0]}):
+        for x in sorted({*self._normal.marks, *self.normal_stick, *self.stick[0]}):
             if marks[-1] + apart < x < x2 - apart:
                 marks.append(x)
         return *marks, x2
@@ -99,8 +147,8 @@ class MovingSlip(GoodmanSlip):
     @property
     def untouched(self) -> tuple[float, float]:
         """What stuck under the lighter load, and ever since."""
-        zones = np.array([self.lighter.normal_stick, self.normal_stick, self.stick[0]])
-        return float(zones[:, 0].max()), float(zones[:, 1].min())
+        (lo, hi), (c1, c2) = self._normal.untouched, self.stick[0]
+        return max(lo, c1), min(hi, c2)
 
     def normal_shear(self, x: Array) -> Array:
         return self._normal(x)
@@ -112,14 +160,9 @@ class MovingSlip(GoodmanSlip):
 
     @cached_property
     def lighter(self) -> MovingSlip:  # type: ignore[override]
-        """The state under a lighter load, under which most of the stick zone stuck."""
-        step, growth = self.step, self._normal.growth
-        first, second = growth.stick
-        part = max(LIGHTEST, (first + KEPT * (second - first)) / second)
-        load = step.normal_load * part ** (1.0 + growth.power)
-        found = step.contact_under(load, step.normal.edges.tilt)
-        before = replace(step, normal=found, pressure=step.pressure_on(found), Q=0.0)
-        return replace(self, step=before, zones=None, before=replace(self._normal, step=before))
+        """The state under a lighter load, under which much of the stick zone stuck."""
+        before = self._normal.lighter
+        return replace(self, step=before.step, zones=None, before=before)
 
     def slip(self, x: Array) -> Array:
         raise self._not_computed()

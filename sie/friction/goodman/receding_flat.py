@@ -87,15 +87,15 @@ class RecedingFlat:
 
         start = np.array([e])
 
-        def resultant(ratio: float) -> float:
-            return float(_resultant(_zone(start, np.array([ratio]), self.ratio))[0])
+        def force(ratio: float) -> float:
+            return float(resultant(zone_of_ratio(start, np.array([ratio]), self.ratio))[0])
 
         least = modulus_of(1.0 - e, math.sqrt(e * (2.0 - e)))
         whole = least.K_complement / least.K
-        if not whole < self.ratio or resultant(self.ratio) * resultant(whole) >= 0.0:
+        if not whole < self.ratio or force(self.ratio) * force(whole) >= 0.0:
             return self.natural
-        found = float(brentq(resultant, whole, self.ratio, xtol=NEAREST * whole, rtol=SETTLED))
-        return _zone(start, np.array([found]), self.ratio)
+        found = float(brentq(force, whole, self.ratio, xtol=NEAREST * whole, rtol=SETTLED))
+        return zone_of_ratio(start, np.array([found]), self.ratio)
 
 
 @lru_cache(maxsize=8)
@@ -122,7 +122,8 @@ def ratio(zone: Zone, places: Distances) -> Array:
     return values
 
 
-def _zone(e: Array, ratio: Array, natural: float) -> Zone:
+def zone_of_ratio(e: Array, ratio: Array, natural: float) -> Zone:
+    """Zones that begin at e - 1 with K'/K of these values, whatever resultant they have."""
     k, complement, K = _modulus(ratio)
     rest = complement * complement / (1.0 + k)
     whole = e + rest - e * rest
@@ -131,7 +132,8 @@ def _zone(e: Array, ratio: Array, natural: float) -> Zone:
     return Zone(e, k, rest, K, d, mu, off, _second_complete(complement * complement))
 
 
-def _resultant(zone: Zone) -> Array:
+def resultant(zone: Zone) -> Array:
+    """Q of the change, over f P: 0 for the stick zone sought."""
     mu, k = zone.mu, zone.k
     cn2 = zone.off * (1.0 + mu)
     dn2 = cn2 + (1.0 - k) * (1.0 + k) * mu * mu
