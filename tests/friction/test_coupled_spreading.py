@@ -13,9 +13,10 @@ from sie.friction.coupled import spreading_contact
 from sie.friction.coupled.bonded_edge import BondedEdge
 from sie.friction.coupled.edge_rate import EdgeRates, Lengths
 from sie.friction.coupled.sheared_contact import found_state, sheared_contact
+from sie.friction.coupled.spreading_beginning import Beginning
 from sie.friction.coupled.spreading_contact import SpreadingContact
 from sie.friction.coupled.spreading_history import SpreadingHistory
-from sie.friction.coupled.spreading_march import Beginning, SpreadingMarch
+from sie.friction.coupled.spreading_march import SpreadingMarch
 from sie.friction.coupled.spreading_zones import Places, SpreadingPanel
 from sie.friction.coupled.tangential import TangentialSearch
 from sie.problem.coverage import LargerLoad
@@ -222,11 +223,14 @@ def test_a_contact_that_gains_much_is_not_marched() -> None:
         spreading_contact.spreading_state(search, 0.05)
 
 
-@pytest.mark.parametrize(("beta", "f", "part"), [(0.258, 1.53, 1e-3), (0.134, 1.47, 1.9e-6)])
+# The last one sticks in all of the contact under P alone
+@pytest.mark.parametrize(
+    ("beta", "f", "part"), [(0.258, 1.53, 1e-3), (0.134, 1.47, 1.9e-6), (0.07, 7.0, 1e-6)]
+)
 def test_the_march_begins_under_tiny_loads(beta: float, f: float, part: float) -> None:
     search = sie.solve(_scene(part, beta, f)).tangential_search
     normal = search.normal
-    begin = Beginning(normal, lambda y: normal.half_modulus * search.slope(y))
+    begin = Beginning(normal, f, lambda y: normal.half_modulus * search.slope(y))
     march = SpreadingMarch(begin)
     march.started(march.expected(part * f))
     (first,) = march.history.panels
@@ -256,7 +260,7 @@ def test_the_march_begins_in_a_contact_that_hardly_sticks(
     # c is 1e-5 and 1e-16 half-widths, and e2 comes to lie left of the axis at once
     search = sie.solve(_scene(part, beta, f)).tangential_search
     normal = search.normal
-    march = SpreadingMarch(Beginning(normal, lambda y: normal.half_modulus * search.slope(y)))
+    march = SpreadingMarch(Beginning(normal, f, lambda y: normal.half_modulus * search.slope(y)))
     march.started(march.expected(part * f))
     (first,) = march.history.panels
     assert march.missed(first.hi) < 1e-8

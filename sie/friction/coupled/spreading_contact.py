@@ -29,7 +29,8 @@ from sie.traction.base import on_line
 from .gradient import SlipGradient
 from .integral import Integral, integral, on_marks, towards_ends
 from .sheared import LOOKED_AT, ShearedContact
-from .spreading_march import OPEN, Beginning, SpreadingMarch
+from .spreading_beginning import Beginning
+from .spreading_march import OPEN, SpreadingMarch
 from .spreading_zones import Places
 from .tables import interpolated
 from .tangential import TangentialSearch, Trial
@@ -266,7 +267,7 @@ def spreading_state(search: TangentialSearch, Q: float) -> SpreadingContact:
     ContactError where it is not, and no state is certified.
     """
     normal, f = search.normal, search.friction
-    beginning = Beginning(normal, lambda y: normal.half_modulus * search.slope(y))
+    beginning = Beginning(normal, f, lambda y: normal.half_modulus * search.slope(y))
     march = SpreadingMarch(beginning, tuple(np.abs(search.slope.breaks).tolist()))
     # In such parts the place d₊, nearer to which what is touched sticks
     part = march.expected(Q) / (
@@ -275,8 +276,6 @@ def spreading_state(search: TangentialSearch, Q: float) -> SpreadingContact:
     if part > GAINED:
         raise LargerLoad(OPEN)
     try:
-        if normal.slip_width <= 0.0:
-            raise ContactError("the slip zone of the normal load is narrower than rounding")
         return _marched_state(search, march, Q)
     except LargerLoad:
         raise

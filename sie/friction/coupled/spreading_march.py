@@ -13,9 +13,6 @@ small part of s under Q, as two powers: how it errs is forgotten like a power of
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from dataclasses import dataclass
-from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
@@ -28,8 +25,7 @@ from sie.problem.coverage import LargerLoad
 from sie.progress_bar import step_done
 
 from .broyden import STEP, zero
-from .contact import CoupledContact
-from .edge_rate import EdgeRates
+from .spreading_beginning import Beginning
 from .spreading_history import SpreadingHistory
 from .spreading_zones import SEEN, Places, SpreadingPanel
 
@@ -41,6 +37,7 @@ START, LATEST, STARTS = 1e-5, 1e-2, 3e-12
 FORGOTTEN = 1.5  # the power of s with which errors are forgotten, or more
 LARGE = 1e-2  # half-widths of a way, with whose root goes what Q adds to the tractions
 GAIN = 1.3  # of β Q/P half-widths: about s under Q
+SPREAD = 0.9  # of s: ε3 at first, about
 NARROW_STICK = 0.2  # half-widths: under P alone
 FIRST_POINTS = 0.25, 1.0  # of the first panel
 POWERS = 0.2, 0.7  # of ε2 and ε3 with s at first, about
@@ -58,39 +55,6 @@ NEXT, BEYOND = 1.02, 1.2  # the last panel goes on beyond the s at which Q seems
 EXCEEDED = 1e-6  # of f p at the old edge, by how much q is more
 OPEN = "a slip zone is open at the old edge, inside the stick zone"
 WIDEST = 0.5  # half-widths: how far the march goes
-
-
-@dataclass(frozen=True, eq=False)
-class Beginning:
-    """The state under P alone, with the profile; β > 0 and Q > 0.
-
-    normal      the state
-    slope       E*/2 h' on the right of the axis
-    """
-
-    normal: CoupledContact
-    slope: Callable[[Array], Array]
-
-    @cached_property
-    def rates(self) -> EdgeRates:
-        return EdgeRates(self.normal.flat.beta, self.normal.flat.friction)
-
-    def steepness(self, s: Array) -> Array:
-        """H p - E*/2 h' at -b - s, positive."""
-        y = self.normal.b + s
-        values: Array = self.slope(y) - self.normal.hilbert_outside(y)
-        return values
-
-    def pressure(self, e3: Array) -> Array:
-        """p at b - ε3."""
-        return self.normal.pressure(self.normal.b - e3)
-
-    def deficit(self, x: Array) -> Array:
-        """f p - q at |x| < c."""
-        normal = self.normal
-        p, q = normal.pressure_and_shear(np.abs(x))
-        values: Array = normal.flat.friction * p - normal.sign * np.sign(x) * q
-        return values
 
 
 class Known(NamedTuple):
@@ -121,9 +85,7 @@ class SpreadingMarch:
     def __init__(self, beginning: Beginning, kinks: tuple[float, ...] = (), n: int = DEGREE):
         self.beginning, self.normal, self.n = beginning, beginning.normal, n
         self.kinks = sorted(k for k in kinks if k > 0.0)
-        self.history = SpreadingHistory(
-            beginning.rates, beginning.normal.b, beginning.normal.slip_width
-        )
+        self.history = SpreadingHistory(beginning.rates, beginning.normal.b, beginning.rest)
         self._jacobian: Array | None = None
         self._far, self._ended, self._sums = 0.0, 0.0, 0
 
@@ -149,8 +111,8 @@ class SpreadingMarch:
         """
         normal, c, b = self.normal, self.history.c, self.normal.b
         if c > NARROW_STICK * b:
-            return 1.6 * s + math.sqrt(s * normal.slip_width), POWERS[0]
-        before = normal.flat.friction * float(normal.pressure(np.array([0.1 * b]))[0])
+            return 1.6 * s + math.sqrt(s * self.beginning.rest), POWERS[0]
+        before = self.beginning.friction * float(normal.pressure(np.array([0.1 * b]))[0])
         load = 1.0 / (self.expected(1.0) * before)
         way = 0.9 * math.sqrt(load * s * c * math.sqrt(c / b))
         if way < c:
@@ -167,22 +129,28 @@ class SpreadingMarch:
         self._far, b = far, self.normal.b
         s = far * min(max(START, math.sqrt(STARTS / self.moved)), LATEST)
         at = s * np.array(FIRST_POINTS)
-        (e2, power), e3 = self._expected_way(s), 0.9 * s
-        half = 0.5 * math.log(at[1] / at[0])
-        series = np.array(
-            [[0.0, 0.0], [math.log(e2), half * power], [math.log(e3), half * POWERS[1]]]
-        )
-        panel = SpreadingPanel(at[0], at[1], series, True)
-        self.history.width = self.history.strip_width(s, e2, e3)
+        e2, power = self._expected_way(s)
+        self.history.width = self.history.strip_width(s, e2, SPREAD * s)
         self.history.strip = self.history.width > SEEN * b
+        # Where the slip zone was narrow all ways go with s at once
+        for powers, middle in (((power, POWERS[1]), s), ((1.0, 1.0), math.sqrt(at[0] * at[1]))):
+            ways = (self._expected_way(middle)[0], powers[0]), (SPREAD * middle, powers[1])
+            found = self._first(at, ways)
+            if found is not None:
+                self.history.panels = (found,)
+                return
+        raise ContactError("no state is found from which to follow it over smaller loads")
+
+    def _first(self, at: Array, ways: tuple[tuple[float, float], ...]) -> SpreadingPanel | None:
+        """The first panel from guesses of the ways and of their powers."""
+        half = 0.5 * math.log(at[1] / at[0])
+        series = np.array([[0.0, 0.0], *([math.log(e), half * power] for e, power in ways)])
+        panel = SpreadingPanel(at[0], at[1], series, True)
         with np.errstate(all="ignore"):
             missed = self._missed(panel, at, self._known(panel, at))
             if missed[1] < 1.0:
                 series[0, 0] -= math.log(1.0 - missed[1])
-            found = self._solved(SpreadingPanel(at[0], at[1], series, True), at)
-        if found is None:
-            raise ContactError("no state is found from which to follow it over smaller loads")
-        self.history.panels = (found,)
+            return self._solved(SpreadingPanel(at[0], at[1], series, True), at)
 
     def marched(self, Q: float) -> float:
         """Panels up to the load Q; s there."""
@@ -206,7 +174,7 @@ class SpreadingMarch:
         from_b, to_c, to_b, at = np.array([[0.0], [b + c], [2.0 * b], [s]])
         places = Places(from_b, to_c, to_b, at)
         p, r, _ = self.history.inside(places)[:, 0]
-        if not r > -EXCEEDED * self.normal.flat.friction * p:
+        if not r > -EXCEEDED * self.beginning.friction * p:
             raise LargerLoad(OPEN)
 
     def missed(self, s: float) -> float:
@@ -271,7 +239,7 @@ class SpreadingMarch:
 
     def _entry(self, panel: SpreadingPanel) -> float:
         """s at which ε3 = b - c, if on the panel; otherwise 0."""
-        aim, y = math.log(self.normal.slip_width), np.linspace(-1.0, 1.0, 65)
+        aim, y = math.log(self.beginning.rest), np.linspace(-1.0, 1.0, 65)
         way = chebyshev.evaluate(panel.series[2], y) - aim
         k = np.flatnonzero((way[:-1] < 0.0) & (way[1:] >= 0.0))
         if not k.size:
