@@ -91,10 +91,14 @@ def sheared(pressed: Pressed, beta: float, friction: float) -> Iterator[Sheared]
         else:
             raise AssertionError("the active set does not settle")
         slip = now
-        first = np.append(0, np.flatnonzero(np.diff(signs[c])) + 1)
-        zones = tuple((int(signs[c[i]]), float(pressed.ends[c[i]])) for i in first)
-        edges = float(pressed.ends[k]), float(pressed.ends[c[-1] + 1])
-        yield Sheared(float(width[c] @ q), edges, zones)
+        yield _state(pressed.ends, c, signs[c], float(width[c] @ q))
+
+
+def _state(ends: Array, c: NDArray[np.intp], signs: Array, load: float) -> Sheared:
+    """The state whose cells c in contact slip with these signs."""
+    first = np.append(0, np.flatnonzero(np.diff(signs)) + 1)
+    zones = tuple((int(signs[i]), float(ends[c[i]])) for i in first)
+    return Sheared(load, (float(ends[c[0]]), float(ends[c[-1] + 1])), zones)
 
 
 def _logarithms(x: Array, ends: Array) -> Array:

@@ -38,6 +38,7 @@ from .friction.coupled.sheared import ShearedContact
 from .friction.coupled.sheared_contact import found_state, sheared_contact
 from .friction.coupled.shift import tangential_shift
 from .friction.coupled.spreading_contact import SpreadingContact, spreading_state
+from .friction.coupled.spreading_energy import spreading_energy
 from .friction.coupled.tangential import TangentialSearch, tangential_search
 from .friction.coupled.traction import OnHalves
 from .friction.coupled.uneven_contact import UnevenContact
@@ -58,7 +59,6 @@ from .patches.result import PatchCertificate, worst_of
 from .problem.coverage import (
     held_moment,
     refuse_uncovered,
-    refused_energy,
     uneven_under_shear,
 )
 from .problem.request import ECONOMY, sheared
@@ -301,7 +301,7 @@ class Solution(Frictionless, StressAnswers):
         if not isinstance(state, ShearedContact):
             return pressed
         if isinstance(state, SpreadingContact):
-            raise refused_energy(state.Q)
+            return pressed + spreading_energy(state.march, state.s)
         search = self.tangential_search
         return pressed + tangential_energy(state, partial(found_state, search))
 

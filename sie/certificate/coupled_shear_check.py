@@ -121,8 +121,8 @@ def _kept_gradient(state: State, x: Array, beta: float) -> Array:
         values = _values(state.lighter)
         gradient: Array = _principal(values, values.q, x, q) + beta * p
         return gradient
-    y, b = np.abs(x - state.axis), state.search.normal.b
-    old, kept = y < b, np.zeros(len(x))
+    y = np.abs(x - state.axis)
+    old, kept = y < state.unchanged, np.zeros(len(x))
     kept[old] = gradient_of_slip(state.search.normal, y[old], beta)
     kept[~old] = state.kept_gradient(x[~old])
     return kept

@@ -118,15 +118,6 @@ def refused_spread(kappa: float, loads: tuple[float, float], why: str) -> Contac
     )
 
 
-def refused_energy(Q: float) -> ContactError:
-    """The ContactError: the energy under a load whose states depend on those before."""
-    return ContactError(
-        f"the energy that dissimilar bodies dissipate under |Q| = {Q:.6g}, while what the contact "
-        "gains sticks as it is touched, is a sum over all smaller loads that is not taken; set "
-        "tangential_load = 0 for the energy under the normal load"
-    )
-
-
 def refused_slip(kappa: float, part: float) -> ContactError:
     """The ContactError: under Q, a part of f P, an end of the stick zone passes a corner."""
     return ContactError(

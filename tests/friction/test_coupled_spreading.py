@@ -1,6 +1,7 @@
 """Dissimilar bodies under P, then a small Q: what the contact gains sticks as it is touched."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -12,11 +13,14 @@ from sie.friction.coupled import spreading_contact
 from sie.friction.coupled.bonded_edge import BondedEdge
 from sie.friction.coupled.edge_rate import EdgeRates, Lengths
 from sie.friction.coupled.sheared_contact import found_state, sheared_contact
-from sie.friction.coupled.spreading_contact import SpreadingContact
+from sie.friction.coupled.spreading_beginning import Beginning
+from sie.friction.coupled.spreading_contact import Spread, SpreadingContact
+from sie.friction.coupled.spreading_energy import SpreadingPower
 from sie.friction.coupled.spreading_history import SpreadingHistory
-from sie.friction.coupled.spreading_march import START, Beginning, SpreadingMarch
+from sie.friction.coupled.spreading_march import SpreadingMarch
 from sie.friction.coupled.spreading_zones import Places, SpreadingPanel
 from sie.friction.coupled.tangential import TangentialSearch
+from sie.friction.coupled.zones import Zones
 from sie.problem.coverage import LargerLoad
 
 MATERIAL = 0.25, 2.0
@@ -221,24 +225,57 @@ def test_a_contact_that_gains_much_is_not_marched() -> None:
         spreading_contact.spreading_state(search, 0.05)
 
 
-@pytest.mark.parametrize(("beta", "f", "part"), [(0.258, 1.53, 1e-3), (0.134, 1.47, 1.9e-6)])
+# The last one sticks in all of the contact under P alone
+@pytest.mark.parametrize(
+    ("beta", "f", "part"), [(0.258, 1.53, 1e-3), (0.134, 1.47, 1.9e-6), (0.07, 7.0, 1e-6)]
+)
 def test_the_march_begins_under_tiny_loads(beta: float, f: float, part: float) -> None:
     search = sie.solve(_scene(part, beta, f)).tangential_search
     normal = search.normal
-    begin = Beginning(normal, lambda y: normal.half_modulus * search.slope(y))
+    begin = Beginning(normal, f, lambda y: normal.half_modulus * search.slope(y))
     march = SpreadingMarch(begin)
-    march.started(START * march.expected(part * f))
+    march.started(march.expected(part * f))
     (first,) = march.history.panels
     assert first.first
     assert march.history.load(math.inf) > 1e-6 * part * f
 
 
-def test_a_wide_strip_of_old_slip_is_refused_with_its_width() -> None:
+def test_a_strip_of_old_slip_may_be_wider_than_what_was_gained() -> None:
+    solution = sie.solve(_scene(1e-5, 0.45, 0.3))
+    state = solution.coupled[1]
+    assert isinstance(state, SpreadingContact)
     # By the eigenvalue of the kernel of the flat 5e-5
-    with pytest.raises(
-        sie.ContactError, match=r"so small a load .* a zone of the width 4\.\d+e-05"
-    ):
-        sie.solve(_scene(1e-5, 0.45, 0.3)).edges  # noqa: B018
+    assert 4e-5 < state.strip < 5e-5
+    assert state.s < 0.1 * state.strip
+    certificate = solution.check()
+    assert certificate.ok
+    assert certificate.residual < 1e-11
+    assert certificate.shear is not None
+    # Some of what left the strip is looked at: γ under P alone differs by 1e-4 there
+    assert certificate.shear.residual < 1e-11
+
+
+@pytest.mark.parametrize(("beta", "f", "part"), [(0.45, 0.058, 3e-3), (0.3, 0.0122, 7.7e-6)])
+def test_the_march_begins_in_a_contact_that_hardly_sticks(
+    beta: float, f: float, part: float
+) -> None:
+    # c is 1e-5 and 1e-16 half-widths, and e2 comes to lie left of the axis at once
+    search = sie.solve(_scene(part, beta, f)).tangential_search
+    normal = search.normal
+    march = SpreadingMarch(Beginning(normal, f, lambda y: normal.half_modulus * search.slope(y)))
+    march.started(march.expected(part * f))
+    (first,) = march.history.panels
+    assert march.missed(first.hi) < 1e-8
+    # dQ/ds is about P/(1.3 β b)
+    assert 0.5 < first(np.array([first.hi]))[0][0] * march.expected(1.0) < 1.0
+
+
+def test_a_profile_with_a_strip_that_old_places_have_left_obeys_equation_1() -> None:
+    # 1e-8 of the peak was missed where panels did not know of the places that the strip had left
+    scene = replace(_scene(0.01, 0.47, 0.015), profile=sie.Polynomial((0.0, 0.0, 0.5, 0.0, 0.3)))
+    certificate = sie.solve(scene).check()
+    assert certificate.ok
+    assert certificate.residual < 1e-11
 
 
 @pytest.mark.parametrize(
@@ -258,6 +295,42 @@ def test_a_refusal_is_that_of_the_regime_of_the_load(
         found_state(small_load.tangential_search, 0.04, spreading)
 
 
-def test_energy_is_refused_with_its_reason(small_load: sie.Solution) -> None:
-    with pytest.raises(sie.ContactError, match="sum over all smaller loads"):
-        small_load.energy_lost  # noqa: B018
+def _after(state: SpreadingContact, s: float) -> SpreadingContact:
+    """The state of the same march where the contact gained s."""
+    history, normal = state.march.history, state.search.normal
+    e2, e3 = history.zones(s)
+    x1 = -normal.b - s
+    zones = Zones(x1, x1 + history.strip_width(s, e2, e3), normal.c - e2, normal.b - e3)
+    return replace(state, s=s, trial=Spread(zones))
+
+
+def test_friction_works_at_the_rate_at_which_slip_grows(small_load: sie.Solution) -> None:
+    state = small_load.coupled[1]
+    assert isinstance(state, SpreadingContact)
+    ends = [_after(state, state.s * (1.0 + step)) for step in (-3e-5, 3e-5)]
+    (_, e2), (_, x2) = small_load.stick[0], small_load.edges
+    node, mass = leggauss(30)
+    x = 0.5 * (e2 + x2) + 0.5 * (x2 - e2) * np.sin(0.5 * math.pi * node)
+    weight = mass * 0.25 * math.pi * (x2 - e2) * np.cos(0.5 * math.pi * node)
+    grown = ends[1].relative_slip(x) - ends[0].relative_slip(x)
+    load = state.march.history.load(ends[1].s) - state.march.history.load(ends[0].s)
+    by_differences = weight @ (small_load.shear(x) * grown) / load
+    power = SpreadingPower(state.march)(state.s) / state.search.normal.half_modulus
+    # Differences are 2e-4 less, as the ends of the slip zone move; with other nodes and steps from
+    # 3e-4 to 3e-5 they are less by 1.3 steps
+    assert by_differences == pytest.approx(power, rel=6e-4)
+
+
+def test_energy_is_the_sum_of_what_friction_works(small_load: sie.Solution) -> None:
+    state = small_load.coupled[1]
+    assert isinstance(state, SpreadingContact)
+    march, power = state.march, SpreadingPower(state.march)
+    node, mass = leggauss(9)
+    part = 0.5 * (1.0 + node)
+    works = [
+        power(s) * float(march.history.panel_of(s)(np.array([s]))[0][0])
+        for s in (state.s * part**2).tolist()
+    ]
+    total = float(mass @ (np.array(works) * part)) * state.s / state.search.normal.half_modulus
+    spent = small_load.energy_lost - sie.solve(_scene(0.0)).energy_lost
+    assert spent == pytest.approx(total, rel=1e-4)

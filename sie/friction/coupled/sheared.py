@@ -309,6 +309,11 @@ class ShearedContact:
 
         return on_line(value, x)
 
+    @property
+    def unchanged(self) -> float:
+        """The distance from the axis up to which what sticks kept γ of P alone."""
+        return self.search.normal.b
+
     def kept_gradient(self, x: Array) -> Array:
         """E*/2 g' with which places stick that the contact gained: with these zones none does."""
         return np.zeros(len(x))

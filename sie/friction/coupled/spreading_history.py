@@ -89,7 +89,7 @@ class SpreadingHistory(SpreadingZones):
             if at_start and self.strip and k.size:
                 k = self._in_strip(total, panel, places, (k, start, stop, offset))
             elif self.strip and k.size:
-                self._leaving_strip(total, panel, places, (k, start, stop, base))
+                self._leaving_strip(total, panel, places, (k, start, stop, base, later))
             marks = ("touched",) * at_start + ("e2",) * at_end
             powers = 0.0, (-0.5 - self.rates.theta) * at_end
             near = BEFORE_STRIP * self.width if at_start and self.strip else 0.0
@@ -145,10 +145,13 @@ class SpreadingHistory(SpreadingZones):
         total: Array,
         panel: SpreadingPanel,
         places: Places,
-        intervals: tuple[Indices, Array, Array, Array],
+        intervals: tuple[Indices, Array, Array, Array, Array],
     ) -> None:
-        """Adds what places slip that the strip still covers at the start, and moves starts."""
-        k, start, stop, base = intervals
+        """Adds what places slip that the strip still covers at the start, and moves starts.
+
+        Where the strip leaves a place before or after the interval rates are singular there.
+        """
+        k, start, stop, base, later = intervals
         # The strip ends at x when x1 has moved by its width less x + b
         k = k[(start + places.from_b)[k] < STRIPS * self.width]
         if not k.size:
@@ -157,6 +160,9 @@ class SpreadingHistory(SpreadingZones):
         for _ in range(WIDTHS):
             at = np.clip(end, start[k], stop[k])
             end = self.width_at(panel, np.maximum(at, panel.lo)) - places.from_b[k]
+        before, after = (end > 0.0) & (end <= start[k]), end >= stop[k]
+        base[k[before]] = np.minimum(base[k], start[k] - end)[before]
+        later[k[after]] = np.minimum(later[k], end - stop[k])[after]
         inside = (end > start[k]) & (end < stop[k])
         k, end = k[inside], end[inside]
         self._add(total, panel, places, Piece(k, start[k], end, base[k], 0.0 * end))

@@ -13,9 +13,6 @@ small part of s under Q, as two powers: how it errs is forgotten like a power of
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from dataclasses import dataclass
-from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
@@ -27,25 +24,25 @@ from sie.numerics.interval import EPS
 from sie.problem.coverage import LargerLoad
 from sie.progress_bar import step_done
 
-from .contact import CoupledContact
-from .edge_rate import EdgeRates
+from .broyden import STEP, zero
+from .spreading_beginning import Beginning
 from .spreading_history import SpreadingHistory
 from .spreading_zones import SEEN, Places, SpreadingPanel
 
 Array = NDArray[np.float64]
 
 DEGREE, RATIO = 9, 3.0  # of a panel: terms, and how much s grows on it
-STRIP = 0.3  # of s under Q, about: wider strips are refused before the march
-START = 1e-5  # of s under Q: the first panel
+# Of s under Q: the first panel; the square of it over that of a way of 1 b, by which it errs
+START, LATEST, STARTS = 1e-5, 1e-2, 3e-12
+FORGOTTEN = 1.5  # the power of s with which errors are forgotten, or more
+LARGE = 1e-2  # half-widths of a way, with whose root goes what Q adds to the tractions
 GAIN = 1.3  # of β Q/P half-widths: about s under Q
+SPREAD = 0.9  # of s: ε3 at first, about
+NARROW_STICK = 0.2  # half-widths: under P alone
 FIRST_POINTS = 0.25, 1.0  # of the first panel
 POWERS = 0.2, 0.7  # of ε2 and ε3 with s at first, about
-STEP = 1e-6  # of a logarithm, for differences
-FARTHEST = 0.7  # of a logarithm, a step
 # Of a logarithm: the last step, at the load; it may be as much longer as s is less; roundings of b
 SETTLED, ROUNDINGS = 2e-13, 8.0
-STEPS = 40
-LOST = 1e-3  # of the logarithms: conditions that are missed by more may grow no more
 EXTRAPOLATED, ALIKE = 4, 1.5  # terms, on a panel that is at most so much longer in ln s
 ROUNDS = 12  # of what the panels before add
 # Of a logarithm: moved by less, what the panels before add is linear to rounding; before, a step is
@@ -58,39 +55,6 @@ NEXT, BEYOND = 1.02, 1.2  # the last panel goes on beyond the s at which Q seems
 EXCEEDED = 1e-6  # of f p at the old edge, by how much q is more
 OPEN = "a slip zone is open at the old edge, inside the stick zone"
 WIDEST = 0.5  # half-widths: how far the march goes
-
-
-@dataclass(frozen=True, eq=False)
-class Beginning:
-    """The state under P alone, with the profile; β > 0 and Q > 0.
-
-    normal      the state
-    slope       E*/2 h' on the right of the axis
-    """
-
-    normal: CoupledContact
-    slope: Callable[[Array], Array]
-
-    @cached_property
-    def rates(self) -> EdgeRates:
-        return EdgeRates(self.normal.flat.beta, self.normal.flat.friction)
-
-    def steepness(self, s: Array) -> Array:
-        """H p - E*/2 h' at -b - s, positive."""
-        y = self.normal.b + s
-        values: Array = self.slope(y) - self.normal.hilbert_outside(y)
-        return values
-
-    def pressure(self, e3: Array) -> Array:
-        """p at b - ε3."""
-        return self.normal.pressure(self.normal.b - e3)
-
-    def deficit(self, x: Array) -> Array:
-        """f p - q at |x| < c."""
-        normal = self.normal
-        p, q = normal.pressure_and_shear(np.abs(x))
-        values: Array = normal.flat.friction * p - normal.sign * np.sign(x) * q
-        return values
 
 
 class Known(NamedTuple):
@@ -121,9 +85,7 @@ class SpreadingMarch:
     def __init__(self, beginning: Beginning, kinks: tuple[float, ...] = (), n: int = DEGREE):
         self.beginning, self.normal, self.n = beginning, beginning.normal, n
         self.kinks = sorted(k for k in kinks if k > 0.0)
-        self.history = SpreadingHistory(
-            beginning.rates, beginning.normal.b, beginning.normal.slip_width
-        )
+        self.history = SpreadingHistory(beginning.rates, beginning.normal.b, beginning.rest)
         self._jacobian: Array | None = None
         self._far, self._ended, self._sums = 0.0, 0.0, 0
 
@@ -131,38 +93,69 @@ class SpreadingMarch:
         """About s under Q."""
         return GAIN * self.normal.flat.beta * Q / self.normal.load * self.normal.b
 
-    def started(self, s: float) -> None:
-        """The first panel, up to s."""
-        self._far = s / START
-        b, rest = self.normal.b, self.normal.slip_width
+    @property
+    def moved(self) -> float:
+        """About how far the zones move up to Q, over b."""
+        return (self._far + self._expected_way(self._far)[0]) / self.normal.b
+
+    @property
+    def lenience(self) -> float:
+        """How much more parts of small changes may err than those of large ones."""
+        return max(1.0, math.sqrt(LARGE / self.moved))
+
+    def _expected_way(self, s: float) -> tuple[float, float]:
+        """About ε2 at a small s, and the power with which it goes.
+
+        Where c is small, the slip zones being wide, f p - q under P alone is about f p (ε2/c)^(3/2)
+        up to x = 0, and 2 f p beyond, and q̇ = 1/π (e2 - x)^(-1/2) b^(-1/2).
+        """
+        normal, c, b = self.normal, self.history.c, self.normal.b
+        if c > NARROW_STICK * b:
+            return 1.6 * s + math.sqrt(s * self.beginning.rest), POWERS[0]
+        before = self.beginning.friction * float(normal.pressure(np.array([0.1 * b]))[0])
+        load = 1.0 / (self.expected(1.0) * before)
+        way = 0.9 * math.sqrt(load * s * c * math.sqrt(c / b))
+        if way < c:
+            return way, 0.5
+        back = (0.25 * load * s) ** 2 / b
+        return c + back, 2.0 * back / (c + back)
+
+    def _early(self, s: float) -> float:
+        """How much more what happens at s may err than at the load."""
+        return max(self._far / s, 1.0) ** FORGOTTEN
+
+    def started(self, far: float) -> None:
+        """The first panel where s is about `far` under Q."""
+        self._far, b = far, self.normal.b
+        s = far * min(max(START, math.sqrt(STARTS / self.moved)), LATEST)
         at = s * np.array(FIRST_POINTS)
-        e2, e3 = 1.6 * s + math.sqrt(s * rest), 0.9 * s
-        half = 0.5 * math.log(at[1] / at[0])
-        series = np.array(
-            [[0.0, 0.0], *([math.log(e), half * a] for e, a in zip((e2, e3), POWERS, strict=True))]
-        )
-        panel = SpreadingPanel(at[0], at[1], series, True)
-        self.history.width = self.history.strip_width(s, e2, e3)
+        e2, power = self._expected_way(s)
+        self.history.width = self.history.strip_width(s, e2, SPREAD * s)
         self.history.strip = self.history.width > SEEN * b
-        if self.history.width > STRIP * self._far:
-            raise ContactError(
-                f"a zone of the width {self.history.width:.3g} next to the edge keeps the slip of "
-                f"the normal load, which is not narrow beside the {self._far:.2g} that the contact "
-                "gains"
-            )
+        # Where the slip zone was narrow all ways go with s at once
+        for powers, middle in (((power, POWERS[1]), s), ((1.0, 1.0), math.sqrt(at[0] * at[1]))):
+            ways = (self._expected_way(middle)[0], powers[0]), (SPREAD * middle, powers[1])
+            found = self._first(at, ways)
+            if found is not None:
+                self.history.panels = (found,)
+                return
+        raise ContactError("no state is found from which to follow it over smaller loads")
+
+    def _first(self, at: Array, ways: tuple[tuple[float, float], ...]) -> SpreadingPanel | None:
+        """The first panel from guesses of the ways and of their powers."""
+        half = 0.5 * math.log(at[1] / at[0])
+        series = np.array([[0.0, 0.0], *([math.log(e), half * power] for e, power in ways)])
+        panel = SpreadingPanel(at[0], at[1], series, True)
         with np.errstate(all="ignore"):
             missed = self._missed(panel, at, self._known(panel, at))
             if missed[1] < 1.0:
                 series[0, 0] -= math.log(1.0 - missed[1])
-            found = self._solved(SpreadingPanel(at[0], at[1], series, True), at)
-        if found is None:
-            raise ContactError("no state is found from which to follow it over smaller loads")
-        self.history.panels = (found,)
+            return self._solved(SpreadingPanel(at[0], at[1], series, True), at)
 
     def marched(self, Q: float) -> float:
         """Panels up to the load Q; s there."""
         history, b = self.history, self.normal.b
-        self.started(START * self.expected(Q))
+        self.started(self.expected(Q))
         while (load := history.load(math.inf)) < Q:
             last = history.panels[-1]
             if last.hi > WIDEST * b or len(history.panels) > MOST:
@@ -181,11 +174,14 @@ class SpreadingMarch:
         from_b, to_c, to_b, at = np.array([[0.0], [b + c], [2.0 * b], [s]])
         places = Places(from_b, to_c, to_b, at)
         p, r, _ = self.history.inside(places)[:, 0]
-        if not r > -EXCEEDED * self.normal.flat.friction * p:
+        if not r > -EXCEEDED * self.beginning.friction * p:
             raise LargerLoad(OPEN)
 
     def missed(self, s: float) -> float:
-        """What the conditions miss at s, which is no node, over their known parts."""
+        """What the conditions miss at s, which is no node, over what they are at b from an edge.
+
+        Their known parts go with the root of the ways, or count only so near to e2.
+        """
         history, panel = self.history, self.history.panel_of(s)
         kept, at = history.panels, np.array([s])
         history.panels = tuple(p for p in kept if p.hi <= panel.lo)
@@ -193,7 +189,8 @@ class SpreadingMarch:
             gaps = self._missed(panel, at, self._known(panel, at))
         finally:
             history.panels = kept
-        return float(np.abs(gaps).max())
+        ways = np.array([s, *self.history.zones(s)[::-1]])
+        return float((np.abs(gaps) * np.sqrt(ways / self.normal.b)).max())
 
     def _at_load(self, Q: float) -> float:
         panel = self.history.panels[-1]
@@ -221,9 +218,8 @@ class SpreadingMarch:
             found = self._panel(last, lo, hi)
             if found is not None:
                 tail = float(np.abs(found.series[:, -2:]).max())
-                # Errors are forgotten like a power of s
                 noise = NOISE * EPS * self.normal.b / lo
-                if tail < max(DECAYED * max(self._far / lo, 1.0), noise):
+                if tail < max(DECAYED * self._early(lo) * self.lenience, noise):
                     break
                 if math.log(hi / lo) < SHORTEST:
                     break
@@ -243,7 +239,7 @@ class SpreadingMarch:
 
     def _entry(self, panel: SpreadingPanel) -> float:
         """s at which ε3 = b - c, if on the panel; otherwise 0."""
-        aim, y = math.log(self.normal.slip_width), np.linspace(-1.0, 1.0, 65)
+        aim, y = math.log(self.beginning.rest), np.linspace(-1.0, 1.0, 65)
         way = chebyshev.evaluate(panel.series[2], y) - aim
         k = np.flatnonzero((way[:-1] < 0.0) & (way[1:] >= 0.0))
         if not k.size:
@@ -309,8 +305,10 @@ class SpreadingMarch:
         if panel.first:
             return self._iterated(panel, s, None, settled)
         known = self._known(panel, s)
-        moved = self._before(panel, s, known.logs + STEP)
-        known = known._replace(slopes=(moved - known.values) / STEP)
+        rounding = ROUNDINGS * EPS * self.normal.b / float(s.min())
+        step, linear = max(STEP, math.sqrt(rounding)), max(LINEAR, settled)
+        moved = self._before(panel, s, known.logs + step)
+        known = known._replace(slopes=(moved - known.values) / step)
         for _ in range(ROUNDS):
             finish = gap < NEAR
             found = self._iterated(panel, s, known, settled if finish else ROUGHLY * gap)
@@ -319,12 +317,12 @@ class SpreadingMarch:
             panel, logs = found, np.log(np.array(found(s)[1:]))
             way = logs - known.logs
             gap = float(np.abs(way).max())
-            if finish and gap < LINEAR:
+            if finish and gap < linear:
                 return panel
             values = self._before(panel, s, logs)
             if not np.isfinite(values).all():
                 return None
-            far = np.abs(way) > LINEAR
+            far = np.abs(way) > linear
             secant = (values - known.values) / np.where(far, way, 1.0)
             slopes = np.where(far, secant, known.slopes)
             known = known._replace(logs=logs, values=values, slopes=slopes)
@@ -338,8 +336,7 @@ class SpreadingMarch:
         return Known(self.beginning.steepness(s), taken, logs, values, 0.0 * values)
 
     def _settled(self, s: float) -> float:
-        early = self._far / s
-        return max(SETTLED * max(early, 1.0), ROUNDINGS * EPS * self.normal.b / s)
+        return max(SETTLED * self._early(s) * self.lenience, ROUNDINGS * EPS * self.normal.b / s)
 
     def _iterated(
         self, panel: SpreadingPanel, s: Array, known: Known | None, settled: float
@@ -363,38 +360,9 @@ class SpreadingMarch:
             return self._missed(trial, s, known or self._known(trial, s))
 
         J = None if panel.first else self._jacobian
-        now, fresh = missed(values), False
-        for _ in range(STEPS):
-            if not np.isfinite(now).all():
-                return None
-            if J is None or J.shape[0] != 3 * n:
-                J, fresh = _differences(missed, values, now), True
-            try:
-                step = -np.linalg.solve(J, now)
-            except np.linalg.LinAlgError:
-                return None
-            size = float(np.abs(step).max())
-            step *= min(1.0, FARTHEST / size)
-            later = missed(values + step)
-            if not np.abs(later).max() < max(2.0 * np.abs(now).max(), LOST):
-                if not fresh:
-                    J = None
-                    continue
-                step *= CUT
-                later = missed(values + step)
-                if not np.isfinite(later).all():
-                    return None
-            J = J + np.outer(later - now - J @ step, step) / (step @ step)
-            values, now, fresh = values + step, later, False
-            if size < settled:
-                if not panel.first:
-                    self._jacobian = J
-                return of(values)
-        return None
-
-
-def _differences(missed: Callable[[Array], Array], values: Array, now: Array) -> Array:
-    """The derivatives of what is missed, `now` at the values."""
-    columns = [missed(values + STEP * unit) - now for unit in np.eye(len(values))]
-    J: Array = np.array(columns).T / STEP
-    return J
+        found = zero(missed, values, J if J is not None and len(J) == 3 * n else None, settled)
+        if found is None:
+            return None
+        if not panel.first:
+            self._jacobian = found[1]
+        return of(found[0])
