@@ -15,6 +15,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from sie.numerics import chebyshev
 from sie.numerics.graded_rule import GRADING, NODES, balanced, graded, on_panels
 from sie.numerics.interval import EPS, Interval, angles, inner, position
 from sie.profiles.power_law import PowerSlope
@@ -84,21 +85,40 @@ def composite_rule(
             g, w = edge_rule(NODES, power)
             angle[k] = abs(start - length[k] * g)
             weight[k] = length[k] * w / g**power
-    angle, weight = angle.ravel(), (weight * contact.r * np.sin(angle)).ravel()
+    x = position(contact, angle)
+    _count_from_breaks(x, contact, edges, np.union1d(inner(contact, resolution.breaks), also))
+    x, weight, angle = x.ravel(), (weight * contact.r * np.sin(angle)).ravel(), angle.ravel()
     if not epsilon:
-        return Rule(
-            position(contact, angle), angle, weight, position(contact, large), slice(None), contact
-        )
+        return Rule(x, angle, weight, position(contact, large), slice(None), contact)
     large = large[(large > edges[1]) & (large < edges[-2])]
     x2, x1 = position(contact, edges[[1, -2]]).tolist()
     return Rule(
-        position(contact, angle),
+        x,
         angle,
         weight,
         position(contact, large),
         slice(NODES, -NODES),
         Interval(x1, x2),
     )
+
+
+def _count_from_breaks(x: Array, contact: Interval, edges: Array, breaks: Array) -> None:
+    """Count the nodes x (panels, NODES) on both panels beside each break from that break.
+
+    By their angles alone they are rounded like the edges of the contact: with a corner at
+    x = -1e-300 a node at x = 0 would take the logarithm of 1e-300 for that of its distance.
+    """
+    start, length = angles(contact, breaks)[::-1], np.diff(edges)
+    k = np.searchsorted(edges, start).clip(max=len(length))
+    found = edges[k] == start
+    g = chebyshev.gauss_legendre(NODES)[0]
+    for beside, step in ((k, g), (k - 1, -g[::-1])):  # x falls as the angle grows
+        # the panels next to the edges have a rule of their own
+        chosen = found & (beside > 0) & (beside < len(length) - 1)
+        j, psi = beside[chosen], start[chosen, None]
+        half_turn = 0.5 * length[j, None] * step
+        offset = -2.0 * contact.r * np.sin(half_turn) * np.sin(psi + half_turn)
+        x[j] = breaks[chosen, None] + offset
 
 
 def edge_graded_rule(contact: Interval) -> Rule:

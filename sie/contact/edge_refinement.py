@@ -142,8 +142,10 @@ class Polish:
             rounding = ROUNDINGS * (r * (k.size1 + k.size2) + target * (1.0 + abs(lever) / r)) + (
                 math.pi * self.noise(contact) * r if self.slope.functions else 0.0
             )
-            missed = (abs(half) + abs(turned)) / rounding
-            if missed < before or missed <= 1.0:
+            # Not in units of the rounding, which the tilt lessens: it would bar the way from here
+            missed = abs(half) + abs(turned)
+            settled = missed <= rounding
+            if missed < before or settled:
                 tilt -= k.I0 / math.pi
                 outwards = (
                     self.outwards(contact, LEFT, half + turned, rise1, 0.5),
@@ -156,7 +158,7 @@ class Polish:
             else:
                 share *= 0.5
             moved = last.moved(-share * steps[0], share * steps[1])
-            if missed <= 1.0:
+            if settled:
                 return moved, k._replace(I0=0.0), tilt
             if moved == contact or not (lo < moved.x1 and moved.x2 < hi):
                 return None

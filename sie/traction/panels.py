@@ -26,6 +26,7 @@ from sie.numerics.cauchy_sums import SEPARATED, KernelSums
 from sie.numerics.interval import EPS
 from sie.profiles.slope import JUMP, SEEN_JUMP
 
+from .near_breaks import ContinuousBreaks
 from .piece_quadrature import Geometry, quadrature_order
 
 Array = NDArray[np.float64]
@@ -37,6 +38,8 @@ GROWTH = 64.0
 MANY = 24
 # Chebyshev coefficients below this fraction of the largest slope in the contact are rounding.
 CHOP = 0.5 * EPS
+# Part of a piece that is next to a break: there the logarithm is more than 7 (`near_breaks`).
+NEXT_TO_BREAK = 1e-3
 TERMS = 23  # of the series beyond FAR_FIELD (`outer_series`), where |ρ|^22 <= 0.172^22 is rounding
 
 
@@ -241,6 +244,24 @@ class Panels:
         H[~meets & ~jumps] = 0.0  # no slope to meet, and its own is rounding
         jump = np.where(meets_next & jumps[1], np.append(H[0, 1:], 0.0) - H[1], 0.0)
         return Breaks(g.ends, v, H, jump, meets_next)
+
+    @cached_property
+    def continuous_breaks(self) -> ContinuousBreaks:
+        """The breaks where H does not jump; near them both closed forms serve."""
+        g, half = self.geometry, self.half_length
+        k = np.flatnonzero(g.ends[1, :-1] == g.ends[0, 1:])
+        if len(k) and self.jumps:
+            k = k[~np.isin(g.ends[1, k], [e for e, _ in self.jumps])]
+        part = half * np.minimum(2.0 * NEXT_TO_BREAK, 0.5 * (self.reach_in_s - 1.0))
+        d, left, right = np.minimum(part[k], part[k + 1]), g.root_left[1, k], g.root_right[1, k]
+        k, d, left, right = (a[(d > 0.0) & (left * right > 0.0)] for a in (k, d, left, right))
+        # L_e there, but for a constant of the size 1 where the exponents are not 1/2
+        level = np.log(d) - math.log(8.0 * self.contact.r) - 2.0 * np.log(left * right)
+        divided = [
+            (chebyshev.divided(self.series[piece], end).T, half[piece])
+            for piece, end in ((k, 1.0), (k + 1, -1.0))
+        ]
+        return ContinuousBreaks(g.ends[1, k], left, right, d, level, divided)
 
     @cached_property
     def kinks(self) -> tuple[tuple[float, float], ...]:

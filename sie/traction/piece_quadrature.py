@@ -37,6 +37,8 @@ NARROW_ANGLE = 0.02
 # integrand.
 NODES_PER_FOLD = 3
 SPARE = 6
+LONG = 1e16  # a ratio of distances to which 1 adds nothing
+FOLDS = 46.0  # e^-46 is nothing beside rounding
 SHORTEST = 1e-300  # half a length that may be divided by
 
 
@@ -215,46 +217,60 @@ class SlidingGeometry(Geometry):
         """Nodes and weights of dt/w on every piece, (K, N) with N >= n, and signs.
 
         The nodes are offsets t - lo and angles from the nearer edge. The sign is +1 where the left
-        edge is the nearer.
+        edge is the nearer. The nodes that a piece does not need have the weight 0.
         """
-        a, b, d = self.root_left[0], self.root_right[0], self.root_right[1]
-        width = 2.0 * self.contact.r
-        with np.errstate(divide="ignore", over="ignore"):
-            folds = np.log1p(self.length / (width * (a * d) ** 2))  # ln τ_hi / τ_lo
-        interior = np.isfinite(folds)
-        n += SPARE + math.ceil(NODES_PER_FOLD * float(folds[interior].max(initial=0.0)))
-        left = self.left[0] + self.left[1] < 1.0
-        offset, angle, weight = np.empty((3, len(self.k), n))
-        g, w = chebyshev.gauss_legendre(n)
-        u = folds[interior, None] * g
-        from_left = (
-            (a[interior] ** 2)[:, None]
-            * np.exp(u)
-            / ((b[interior] ** 2)[:, None] + (a[interior] ** 2)[:, None] * np.exp(u))
-        )
-        from_right = (b[interior] ** 2)[:, None] / (
-            (b[interior] ** 2)[:, None] + (a[interior] ** 2)[:, None] * np.exp(u)
-        )
-        offset[interior] = width * (a[interior] ** 2)[:, None] * np.expm1(u) * from_right
-        angle[interior] = 2.0 * np.arcsin(
-            np.sqrt(np.where(left[interior, None], from_left, from_right))
-        )
-        weight[interior] = (
-            folds[interior, None]
-            * w
-            * from_left ** (0.5 - self.epsilon)
-            * from_right ** (0.5 + self.epsilon)
+        folds, left = self._folds, self.left[0] + self.left[1] < 1.0
+        # Nearer to an edge than that, what is left of dt/w is rounding of the piece
+        interior = folds < FOLDS / (0.5 - abs(self.epsilon))
+        n += SPARE
+        most = n + math.ceil(NODES_PER_FOLD * float(folds[interior].max(initial=0.0)))
+        offset, angle, weight = np.zeros((3, len(self.k), most))
+        offset[interior], angle[interior], weight[interior] = self._between(
+            interior, left[interior], most
         )
         for k in np.flatnonzero(~interior).tolist():
-            offset[k], angle[k], weight[k] = self._at_edge(k, n)
+            offset[k, :n], angle[k, :n], weight[k, :n] = self._at_edge(k, bool(left[k]), n)
         return offset, angle, weight, np.where(left, 1.0, -1.0)[:, None]
 
-    def _at_edge(self, k: int, n: int) -> tuple[Array, Array, Array]:
+    @property
+    def _folds(self) -> Array:
+        """ln τ_hi/τ_lo of every piece; infinite where it ends at an edge."""
+        (a, c), (b, d) = self.root_left, self.root_right
+        with np.errstate(divide="ignore", over="ignore", invalid="ignore"):
+            rise = self.length / (2.0 * self.contact.r * (a * d) ** 2)
+            # As a quotient it overflows where an end is the least double away from an edge
+            long = 2.0 * (np.log(c / a) + np.log(b / d))
+            folds: Array = np.where(rise < LONG, np.log1p(rise), long)
+        folds[(a == 0.0) | (d == 0.0)] = np.inf
+        return folds
+
+    def _between(
+        self, inner: NDArray[np.bool_], left: NDArray[np.bool_], n: int
+    ) -> tuple[Array, Array, Array]:
+        """The nodes on the pieces that end at no edge; `left` where the left one is the nearer.
+
+        ln τ is counted from the end that is farther from the nearer edge. `near` and `other` are
+        the distances from that edge and from the other one over the width, there and at the nodes.
+        """
+        (a, c), (b, d) = self.root_left[:, inner], self.root_right[:, inner]
+        left, folds = left[:, None], self._folds[inner, None]
+        g, w = chebyshev.gauss_legendre(n)
+        near, other = (
+            np.where(left, at_left[:, None], at_right[:, None]) ** 2
+            for at_left, at_right in ((c, b), (d, a))
+        )
+        near = near * np.exp(-folds * np.where(left, g[::-1], g))
+        near, other = near / (near + other), other / (near + other)
+        from_left, from_right = np.where(left, near, other), np.where(left, other, near)
+        offset = 2.0 * self.contact.r * (b**2)[:, None] * from_left * -np.expm1(-folds * g)
+        weight = folds * w * from_left ** (0.5 - self.epsilon) * from_right ** (0.5 + self.epsilon)
+        return offset, 2.0 * np.arcsin(np.sqrt(near)), weight
+
+    def _at_edge(self, k: int, at_left: bool, n: int) -> tuple[Array, Array, Array]:
         """The nodes on the piece between an edge and some point.
 
         The singular factor ψ^(∓2ε) of dt/w is in the rule's weights.
         """
-        at_left = self.cut_left and k == 0
         sign = -2.0 * self.epsilon if at_left else 2.0 * self.epsilon
         g, w = edge_rule(n, sign)
         root_near, root_far = (
@@ -267,7 +283,7 @@ class SlidingGeometry(Geometry):
         # t - lo, from the left edge, or from lo towards the right edge, as products
         swept, other = (angle, 0.0 * angle) if at_left else (whole - angle, angle)
         offset = 2.0 * self.contact.r * np.sin(0.5 * swept) * np.sin(0.5 * swept + other)
-        smooth = (np.tan(0.5 * angle) / g) ** sign
+        smooth = (np.tan(0.5 * angle) / g) ** sign if whole else 1.0
         return offset, angle, whole * w * smooth
 
     def weighted_derivative(self, offset: Array, angle: Array, weight: Array, H: Array) -> Array:

@@ -10,9 +10,9 @@ H_k, Q_k the polynomials of piece k (`panels`), [lo, hi] its ends,
     N    = Σ_k v(lo) D_lo - v(hi) D_hi + (z - x1)(z - x2) Q_k' + M Q_k  +  Σ_e v(e) [H]_e / (z - e)
 
 where D_e = (H_k(z) - H_k(e)) / (z - e) is a polynomial, [H]_e the jump of the slope at a break, and
-M = (1/2+ε)(z - x2) + (1/2-ε)(z - x1): nothing cancels next to a break. V' is the derivative of V;
-H = (|t| - a)/R gives back Fp' of the rounded punch (Ciavarella, Hills & Monno 1998, after eq.
-(23)).
+M = (1/2+ε)(z - x2) + (1/2-ε)(z - x1): no poles cancel next to a break, and on the contact no
+logarithms (`near_breaks`). V' is the derivative of V; H = (|t| - a)/R gives back Fp' of the rounded
+punch (Ciavarella, Hills & Monno 1998, after eq. (23)).
 
 Where a piece is far, its Gauss rule serves: V = X S and N = M S + (z - x1)(z - x2) S' with
 S = ∫H/(w (t - z)) dt. Of many pieces whole branches are summed at once (`cauchy_sums`), and pairs
@@ -69,8 +69,12 @@ def on_contact(p: Panels, x: Array) -> Array:
     """w(x) PV∫ H / (w (t - x)) dt inside the contact; infinite at a jump of H."""
     if p.many and len(x) > CHUNK:
         return np.concatenate([on_contact(p, x[part]) for part in chunks(len(x))])
-    roots = p.edge.on_contact(x, p.geometry.slope.continuous and not p.many)
-    V, _ = _on_line(p, x, *roots, served=p.serves_contact)
+    w, function_of = p.edge.on_contact(x, p.geometry.slope.continuous and not p.many)
+    near = p.continuous_breaks.near(x)
+    levelled = near.levelled(function_of) if near else function_of
+    V, _ = _on_line(p, x, w, levelled, served=p.serves_contact)
+    if near:
+        V[near.i] += near.left_out(function_of, x)
     for e, infinite in p.jumps:
         V[x == e] = infinite
     return V

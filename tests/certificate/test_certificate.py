@@ -289,6 +289,20 @@ def test_a_tilted_power_next_to_a_wedge_is_certified(exponent, tilt):
     assert sie.solve(sie.Scene(profile=profile, modulus=1.0, normal_load=0.3, tilt=tilt)).check().ok
 
 
+@pytest.mark.parametrize("corner", [0.0, -1e-30, -2.1426e-288, 5e-324])
+def test_equilibrium_at_a_corner_next_to_x_0_is_measured_to_rounding(corner):
+    """A node of the rule that rounding puts at x = 0 takes ln 1e-288 for the logarithm of its
+    distance from the corner: the error was 3e-13 of the load.
+    """
+    profile = sie.Piecewise((-math.inf, corner, math.inf), ((-0.487, 0.2), (0.513, 0.2)))
+    scene = sie.Scene(
+        profile=profile, modulus=2.0, dundurs=-5e-6, friction=2.0, sliding=1, normal_load=1e-3
+    )
+    certificate = sie.solve(scene).check()
+    assert certificate.force < 4e-15  # a few roundings of 1000 values; 4e-16 was measured
+    assert certificate.moment < 4e-15
+
+
 # -- small strains --------------------------------------------------------------------------------
 
 

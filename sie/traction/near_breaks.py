@@ -1,0 +1,90 @@
+"""V(x) next to a break where H is continuous, on the contact.
+
+The two pieces that meet at a break e add to V
+
+    (H_left(x) - H_right(x)) L_e(x),        L_e ~ ln|x - e|
+
+and nothing at e. Of a function's two series the difference there is what these miss, and rounding,
+which the logarithm multiplies by up to 36. Nearer than a distance d that is a small part of both
+pieces, L_e keeps its value at that distance, and what this leaves out is taken of the divided
+differences D = (H(x) - H(e))/(x - e), which are polynomials:
+
+    (x - e)(D_left(x) - D_right(x)) ln(|x - e|/d)
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sie.numerics import chebyshev
+
+from .edge_functions import BreakFunction
+
+Array = NDArray[np.float64]
+Index = NDArray[np.int64]
+
+
+class ContinuousBreaks(NamedTuple):
+    """The breaks where two pieces meet without a jump of H, ascending; all (B,).
+
+    e           the break
+    e_left      sqrt((e - x1)/2r)
+    e_right     sqrt((x2 - e)/2r)
+    d           the distance up to which a point is near
+    level       L_e at that distance
+    divided     D in T_n(s), per unit of s, and the half-length: of the left and of the right piece
+    """
+
+    e: Array
+    e_left: Array
+    e_right: Array
+    d: Array
+    level: Array
+    divided: list[tuple[Array, Array]]
+
+    def near(self, x: Array) -> NearBreaks | None:
+        """The ascending points x that are near a break; None if there are none."""
+        first, last = x.searchsorted(self.e - self.d), x.searchsorted(self.e + self.d, "right")
+        some = np.flatnonzero(first < last)
+        if not len(some):
+            return None
+        i = np.concatenate([np.arange(*ends) for ends in zip(first[some], last[some], strict=True)])
+        return NearBreaks(self, i, np.repeat(some, (last - first)[some]), len(x))
+
+
+class NearBreaks(NamedTuple):
+    """The points near a break: their indices i among `size` points, and those of the breaks."""
+
+    breaks: ContinuousBreaks
+    i: Index
+    which: Index
+    size: int
+
+    def levelled(self, function_of: BreakFunction) -> BreakFunction:
+        """The function of a break, with its level at the points that are near it."""
+        e, level = np.full((2, self.size), np.nan)
+        e[self.i], level[self.i] = self.breaks.e[self.which], self.breaks.level[self.which]
+
+        def other(of: Any, of_left: Any, of_right: Any, at: Any) -> Any:
+            L = function_of(of, of_left, of_right, at)
+            here = e[at] == of
+            L[here] = level[at][here]
+            return L
+
+        return other
+
+    def left_out(self, function_of: BreakFunction, x: Array) -> Array:
+        """(x - e)(D_left - D_right)(L_e - level) at those points."""
+        b, k = self.breaks, self.which
+        offset = x[self.i] - b.e[k]
+        difference = np.zeros(len(k))
+        for (D, half), end in zip(b.divided, (1.0, -1.0), strict=True):
+            if len(D):
+                in_s = offset / half[k]
+                difference += end * in_s * chebyshev.evaluate(D[:, k], end + in_s)
+        L = function_of(b.e[k], b.e_left[k], b.e_right[k], self.i)
+        added: Array = difference * (L - b.level[k])
+        return added
