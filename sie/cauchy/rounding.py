@@ -1,9 +1,9 @@
 """The error of a density by rounding of the equation's terms and of their positions.
 
-The residual does not show this error. Next to a narrow gap, equally small residuals belong to
-densities further apart, and a small quantity there, as the coefficient of a bounded end, has the
-absolute error of the large ones. So roundings are drawn at random, and the equation is solved for
-them.
+The residual does not show this error. Near an eigenvalue of the equation and next to a narrow
+gap, equally small residuals belong to densities further apart, and in a gap a small quantity, as
+the coefficient of a bounded end, has the absolute error of the large ones. So roundings are drawn
+at random, and the equation is solved for them.
 
 Source: Higham, Accuracy and Stability of Numerical Algorithms (2002), § 1.6, for errors by
 perturbation.

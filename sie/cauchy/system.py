@@ -34,7 +34,6 @@ from .formulation import (
     sample_kernel,
     solved,
 )  # fmt: skip
-from .interval_map import Affine
 from .kernel import Series
 from .rounding import Spread, signs, spread, unsure
 
@@ -274,10 +273,10 @@ class System:
     def _spreads(self, c: Array, sizes: Array) -> list[Spread]:
         """The effect of rounding on each interval, by the sizes of the terms rounded at the rows.
 
-        On affine intervals, where the matrix is well conditioned, the residual shows it; where
-        GMRES serves, more solutions cost too much.
+        Near an eigenvalue of the equation, and next to narrow gaps, the residual does not show it.
+        Where GMRES serves, more solutions cost too much.
         """
-        if all(isinstance(m, Affine) for m in self.problem.maps) or len(self.rhs) > DENSE:
+        if len(self.rhs) > DENSE:
             return []
         rounded = signs(len(sizes) + len(self.rhs))
         at_rows, at_sums = rounded[: len(sizes)], rounded[len(sizes) :]
@@ -287,8 +286,10 @@ class System:
                 self._projected(sizes[:, None] * at_rows),
             )
         )[self.order]
-        sums = (np.abs(self._matrix[:, : len(c)]) @ np.abs(c))[:, None] * at_sums
-        off = solved(self._matrix, terms + sums)
+        sums = np.abs(self._matrix[:, : len(c)]) @ np.abs(c)
+        # Near an eigenvalue the identity and the smooth part cancel; both were rounded before
+        sums[: len(c)] += np.abs(c)
+        off = solved(self._matrix, terms + sums[:, None] * at_sums)
         of_interval = zip(
             self.problem.maps, self.problem.weights, self.blocks, self._column_slices, strict=True
         )
