@@ -64,7 +64,8 @@ def spread(
 
 
 def _root_mean_square(draws: Array) -> Array:
-    out: Array = np.sqrt(np.mean(np.abs(draws) ** 2, axis=1))
+    largest = float(np.abs(draws).max()) or 1.0  # whose square may be no number
+    out: Array = largest * np.sqrt(np.mean(np.abs(draws / largest) ** 2, axis=1))
     return out
 
 

@@ -257,17 +257,14 @@ class System:
         for block, weight, at in zip(
             self.blocks, self.problem.weights, self._column_slices, strict=True
         ):
+            of_row = float(np.abs(c[at]).max()) / sizes
             first, last = (
-                np.abs(self.kernel[:, at] @ block.quadrature[:, part]).max(axis=1) / sizes
+                np.abs(self.kernel[:, at] @ block.quadrature[:, part]).max(axis=1) * of_row
                 for part in (_FIRST, _LAST)
             )
             tail, largest = float(last.max()), max(float(first.max()), float(last.max()))
             decay = tail / positive(largest)
-            missed.append(
-                float(np.abs(c[at]).max())
-                * tail
-                * (decay if weight.is_real else float(decay > NEGLIGIBLE))
-            )
+            missed.append(tail * (decay if weight.is_real else float(decay > NEGLIGIBLE)))
         return missed
 
     def _spreads(self, c: Array, sizes: Array) -> list[Spread]:
