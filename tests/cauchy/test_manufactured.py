@@ -50,7 +50,7 @@ def test_the_manufactured_integrals_agree_with_quadrature(a, ends):
 
 
 @given(problems())
-def test_a_manufactured_density_is_found_with_at_most_twice_the_nodes_it_needs(problem):
+def test_a_manufactured_density_is_found_with_few_more_nodes_than_it_needs(problem):
     manufactured, a, b, ends, kernels = problem
     (d,) = manufactured
     density = equation_of(manufactured, a, b, ends, kernels).solve()
@@ -64,12 +64,18 @@ def test_a_manufactured_density_is_found_with_at_most_twice_the_nodes_it_needs(p
     )
     size = np.abs(exact(d.value, x)).max()
     assert np.abs(density.cauchy(x, side=0) - exact(d.cauchy, x)).max() <= 4 * PROMISE * size
-    assert density.n[0] <= 2 * max(
-        needed([d], PROMISE)[0],
-        needed([d], PROMISE, right_hand_side(manufactured, a, b, kernels))[0],
-        4,
-    )
+    g = right_hand_side(manufactured, a, b, kernels)
+    assert density.n[0] <= nodes_for(d, g)
     assert density.error <= PROMISE
+
+
+def nodes_for(d, g):
+    """Twice as many as f and g need. Sizes grow by 1.45 until the last two coefficients are below a
+    tenth of the tolerance, one later than those of g for two singular ends: where few are needed,
+    the size after that may be more than twice.
+    """
+    enough, tenth = (max(needed([d], t)[0], needed([d], t, g)[0]) for t in (PROMISE, 0.1 * PROMISE))
+    return max(2 * max(enough, 4), 1.45 * (tenth + 3) + 1)
 
 
 def peak_of(d):
