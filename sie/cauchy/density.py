@@ -261,7 +261,8 @@ class JacobiDensity(Density):
         The number of nodes on each interval that the solver chose.
     error : float
         Estimated error of φ over its largest value on the interval (singular ends divided out):
-        it follows from the last coefficients, the residual and, next to narrow gaps, rounding.
+        it follows from the last coefficients, the residual and, of up to 600 unknowns with a kernel
+        or several intervals, rounding, which grows next to narrow gaps and near eigenvalues.
     residual : float
         Largest residual of the equation at points that were not used to solve it, over the largest
         term there.

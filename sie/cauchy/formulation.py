@@ -207,7 +207,8 @@ def solved(matrix: Array, rhs: Array) -> Array:
         found = np.linalg.solve(matrix, rhs)
     except np.linalg.LinAlgError:
         found = np.full(len(rhs), np.inf)
-    if not np.linalg.norm(found) <= SINGULAR * np.linalg.norm(rhs):
+    largest = positive(np.abs(rhs).max(initial=0.0))  # whose square may be no number
+    if not np.linalg.norm(found / largest) <= SINGULAR * np.linalg.norm(rhs / largest):
         raise ContactError(
             "the equation is singular: its homogeneous form has a solution that the side "
             "conditions do not fix; give conditions that are independent, for each interval one "

@@ -1,9 +1,9 @@
 """The error of a density by rounding of the equation's terms and of their positions.
 
-The residual does not show this error. Next to a narrow gap, equally small residuals belong to
-densities further apart, and a small quantity there, as the coefficient of a bounded end, has the
-absolute error of the large ones. So roundings are drawn at random, and the equation is solved for
-them.
+The residual does not show this error. Near an eigenvalue of the equation and next to a narrow
+gap, equally small residuals belong to densities further apart, and in a gap a small quantity, as
+the coefficient of a bounded end, has the absolute error of the large ones. So roundings are drawn
+at random, and the equation is solved for them.
 
 Source: Higham, Accuracy and Stability of Numerical Algorithms (2002), § 1.6, for errors by
 perturbation.
@@ -64,7 +64,8 @@ def spread(
 
 
 def _root_mean_square(draws: Array) -> Array:
-    out: Array = np.sqrt(np.mean(np.abs(draws) ** 2, axis=1))
+    largest = float(np.abs(draws).max()) or 1.0  # whose square may be no number
+    out: Array = largest * np.sqrt(np.mean(np.abs(draws / largest) ** 2, axis=1))
     return out
 
 

@@ -6,7 +6,7 @@ import laws
 import numpy as np
 import pytest
 import scipy.special
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from manufactured_problems import (
     KINDS,
@@ -209,9 +209,12 @@ def test_repeated_integrals_may_be_exchanged_by_the_formula_of_poincare_and_bert
 
 
 @given(constants, between(-1.0, 1.0), between(0.5, 2.0), st.sampled_from(KINDS[1:3]))
+@example((1.5260179849842392, 0.3), 1.0, 1.5214466, KINDS[2])  # next to an eigenvalue
 def test_the_adjoint_equation_has_the_adjoint_solution(ab, m, r, ends):
     """T φ = g and T' ψ = g', T' with -b, the kernel transposed and the other ends: then ∫ ψ g = ∫ φ
     g', as sums of total and moment.
+
+    Where r is near that of an eigenvalue both are large, and have the error that they state.
     """
     a, b = ab
     interval = (m - r, m + r)
@@ -223,7 +226,7 @@ def test_the_adjoint_equation_has_the_adjoint_solution(ab, m, r, ends):
     ).solve()  # fmt: skip
     left, right = psi.resultant + 2.0 * psi.moment, 3.0 * phi.resultant - phi.moment
     size = abs(psi.resultant) + 2.0 * abs(psi.moment) + 3.0 * abs(phi.resultant) + abs(phi.moment)
-    assert abs(left - right) <= PROMISE * size
+    assert abs(left - right) <= (PROMISE + phi.error + psi.error) * size
 
 
 @pytest.mark.parametrize("scale", [1.0, -3.0, 1e-100, 1e100])

@@ -75,6 +75,22 @@ def test_a_slit_under_a_linear_load_as_small_or_large_as_numbers_are(p):
     assert density(x) == pytest.approx(closed, rel=max(1e-13, 1e-321 / p))
 
 
+@pytest.mark.parametrize("p", [1e-300, 5e-313, 1e300])
+@pytest.mark.parametrize("cracks", [((-1.0, 1.0),), ((-1.0, 0.0), (1e-3, 1.0))])
+def test_cracks_with_a_kernel_have_as_many_digits_under_the_smallest_and_largest_loads(cracks, p):
+    """And the error that is stated is a number, too."""
+
+    def under(p):
+        return sie.CauchyEquation(
+            cracks, lambda x: p * (1.0 + 0.5 * x), k=lambda x, t: 0.1 * np.cos(x - t),
+            total=(0.0,) * len(cracks),
+        ).solve()  # fmt: skip
+
+    density, x = under(p), np.array([-0.7, 0.7])
+    assert density(x) == pytest.approx(p * under(1.0)(x), rel=max(1e-13, 1e-321 / p))
+    assert density.error < max(PROMISE, 1e-321 / p)
+
+
 @pytest.mark.parametrize("height", [1.0, 0.1, 0.01])
 @pytest.mark.parametrize("place", [0.0, 0.6, -0.95])
 def test_a_slit_under_a_point_load(place, height):

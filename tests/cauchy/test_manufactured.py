@@ -50,7 +50,7 @@ def test_the_manufactured_integrals_agree_with_quadrature(a, ends):
 
 
 @given(problems())
-def test_a_manufactured_density_is_found_with_at_most_twice_the_nodes_it_needs(problem):
+def test_a_manufactured_density_is_found_with_few_more_nodes_than_it_needs(problem):
     manufactured, a, b, ends, kernels = problem
     (d,) = manufactured
     density = equation_of(manufactured, a, b, ends, kernels).solve()
@@ -64,12 +64,18 @@ def test_a_manufactured_density_is_found_with_at_most_twice_the_nodes_it_needs(p
     )
     size = np.abs(exact(d.value, x)).max()
     assert np.abs(density.cauchy(x, side=0) - exact(d.cauchy, x)).max() <= 4 * PROMISE * size
-    assert density.n[0] <= 2 * max(
-        needed([d], PROMISE)[0],
-        needed([d], PROMISE, right_hand_side(manufactured, a, b, kernels))[0],
-        4,
-    )
+    g = right_hand_side(manufactured, a, b, kernels)
+    assert density.n[0] <= nodes_for(d, g)
     assert density.error <= PROMISE
+
+
+def nodes_for(d, g):
+    """Twice as many as f and g need. Sizes grow by 1.45 until the last two coefficients are below a
+    tenth of the tolerance, one later than those of g for two singular ends: where few are needed,
+    the size after that may be more than twice.
+    """
+    enough, tenth = (max(needed([d], t)[0], needed([d], t, g)[0]) for t in (PROMISE, 0.1 * PROMISE))
+    return max(2 * max(enough, 4), 1.45 * (tenth + 3) + 1)
 
 
 def peak_of(d):
@@ -89,14 +95,20 @@ def test_manufactured_densities_on_two_intervals_are_found(problem):
     size = max(np.abs(exact(d.value, inside(d))).max() for d in manufactured)
     for d in manufactured:
         assert np.abs(density(inside(d)) - exact(d.value, inside(d))).max() <= 10 * PROMISE * size
-    z = np.array(
-        [d.x2 + 0.01j for d in manufactured]
-        + [manufactured[0].x1 - 1e-6, manufactured[-1].x2 + 3.0 + 4.0j]
-    )
+    beside = manufactured[0].x1 - 1e-6
+    z = np.array([beside, manufactured[-1].x2 + 3.0 + 4.0j] + [d.x2 + 0.01j for d in manufactured])
     expected = np.array([complex(sum(d.cauchy(complex(v)) for d in manufactured)) for v in z])
-    assert np.abs(density.cauchy(z) - expected).max() <= 10 * PROMISE * max(
-        size, np.abs(expected).max()
-    )
+    bound = np.full(len(z), 10 * PROMISE * max(size, np.abs(expected).max()))
+    bound[0] += PROMISE * reach(manufactured[0], beside)
+    assert (np.abs(density.cauchy(z) - expected) <= bound).all()
+
+
+def reach(d, z):
+    """|W(z)/sin πα| max |f|: next to an end F is W(z) f(z)/sin πα. f, known to its peak, may vanish
+    there by chance while W is large, and F has fewer digits then.
+    """
+    peak = max(abs(d.f(s)) for s in np.linspace(-1.0, 1.0, 21).tolist())
+    return float(abs(d.W((mp.mpf(z) - d.m) / d.r) / mp.sinpi(d.alpha)) * peak)
 
 
 @pytest.mark.parametrize("gap", [1e-1, 1e-3, 1e-6])
@@ -282,3 +294,19 @@ def test_far_from_zero_the_density_has_the_error_of_its_positions_and_states_it(
     far = moved(offset)
     agrees(far(x + offset), moved(0.0)(x), 4.0 * offset * 2.2e-16, "value")
     assert 0.01 * offset * 2.2e-16 <= far.error <= 100.0 * offset * 2.2e-16
+
+
+@pytest.mark.parametrize("distance", [1.0, 1e-4, 1e-8])
+def test_near_an_eigenvalue_the_density_has_the_error_of_rounding_and_states_it(distance):
+    """k = c t has φ = A x/sqrt(1 - x²), A (1 + π/2 c) = 1: c is the nearer to an eigenvalue, the
+    less is left of 1 + π/2 c, and A has the error of rounding over what is left. No residual shows
+    it.
+    """
+    c = -2.0 / np.pi * (1.0 - distance)
+    density = sie.CauchyEquation(
+        (-1.0, 1.0), 1.0, k=lambda x, t: c * t + 0.0 * x, total=0.0
+    ).solve()
+    amplitude = float(1 / (1 + mp.pi / 2 * mp.mpf(c)))
+    x = np.array([-0.9, -0.3, 0.2, 0.7])
+    agrees(density(x), amplitude * x / np.sqrt((1.0 - x) * (1.0 + x)), 3.0 * density.error, "value")
+    assert 2.2e-16 / distance <= density.error <= 50.0 * 2.2e-16 / distance

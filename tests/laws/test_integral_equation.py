@@ -33,13 +33,11 @@ def test_the_pressure_solves_the_integral_equation(scene, seed):
     solution = sie.solve(scene)
     breaks = scene.profile.breaks
     peak = laws.peak(solution.pressure, solution.edges, breaks)
-    rounding = laws.rounding_of_x(solution.pressure, solution.edges, breaks) / (
-        peak * solution.half_width
-    )
     for x in interior(solution, seed):
-        equation = laws.principal_value(solution.pressure, solution.edges, x, breaks)
+        at = solution.pressure, solution.edges, x, breaks
         slope = 0.5 * scene.Estar * (scene.profile.slope(x) + solution.tilt)
-        assert abs(equation - slope) <= (5 * PROMISE + 100 * rounding) * peak
+        off = abs(laws.principal_value(*at) - slope)
+        assert off <= PROMISE * peak + 4 * laws.rounding_of_principal_value(*at)
 
 
 @pytest.mark.parametrize("case", CASES, ids=str)

@@ -74,6 +74,27 @@ def principal_value(pressure: Pressure, interval: Ends, x: float, breaks: Places
     )
 
 
+def rounding_of_principal_value(
+    pressure: Pressure, interval: Ends, x: float, breaks: Places = ()
+) -> float:
+    """What `principal_value` changes by if p does by the rounding of its places t and x.
+
+    Its own nodes count: the finer they are between x and a sharp edge, the nearer to that edge,
+    where p(t) has few digits.
+    """
+    x1, x2 = interval
+    t, weight = rule(interval, breaks, extra=(x,))
+    t, weight = t[t != x], weight[t != x]
+    middle = 0.5 * (x1 + x2)
+
+    def change(at: Array) -> Any:
+        return np.abs(pressure(np.nextafter(at, middle)) - pressure(at))
+
+    here = float(change(np.array([x]))[0])
+    of_x = (weight / np.abs(x - t)).sum() + abs(np.log((x - x1) / (x2 - x)))
+    return float((weight * change(t) / np.abs(x - t)).sum() + here * of_x) / np.pi
+
+
 def rounding_of_x(pressure: Pressure, interval: Ends, breaks: Places = ()) -> float:
     """∫|p(x + 1 ulp) - p(x)| dx: what no pressure of a double x can avoid."""
     x, weight = rule(interval, breaks)
