@@ -34,10 +34,10 @@ from .friction.contact_growth import ContactGrowth
 from .friction.coupled.contact import CoupledContact
 from .friction.coupled.energy import tangential_energy
 from .friction.coupled.normal import coupled_contact
+from .friction.coupled.opening import state_below
 from .friction.coupled.sheared import ShearedContact
 from .friction.coupled.sheared_contact import found_state, sheared_contact
 from .friction.coupled.shift import tangential_shift
-from .friction.coupled.spreading_contact import SpreadingContact, spreading_state
 from .friction.coupled.tangential import TangentialSearch, tangential_search
 from .friction.coupled.traction import OnHalves
 from .friction.coupled.uneven_contact import UnevenContact
@@ -124,7 +124,7 @@ class Solution(Frictionless, StressAnswers):
     def coupled(self) -> tuple[Edges, CoupledContact | UnevenContact | ShearedContact]:
         """The edges and the state of dissimilar bodies in partial slip."""
         if self.scene.tangential_load:
-            edges, state = sheared_contact(self._upright, self.tangential_search, spreading_state)
+            edges, state = sheared_contact(self._upright, self.tangential_search, state_below)
             return replace(edges, tilt=self.scene.tilt), state
         return self.pressed
 
@@ -300,7 +300,7 @@ class Solution(Frictionless, StressAnswers):
         state, pressed = self.coupled[1], self.pressed[1].energy
         if not isinstance(state, ShearedContact):
             return pressed
-        if isinstance(state, SpreadingContact):
+        if state.spreads:
             raise refused_energy(state.Q)
         search = self.tangential_search
         return pressed + tangential_energy(state, partial(found_state, search))

@@ -69,8 +69,8 @@ def sheared_certificate(state: State, scene: Scene, tol: float) -> Certificate:
     H = scene.profile.slope(x)
     missed = float(np.abs(Hp - beta * at_q - 0.5 * scene.Estar * H).max()) / peak
     # What stuck under the lighter load shows whether γ stays
-    ((lo, hi),) = (state.lighter if isinstance(state, UnevenContact) else state).stick
-    stuck = (x > lo) & (x < hi)
+    zones = (state.lighter if isinstance(state, UnevenContact) else state).stick
+    stuck = np.any([(x > lo) & (x < hi) for lo, hi in zones], axis=0)
     before = _kept_gradient(state, x[stuck], beta)
     drift = float(np.abs((Hq + beta * at_p)[stuck] - before).max(initial=0.0)) / of_shear
     m, r = state.contact.m, state.contact.r
