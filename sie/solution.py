@@ -34,10 +34,11 @@ from .friction.contact_growth import ContactGrowth
 from .friction.coupled.contact import CoupledContact
 from .friction.coupled.energy import tangential_energy
 from .friction.coupled.normal import coupled_contact
-from .friction.coupled.opening import state_below
+from .friction.coupled.opened_contact import opened_contact
 from .friction.coupled.sheared import ShearedContact
-from .friction.coupled.sheared_contact import found_state, sheared_contact
+from .friction.coupled.sheared_contact import either, found_state, sheared_contact
 from .friction.coupled.shift import tangential_shift
+from .friction.coupled.spreading_contact import spreading_march, spreading_state
 from .friction.coupled.tangential import TangentialSearch, tangential_search
 from .friction.coupled.traction import OnHalves
 from .friction.coupled.uneven_contact import UnevenContact
@@ -124,7 +125,11 @@ class Solution(Frictionless, StressAnswers):
     def coupled(self) -> tuple[Edges, CoupledContact | UnevenContact | ShearedContact]:
         """The edges and the state of dissimilar bodies in partial slip."""
         if self.scene.tangential_load:
-            edges, state = sheared_contact(self._upright, self.tangential_search, state_below)
+            march = spreading_march(self.tangential_search)
+            below = either(
+                partial(spreading_state, march=march), partial(opened_contact, march=march)
+            )
+            edges, state = sheared_contact(self._upright, self.tangential_search, below)
             return replace(edges, tilt=self.scene.tilt), state
         return self.pressed
 

@@ -37,6 +37,7 @@ Array = NDArray[np.float64]
 State = ShearedContact | ProportionalContact | UnevenContact
 
 PROMISED, OF_SHEAR = 1e-10, 1e-9  # of the largest pressure, and of the largest shear in (12)
+MARCHED = 1e-6  # of the largest shear, where γ is known from a march over smaller loads alone
 NODES, RATIO = 14, 4.0
 NEAREST = 1e-10  # panels next to a mark: the first, in parts of the way to the next
 DISTINCT = 1e3  # roundings of x: the first of these panels at least
@@ -140,8 +141,9 @@ def _of_shear(
             way = f"{'outwards' if scene.beta > 0.0 else 'inwards'} on both sides"
         kind = f"{way} beside the stick zone; β couples p and q"
     excess = float((size - scene.friction * values.p).max()) / (scene.friction * peak)
+    doubt = getattr(state, "doubt", 0.0)
     return ShearCertificate(
-        residual=drift,
+        residual=max(drift, doubt),
         equilibrium=abs(float(values.weight @ values.q) - Q) / float(values.weight @ size),
         excess=max(excess, 0.0),
         opposing=min(state.least_slip, 0.0),
@@ -149,7 +151,7 @@ def _of_shear(
         condition=1.0,
         advancing=True,
         kind=kind,
-        tol=max(tol, OF_SHEAR),
+        tol=max(tol, MARCHED if doubt else OF_SHEAR),
     )
 
 

@@ -19,8 +19,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from sie.errors import ContactError
 from sie.numerics import chebyshev
 from sie.numerics.interval import EPS, Interval
+from sie.problem.coverage import refused_opened
 from sie.traction.base import on_line
 
 from .half_potential import Panels
@@ -28,7 +30,10 @@ from .integral import Integral, integral, on_marks, towards_ends
 from .opened_march import OpenedMarch, OpenedPoint
 from .opened_state import OpenedState
 from .opened_zones import Distances
+from .opening import marched
 from .sheared import EDGE_DEGREE, LOOKED_AT, ShearedContact
+from .spreading_march import SpreadingMarch
+from .tangential import TangentialSearch
 from .traction import joined_panels
 from .two_sided import Known, TwoSidedTraction, both_tractions
 from .zones import Zones
@@ -61,6 +66,12 @@ class OpenedContact(ShearedContact):
     @property
     def spreads(self) -> bool:
         return True
+
+    @property
+    def doubt(self) -> float:
+        """By how much γ on two panels differs where they meet and stick now, over the mean f p."""
+        h1 = self.known.zones.h1
+        return max((jump for s, jump in self.march.jumps if -s < h1), default=0.0)
 
     @property
     def state(self) -> Opened:  # type: ignore[override]
@@ -293,3 +304,23 @@ class OpenedContact(ShearedContact):
         """1/π ∫p/(u - t) dt beside the contact, in the frame."""
         values: Array = self.flip * self.tractions[0].hilbert(self.axis + self.flip * u)
         return values
+
+
+def opened_contact(search: TangentialSearch, Q: float, march: SpreadingMarch) -> ShearedContact:
+    """The state under Q > 0 with β > 0, larger than the load under which the zone opens.
+
+    The march is that to smaller loads, or has not begun. Raises ContactError where none is
+    certified.
+    """
+    try:
+        opened = marched(search, march, Q)
+    # Integrals whose zones are not finite fail in any of these ways
+    except (ContactError, ArithmeticError, ValueError, IndexError, np.linalg.LinAlgError) as error:
+        covered = isinstance(error, ContactError)
+        why = str(error) if covered else "its zones are not found"
+        raise refused_opened(search.beta * search.friction, (Q, search.limit), why) from None
+    if opened.ended:
+        return ShearedContact(search, search.found(Q, arrived=True), Q, 1.0, 1.0)
+    zones, b = opened.zones(opened.last.s, opened.last.logs), search.normal.b
+    edges = Opened(Zones(*(y - b for y in (zones.x1, zones.h2, zones.e2, zones.x2))))
+    return OpenedContact(search, edges, Q, 1.0, 1.0, march=opened, point=opened.last)  # type: ignore[arg-type]

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from sie.numerics.gauss_jacobi import with_weight
 
-from .tangential import TangentialSearch
+from .opened_search import Search
 
 Array = NDArray[np.float64]
 
@@ -57,7 +57,7 @@ class KeptGradient:
     panels      of s for the second, ascending; before the first γ goes with a power of s
     """
 
-    search: TangentialSearch
+    search: Search
     panels: tuple[GradientPanel, ...]
 
     def with_panel(self, panel: GradientPanel) -> KeptGradient:

@@ -19,6 +19,7 @@ from sie.errors import ContactError
 from sie.progress_bar import step_done
 
 from .opened_gradient import GradientPanel, KeptGradient, between
+from .opened_search import SlidingOf
 from .opened_state import OpenedState
 from .opened_zones import OpenedZones
 
@@ -28,7 +29,8 @@ POINTS = 8  # of a panel
 STRIP = 1e-11  # of s: the strip that makes exponents real, about the error of what is found
 FIRST, LONGER, LONGEST = 1.1, 2.0, 1.35  # of s; of s since the zone opened; of s: panels
 SHORTER = 0.5  # of what still sticks beside the edge: what a panel may take
-CLOSED = 2e-6  # of s: less that sticks beside the edge is none
+CLOSED = 1e-6  # of s: less that sticks beside the edge moves x1 by a sixth of it
+NEAR_END, SURELY = 0.05, 3.0  # of s; times the load at which a straight line has it end
 STEP, SETTLED, ROUGH, STALLED = 1e-6, 2e-10, 1e-7, 0.5  # of the unknowns, and of the last step
 FARTHEST, STEPS = 1.0, 14  # of the logarithms, a step; steps
 AGAIN = 0.3  # of the last step: derivatives are taken anew if a step is longer
@@ -48,14 +50,19 @@ class OpenedMarch:
     """The march, panel by panel, from the s at which the zone opens.
 
     kept        γ as far as it is known
-    start       s, with ln of (c - e2)/s and (b - x2)/s
-    before      points before it opened, for the first guess
+    start       s, Q, and ln of (c - e2)/s and (b - x2)/s where the zone opens
+    slopes      of these logarithms with ln s before
+    sliding     computes p_s
+    ended       whether nothing sticks beside the edge under the load that was asked for
     """
 
-    def __init__(self, kept: KeptGradient, start: OpenedPoint, slopes: Array) -> None:
+    def __init__(
+        self, kept: KeptGradient, start: OpenedPoint, slopes: Array, sliding: SlidingOf
+    ) -> None:
         self.kept, self.search, self.start = kept, kept.search, start
-        self.slopes = slopes  # d logs/d ln s before the zone opened
-        self.points: list[OpenedPoint] = []
+        self.slopes, self.sliding = slopes, sliding
+        self.ended = False
+        self.jumps: list[tuple[float, float]] = []
         self.s = start.s
         self._last: tuple[OpenedPoint, ...] = ()
         self._hole = np.log(OPENING)
@@ -90,7 +97,7 @@ class OpenedMarch:
         cuts = np.concatenate(
             (self.search.gamma.cuts + self.search.normal.b, -np.array(lows + own))
         )
-        return OpenedState(self.search, zones, gamma, before, cuts, fine=fine)
+        return OpenedState(self.search, self.sliding, zones, gamma, cuts, before=before, fine=fine)
 
     # -- panels ------------------------------------------------------------------------------------
 
@@ -201,8 +208,8 @@ class OpenedMarch:
         raise ContactError(f"no slip zone is found where the contact gained {s:.6g}")
 
     def take(self, panel: GradientPanel, points: list[OpenedPoint]) -> None:
+        self.jumps.append((panel.lo, self.jump(panel)))
         self.kept, self._last = self.kept.with_panel(panel), tuple(points)
-        self.points += points
         self.s = panel.hi
         step_done()
 
@@ -220,6 +227,14 @@ class OpenedMarch:
     def closed(self) -> bool:
         """Whether nothing sticks beside the edge any more."""
         return self.stuck < CLOSED
+
+    def ends_before(self, Q: float) -> bool:
+        """Whether nothing sticks beside the edge under Q, by how that falls with the load."""
+        if len(self._last) < 2 or self.stuck > NEAR_END:
+            return False
+        one, other = self._last[-2:]
+        fall = (self._stuck(one) - self._stuck(other)) / (other.Q - one.Q)
+        return fall > 0.0 and other.Q + SURELY * self.stuck / fall < Q
 
     @property
     def last(self) -> OpenedPoint:

@@ -24,20 +24,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from sie.contact.edge_integrals import edge_integrals
 from sie.numerics.interval import Interval
-from sie.traction.on_panels import SlidingDensity
-from sie.traction.panels import Panels
-from sie.traction.piece_quadrature import SlidingGeometry
 
 from .opened_rule import FAR_NODES, beside_rule, strip_rule, zone_rule
+from .opened_search import Search, SlidingOf
 from .opened_zones import Distances, OpenedZones
-from .tangential import TangentialSearch
 
 Array = NDArray[np.float64]
 
@@ -47,23 +42,10 @@ FINE = 1e-12  # the same of all slip zones where p is wanted next to their ends
 Gradient = Callable[[Array], Array]
 
 
-def bounded_sliding(search: TangentialSearch, contact: Interval) -> SlidingDensity:
-    """p of full sliding that is finite at the left edge, infinite at the right one."""
-    slope, epsilon = search.resolved_slope, -search.theta
-    I = edge_integrals(slope, contact, None, False, epsilon)
-    cos, r = math.cos(math.pi * epsilon), contact.r
-    G = search.normal.half_modulus * cos
-    difference = 2.0 * G * cos * I.I0 / math.pi
-    # k1 = 0, k2 = -difference
-    load = G * r * (I.I1 + 2.0 * epsilon * I.I0)
-    load -= 0.5 * math.pi * r / cos * (1.0 + 2.0 * epsilon) * difference
-    panels = Panels(SlidingGeometry(slope, contact, epsilon), I.I0)
-    return SlidingDensity(contact, search.normal.half_modulus, 0.0, -difference, load, 0.0, panels)
-
-
 class OpenedState:
     """Ψ beside the contact and p_d in stick, in columns, with these zones.
 
+    sliding     computes p_s for a contact
     gamma       computes γ at places of the stick zones, a row each, in columns
     before      ∫γ dx over the slip zone inside as it was before that slipped
     cuts        places where γ is not smooth
@@ -72,19 +54,20 @@ class OpenedState:
 
     def __init__(
         self,
-        search: TangentialSearch,
+        search: Search,
+        sliding: SlidingOf,
         zones: OpenedZones,
         gamma: Gradient,
-        before: float,
         cuts: Array,
         *,
+        before: float,
         fine: bool = False,
     ) -> None:
         self.search, self.zones = search, zones
         beta, f = search.beta, search.friction
         self.mu, self.cos = 0.5 - search.theta, math.cos(math.pi * search.theta)
         b = search.normal.b
-        self.sliding = bounded_sliding(search, Interval(zones.x1 - b, zones.x2 - b))
+        self.sliding = sliding(Interval(zones.x1 - b, zones.x2 - b))
         self.deep = (FINE, FINE) if fine else (DEEP, 1.0)
         self.stick, weight, self.x, self.left_nodes = self._stuck(cuts)
         self.beside = beside_rule((zones.x1, zones.x2), (zones.strip, zones.slipping), -self.mu)
@@ -249,9 +232,7 @@ class OpenedState:
 
     def regular_sliding(self, x: Array) -> Array:
         """V."""
-        regular = replace(self.sliding, k1=0.0, k2=0.0)
-        values: Array = regular(x - self.search.normal.b)
-        return values
+        return self.sliding.regular(x - self.search.normal.b)
 
     def Psi_beside(self, at: Distances, on_right: bool) -> Array:
         """χ Ψ beside the contact: H p less that of full sliding."""

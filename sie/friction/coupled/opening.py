@@ -8,90 +8,58 @@ stick zone (`opened_march`), until what sticks beside x1 is gone. Then the zones
 from __future__ import annotations
 
 import math
+from functools import partial
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from sie.contact.edge_integrals import edge_integrals
 from sie.errors import ContactError
 from sie.numerics import chebyshev
+from sie.numerics.interval import Interval
 from sie.numerics.root_finding import false_position
-from sie.problem.coverage import LargerLoad, refused_opened
+from sie.problem.coverage import LargerLoad
+from sie.traction.on_panels import SlidingDensity
+from sie.traction.panels import Panels
+from sie.traction.piece_quadrature import SlidingGeometry
 
-from .opened_contact import Opened, OpenedContact
+from .gradient import SlipGradient
 from .opened_gradient import GradientPanel, KeptGradient
 from .opened_march import OpenedMarch, OpenedPoint
-from .sheared import ShearedContact
-from .spreading_contact import (
-    GAINED,
-    Spread,
-    SpreadingContact,
-    spreading_march,
-    spreading_state,
-    sticking_gain,
-)
 from .spreading_march import SpreadingMarch
 from .spreading_zones import Places
 from .tangential import TangentialSearch
-from .zones import Zones
 
 Array = NDArray[np.float64]
 
+FAR = 40.0  # times the length on which what is touched sticks: a zone has opened before
 UNSEEN = 1e-9  # of what was gained: wider strips of old slip at the edge are refused
 ON_PANEL = 16  # places of a panel at which γ is kept
 ASIDE = 1e-4  # of s, for slopes at the opening
 REACHED, TRIES = 3e-11, 6  # of Q, how near the march comes; times that its last panel is solved
-ALIKE = 3e-9  # of the mean of f p: by how much γ on two panels may differ where they meet
+# Of the mean of f p: by how much γ on two panels may differ where they meet; what it does to the
+# state falls with what sticks beside the edge, and its rounding grows
+ALIKE, FADING = 3e-9, -0.5
 PART = 0.5  # of a panel that is cut
-CERTAIN = 1e-6  # of the mean of f p: what γ may err by
 
 
-def state_below(search: TangentialSearch, Q: float) -> ShearedContact:
-    """The state under Q > 0 with β > 0 below the zones that depend on Q alone, or beyond their end.
-
-    Raises ContactError where none is certified.
-    """
-    march = spreading_march(search)
-    try:
-        return spreading_state(search, Q, march)
-    except LargerLoad as error:
-        reason = error
-    try:
-        return opened_state(search, march, Q)
-    # Integrals whose zones are not finite fail in any of these ways
-    except (ContactError, ArithmeticError, ValueError, IndexError, np.linalg.LinAlgError) as error:
-        covered = isinstance(error, ContactError)
-        why = str(error) if covered else "its zones are not found"
-    raise refused_opened(search.beta * search.friction, (Q, search.limit), why) from reason
-
-
-def opened_state(search: TangentialSearch, march: SpreadingMarch, Q: float) -> ShearedContact:
-    """The state under Q, larger than the load under which the zone opens."""
+def marched(search: TangentialSearch, march: SpreadingMarch, Q: float) -> OpenedMarch:
+    """The march to the load Q, larger than that under which the zone opens, or until it ended."""
     opened = opened_march(search, march)
     panel, points = _advanced(opened)
     while points[-1].Q < Q:
         opened.take(panel, points)
-        if opened.closed:
-            return ShearedContact(search, search.found(Q, arrived=True), Q, 1.0, 1.0)
+        if opened.closed or opened.ends_before(Q):
+            opened.ended = True
+            return opened
         panel, points = _advanced(opened)
     for _ in range(TRIES):
-        s = _reached(opened, points, Q)
-        panel, points = opened.shortened(panel, points, s)
+        panel, points = opened.shortened(panel, points, _reached(opened, points, Q))
         if abs(points[-1].Q - Q) < REACHED * Q:
-            break
-    else:
-        raise ContactError("the march does not settle at the load")
-    opened.take(panel, points)
-    zones, b = opened.zones(points[-1].s, points[-1].logs), search.normal.b
-    edges = Zones(*(y - b for y in (zones.x1, zones.h2, zones.e2, zones.x2)))
-    return OpenedContact(
-        search,
-        Opened(edges),  # type: ignore[arg-type]
-        Q,
-        1.0,
-        1.0,
-        march=opened,
-        point=points[-1],
-    )
+            opened.take(panel, points)
+            return opened
+    raise ContactError("the march does not settle at the load")
 
 
 def _advanced(march: OpenedMarch) -> tuple[GradientPanel, list[OpenedPoint]]:
@@ -100,7 +68,7 @@ def _advanced(march: OpenedMarch) -> tuple[GradientPanel, list[OpenedPoint]]:
     while True:
         try:
             panel, points = march.advanced(hi)
-            if march.jump(panel) < ALIKE:
+            if march.jump(panel) < ALIKE * march.stuck**FADING:
                 return panel, points
             why = "γ is not resolved"
         except ContactError as error:
@@ -134,7 +102,7 @@ def _reached(march: OpenedMarch, points: list[OpenedPoint], Q: float) -> float:
 
 def opened_march(search: TangentialSearch, march: SpreadingMarch) -> OpenedMarch:
     """The march from where the zone opens on; ContactError where it is not reached."""
-    normal, history = search.normal, march.history
+    history = march.history
     s = _opening(search, march)
     e2, e3 = history.zones(s)
     strip = history.strip_width(s, e2, e3)
@@ -143,20 +111,30 @@ def opened_march(search: TangentialSearch, march: SpreadingMarch) -> OpenedMarch
             f"a zone of the width {strip:.2g} next to the edge keeps the slip of the normal load, "
             f"beside the {s:.3g} that the contact gained when a slip zone opened at the old edge"
         )
-    x1 = -normal.b - s
-    zones, Q = Zones(x1, x1, normal.c - e2, normal.b - e3), history.load(s)
-    state = SpreadingContact(search, Spread(zones), Q, 1.0, 1.0, march=march, s=s)  # type: ignore[arg-type]
     panels = []
     for panel in history.panels:
         lo, hi = panel.lo, min(panel.hi, s)
         if lo < hi:
             nodes = math.log(lo) + 0.5 * math.log(hi / lo) * (1.0 + chebyshev.points(ON_PANEL))
-            values = state.kept_gradient(normal.axis - normal.b - np.exp(nodes))
-            panels.append(GradientPanel(lo, hi, nodes, values))
+            panels.append(GradientPanel(lo, hi, nodes, _touched(march, np.exp(nodes), s)))
     logs = np.log(np.array([e2, e3]) / s)
     before = s * (1.0 - ASIDE)
     slopes = (logs - np.log(np.array(history.zones(before)) / before)) / math.log(s / before)
-    return OpenedMarch(KeptGradient(search, tuple(panels)), OpenedPoint(s, logs, Q), slopes)
+    start = OpenedPoint(s, logs, history.load(s))
+    kept = KeptGradient(search, tuple(panels))
+    return OpenedMarch(kept, start, slopes, partial(bounded_sliding, search))
+
+
+def _touched(march: SpreadingMarch, s: Array, now: float) -> Array:
+    """γ with which places stick that were touched at s, when the edge has advanced by `now`."""
+    normal, history = march.normal, march.history
+    b, c, y = normal.b, history.c, normal.b + s
+    zones = np.array([history.zones(one) for one in s.tolist()])
+    places = Places(-s, c + y, b + y, np.full(len(s), now))
+    before = SlipGradient(normal.superposition, normal.ahead).beside(y, normal.hilbert_outside(y))
+    added = history.beside(history.at("x1", s, zones[:, 0], zones[:, 1])).imag
+    values: Array = before + added + history.inside(places)[2]
+    return values
 
 
 def _opening(search: TangentialSearch, march: SpreadingMarch) -> float:
@@ -170,7 +148,8 @@ def _opening(search: TangentialSearch, march: SpreadingMarch) -> float:
 
     if not history.panels or deficit(history.panels[-1].hi) > 0.0:
         try:
-            march.marched(GAINED * sticking_gain(search, march) / march.expected(1.0))
+            far = FAR * b * march.beginning.rates.sticking
+            march.marched(far / march.expected(1.0))
         except LargerLoad:
             pass
         else:
@@ -178,3 +157,33 @@ def _opening(search: TangentialSearch, march: SpreadingMarch) -> float:
     last = history.panels[-1]
     ends = deficit(last.lo), deficit(last.hi)
     return false_position(deficit, last.lo, last.hi, ends, lambda a, b, _: b - a < 1e-14 * a)
+
+
+# -- full sliding ----------------------------------------------------------------------------------
+
+
+class BoundedSliding(NamedTuple):
+    """p of full sliding that is finite at the left edge: its regular part, and the rest."""
+
+    density: SlidingDensity
+    k2: float
+    resultant: float
+
+    def regular(self, x: Array) -> Array:
+        """p without its infinite end."""
+        values: Array = self.density(x)
+        return values
+
+
+def bounded_sliding(search: TangentialSearch, contact: Interval) -> BoundedSliding:
+    """p of full sliding that is finite at the left edge, infinite at the right one."""
+    slope, epsilon, half = search.resolved_slope, -search.theta, search.normal.half_modulus
+    I = edge_integrals(slope, contact, None, False, epsilon)
+    cos, r = math.cos(math.pi * epsilon), contact.r
+    difference = 2.0 * half * cos * cos * I.I0 / math.pi
+    # k1 = 0, k2 = -difference
+    load = half * cos * r * (I.I1 + 2.0 * epsilon * I.I0)
+    load -= 0.5 * math.pi * r / cos * (1.0 + 2.0 * epsilon) * difference
+    panels = Panels(SlidingGeometry(slope, contact, epsilon), I.I0)
+    regular = SlidingDensity(contact, half, 0.0, 0.0, load, 0.0, panels)
+    return BoundedSliding(regular, -difference, load)

@@ -12,7 +12,6 @@ slip zone opens.
 from __future__ import annotations
 
 import itertools
-import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cached_property, lru_cache
@@ -241,12 +240,6 @@ def spreading_march(search: TangentialSearch) -> SpreadingMarch:
     return SpreadingMarch(beginning, tuple(np.abs(search.slope.breaks).tolist()))
 
 
-def sticking_gain(search: TangentialSearch, march: SpreadingMarch) -> float:
-    """The place d₊, nearer to the edge than which what is touched sticks."""
-    angle = 0.5 * math.pi - math.atan(search.friction)
-    return search.normal.b * math.exp(-angle / march.beginning.rates.eta)
-
-
 def spreading_state(
     search: TangentialSearch, Q: float, march: SpreadingMarch | None = None
 ) -> SpreadingContact:
@@ -256,7 +249,7 @@ def spreading_state(
     ContactError where it is not, and no state is certified.
     """
     normal, march = search.normal, march or spreading_march(search)
-    part = march.expected(Q) / sticking_gain(search, march)
+    part = march.expected(Q) / (normal.b * march.beginning.rates.sticking)
     if part > GAINED:
         raise LargerLoad(OPEN)
     try:
