@@ -133,7 +133,10 @@ class OpenedMarch:
                 break
             if J is None:
                 J, fresh = self._jacobian(s, logs, panel, states), True
-            step = -np.linalg.solve(J, now)
+            try:
+                step = -np.linalg.solve(J, now)
+            except np.linalg.LinAlgError:
+                break
             of_logs, of_gamma = step[: logs.size].reshape(logs.shape), step[logs.size :]
             farthest = float(np.abs(of_logs).max())
             size = max(farthest, float(np.abs(of_gamma).max()) / stress)

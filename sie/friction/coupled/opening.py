@@ -47,6 +47,8 @@ PART = 0.5  # of a panel that is cut
 def marched(search: TangentialSearch, march: SpreadingMarch, Q: float) -> OpenedMarch:
     """The march to the load Q, larger than that under which the zone opens, or until it ended."""
     opened = opened_march(search, march)
+    if opened.start.Q >= Q:
+        raise ContactError(f"it opens above the load, under |Q| = {opened.start.Q:.6g}")
     panel, points = _advanced(opened)
     while points[-1].Q < Q:
         opened.take(panel, points)
@@ -54,6 +56,8 @@ def marched(search: TangentialSearch, march: SpreadingMarch, Q: float) -> Opened
             opened.ended = True
             return opened
         panel, points = _advanced(opened)
+    # Next to the opening the points of a longer panel tell little of the zone
+    panel, points = opened.advanced(_reached(opened, points, Q))
     for _ in range(TRIES):
         panel, points = opened.shortened(panel, points, _reached(opened, points, Q))
         if abs(points[-1].Q - Q) < REACHED * Q:
