@@ -109,7 +109,7 @@ class OpenedContact(ShearedContact):
         """Places from the old edge and distances from the ends of the zones, in the zone k."""
         zones = self.known.zones
         lo, hi = self.ends[k : k + 2]
-        left, right = u - lo, hi - u
+        left, right = np.maximum(u - lo, 0.0), np.maximum(hi - u, 0.0)
         if k == 0:
             left = np.maximum(left - zones.strip, 0.0)
         one = (zones.e0, zones.h1, zones.h2, zones.e2)[k]

@@ -37,6 +37,9 @@ from .opened_zones import Distances, OpenedZones
 Array = NDArray[np.float64]
 
 DEEP = 1e-6  # of the slip zone inside: panels shrink so far towards its ends
+# Of the contact, to x1: nearer the regular part of p_s is a power of the distance, which x tells to
+# few digits
+CLOSE = 1e-9
 FINE = 1e-12  # the same of all slip zones where p is wanted next to their ends
 
 Gradient = Callable[[Array], Array]
@@ -111,8 +114,13 @@ class OpenedState:
 
     def full_sliding(self, x: Array, at: Distances) -> Array:
         """p_s."""
-        end: Array = 0.5 * self.sliding.k2 * (at.x1 / at.x2) ** self.mu
-        return self.regular_sliding(x) + end
+        values, nearest = self.regular_sliding(x), CLOSE * (self.zones.x2 - self.zones.x1)
+        near = at.x1 < nearest
+        if near.any():
+            there = self.regular_sliding(np.array([self.zones.x1 + nearest]))
+            values[near] = there * (at.x1[near] / nearest) ** self.mu
+        values += 0.5 * self.sliding.k2 * (at.x1 / at.x2) ** self.mu
+        return values
 
     def _on_strip(self) -> None:
         """ρ dx on the strip."""
