@@ -37,7 +37,7 @@ Array = NDArray[np.float64]
 State = ShearedContact | ProportionalContact | UnevenContact
 
 PROMISED, OF_SHEAR = 1e-10, 1e-9  # of the largest pressure, and of the largest shear in (12)
-MARCHED = 1e-6  # of the largest shear, where γ is known from a march over smaller loads alone
+MARCHED = 1e-6  # of either, where γ is known from a march over smaller loads alone
 NODES, RATIO = 14, 4.0
 NEAREST = 1e-10  # panels next to a mark: the first, in parts of the way to the next
 DISTINCT = 1e3  # roundings of x: the first of these panels at least
@@ -89,7 +89,7 @@ def sheared_certificate(state: State, scene: Scene, tol: float) -> Certificate:
         lowest_pressure=min(float(values.p.min()) / peak, 0.0),
         lowest_gap=float(gaps.min(initial=0.0)) / float(np.abs(gaps).max(initial=EPS)),
         abscissae=min(rounding, EPS / NARROW),
-        tol=max(tol, PROMISED),
+        tol=max(tol, MARCHED if getattr(state, "doubt", 0.0) else PROMISED),
         shear=_of_shear(state, scene, values, drift, tol),
         notes=notes(H, peak / scene.Estar),
     )
