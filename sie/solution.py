@@ -34,10 +34,15 @@ from .friction.contact_growth import ContactGrowth
 from .friction.coupled.contact import CoupledContact
 from .friction.coupled.energy import tangential_energy
 from .friction.coupled.normal import coupled_contact
+from .friction.coupled.opened_contact import OpenedContact, opened_contact
 from .friction.coupled.sheared import ShearedContact
-from .friction.coupled.sheared_contact import found_state, sheared_contact
+from .friction.coupled.sheared_contact import either, found_state, sheared_contact
 from .friction.coupled.shift import tangential_shift
-from .friction.coupled.spreading_contact import SpreadingContact, spreading_state
+from .friction.coupled.spreading_contact import (
+    SpreadingContact,
+    spreading_march,
+    spreading_state,
+)
 from .friction.coupled.spreading_energy import spreading_energy
 from .friction.coupled.tangential import TangentialSearch, tangential_search
 from .friction.coupled.traction import OnHalves
@@ -59,6 +64,7 @@ from .patches.result import PatchCertificate, worst_of
 from .problem.coverage import (
     held_moment,
     refuse_uncovered,
+    refused_energy,
     uneven_under_shear,
 )
 from .problem.request import ECONOMY, sheared
@@ -124,7 +130,11 @@ class Solution(Frictionless, StressAnswers):
     def coupled(self) -> tuple[Edges, CoupledContact | UnevenContact | ShearedContact]:
         """The edges and the state of dissimilar bodies in partial slip."""
         if self.scene.tangential_load:
-            edges, state = sheared_contact(self._upright, self.tangential_search, spreading_state)
+            march = spreading_march(self.tangential_search)
+            below = either(
+                partial(spreading_state, march=march), partial(opened_contact, march=march)
+            )
+            edges, state = sheared_contact(self._upright, self.tangential_search, below)
             return replace(edges, tilt=self.scene.tilt), state
         return self.pressed
 
@@ -302,6 +312,8 @@ class Solution(Frictionless, StressAnswers):
             return pressed
         if isinstance(state, SpreadingContact):
             return pressed + spreading_energy(state.march, state.s)
+        if isinstance(state, OpenedContact):
+            raise refused_energy(state.Q)
         search = self.tangential_search
         return pressed + tangential_energy(state, partial(found_state, search))
 

@@ -38,6 +38,7 @@ Array = NDArray[np.float64]
 State = ShearedContact | ProportionalContact | UnevenContact
 
 PROMISED, OF_SHEAR = 1e-10, 1e-9  # of the largest pressure, and of the largest shear in (12)
+MARCHED = 1e-6  # of either, where γ is known from a march over smaller loads alone
 NODES, RATIO = 14, 4.0
 NEAREST = 1e-10  # panels next to a mark: the first, in parts of the way to the next
 DISTINCT = 1e3  # roundings of x: the first of these panels at least
@@ -70,8 +71,8 @@ def sheared_certificate(state: State, scene: Scene, tol: float) -> Certificate:
     H = scene.profile.slope(x)
     missed = float(np.abs(Hp - beta * at_q - 0.5 * scene.Estar * H).max()) / peak
     # What stuck under the lighter load shows whether γ stays
-    ((lo, hi),) = (state.lighter if isinstance(state, UnevenContact) else state).stick
-    stuck = (x > lo) & (x < hi)
+    zones = (state.lighter if isinstance(state, UnevenContact) else state).stick
+    stuck = np.any([(x > lo) & (x < hi) for lo, hi in zones], axis=0)
     before = _kept_gradient(state, x[stuck], beta)
     drift = float(np.abs((Hq + beta * at_p)[stuck] - before).max(initial=0.0)) / of_shear
     m, r = state.contact.m, state.contact.r
@@ -89,7 +90,7 @@ def sheared_certificate(state: State, scene: Scene, tol: float) -> Certificate:
         lowest_pressure=min(float(values.p.min()) / peak, 0.0),
         lowest_gap=float(gaps.min(initial=0.0)) / float(np.abs(gaps).max(initial=EPS)),
         abscissae=min(rounding, EPS / NARROW, _one_ulp(p, values.p, values, x) / peak),
-        tol=max(tol, PROMISED),
+        tol=max(tol, MARCHED if getattr(state, "doubt", 0.0) else PROMISED),
         shear=_of_shear(state, scene, values, drift, tol),
         notes=notes(H, peak / scene.Estar),
     )
@@ -158,8 +159,9 @@ def _of_shear(
             way = f"{'outwards' if scene.beta > 0.0 else 'inwards'} on both sides"
         kind = f"{way} beside the stick zone; β couples p and q"
     excess = float((size - scene.friction * values.p).max()) / (scene.friction * peak)
+    doubt = getattr(state, "doubt", 0.0)
     return ShearCertificate(
-        residual=drift,
+        residual=max(drift, doubt),
         equilibrium=abs(float(values.weight @ values.q) - Q) / float(values.weight @ size),
         excess=max(excess, 0.0),
         opposing=min(state.least_slip, 0.0),
@@ -167,7 +169,7 @@ def _of_shear(
         condition=1.0,
         advancing=True,
         kind=kind,
-        tol=max(tol, OF_SHEAR),
+        tol=max(tol, MARCHED if doubt else OF_SHEAR),
     )
 
 

@@ -118,6 +118,26 @@ def refused_spread(kappa: float, loads: tuple[float, float], why: str) -> Contac
     )
 
 
+def refused_opened(kappa: float, loads: tuple[float, float], why: str) -> ContactError:
+    """The ContactError: under |Q|, of f P, a slip zone is open, or was, and this is not solved."""
+    Q, limit = loads
+    return ContactError(
+        f"dissimilar bodies with β f = {kappa:.3g} under |Q| = {Q:.6g} = {Q / limit:.3g} f P: "
+        "the contact spreads so fast that surfaces stick which came into contact under Q, until a "
+        f"slip zone opens at the old edge, and {why}; give a |Q| nearer to f P, or a small one, "
+        "lower the friction, or give dundurs = 0 to neglect β"
+    )
+
+
+def refused_energy(Q: float) -> ContactError:
+    """The ContactError: the energy under a load whose states depend on those before."""
+    return ContactError(
+        f"the energy that dissimilar bodies dissipate under |Q| = {Q:.6g}, where a slip zone is "
+        "open inside the stick zone, is a sum over all smaller loads that is not taken; set "
+        "tangential_load = 0 for the energy under the normal load"
+    )
+
+
 def refused_slip(kappa: float, part: float) -> ContactError:
     """The ContactError: under Q, a part of f P, an end of the stick zone passes a corner."""
     return ContactError(

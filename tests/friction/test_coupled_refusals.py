@@ -122,10 +122,6 @@ def test_loads_of_any_size_are_refused_where_zones_of_one_state_begin_late(profi
         assert "let the bodies slide" in refused_zones(profile, beta, friction, part)
 
 
-def test_a_load_is_refused_where_stick_may_be_left_beside_the_leading_edge():
-    assert "let the bodies slide" in refused(None, 0.3, 2.0, 0.75)
-
-
 def test_certificate_is_not_ok_where_slip_would_oppose_the_load():
     search, Q = solved(None, 0.3, 2.0, 0.9).tangential_search, 1.0
     state = ShearedContact(search, search._newton(search.start(Q), Q), Q, 1.0, 1.0)

@@ -95,6 +95,11 @@ class EdgeRates:
         self.theta, self.eta = self.pair[0].theta, self.pair[0].eta
         self.cos = math.cos(math.pi * self.theta)
 
+    @property
+    def sticking(self) -> float:
+        """d₊ over the half-width: nearer to the edge what is touched sticks."""
+        return math.exp(-(0.5 * math.pi - math.atan(self.friction)) / self.eta)
+
     # -- the weights -------------------------------------------------------------------------------
 
     def weights(self, rho: Array) -> Weights:

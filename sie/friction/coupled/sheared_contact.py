@@ -28,6 +28,18 @@ Below = Callable[[TangentialSearch, float], ShearedContact]
 SMALL = (1e-2, 1e-4, 1e-6)  # parts of f P from which the load is followed upwards
 
 
+def either(first: Below, second: Below) -> Below:
+    """The state of the first one, and that of the second one under larger loads."""
+
+    def below(search: TangentialSearch, Q: float) -> ShearedContact:
+        try:
+            return first(search, Q)
+        except LargerLoad:
+            return second(search, Q)
+
+    return below
+
+
 def refused(search: TangentialSearch, Q: float) -> ShearedContact:
     """No state below the zones of `tangential`."""
     raise LargerLoad("such loads are not asked for")

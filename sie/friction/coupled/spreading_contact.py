@@ -12,7 +12,6 @@ slip zone opens.
 from __future__ import annotations
 
 import itertools
-import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cached_property, lru_cache
@@ -260,19 +259,23 @@ class SpreadingContact(ShearedContact):
         return both_tractions((pressure, lambda x: both(x)[1]), both, known)
 
 
-def spreading_state(search: TangentialSearch, Q: float) -> SpreadingContact:
-    """The state under Q > 0 with β > 0.
+def spreading_march(search: TangentialSearch) -> SpreadingMarch:
+    """A march that has not begun."""
+    normal = search.normal
+    beginning = Beginning(normal, search.friction, lambda y: normal.half_modulus * search.slope(y))
+    return SpreadingMarch(beginning, tuple(np.abs(search.slope.breaks).tolist()))
+
+
+def spreading_state(
+    search: TangentialSearch, Q: float, march: SpreadingMarch | None = None
+) -> SpreadingContact:
+    """The state under Q > 0 with β > 0, by a march that has not begun.
 
     Raises LargerLoad where a slip zone is open at the old edge, or may be where the march ends;
     ContactError where it is not, and no state is certified.
     """
-    normal, f = search.normal, search.friction
-    beginning = Beginning(normal, f, lambda y: normal.half_modulus * search.slope(y))
-    march = SpreadingMarch(beginning, tuple(np.abs(search.slope.breaks).tolist()))
-    # In such parts the place d₊, nearer to which what is touched sticks
-    part = march.expected(Q) / (
-        normal.b * math.exp(-(0.5 * math.pi - math.atan(f)) / beginning.rates.eta)
-    )
+    normal, march = search.normal, march or spreading_march(search)
+    part = march.expected(Q) / (normal.b * march.beginning.rates.sticking)
     if part > GAINED:
         raise LargerLoad(OPEN)
     try:
@@ -285,7 +288,7 @@ def spreading_state(search: TangentialSearch, Q: float) -> SpreadingContact:
             raise LargerLoad(str(error)) from None
         covered = isinstance(error, ContactError)
         why = str(error) if covered else "its zones are not found over smaller loads"
-    raise refused_spread(search.beta * f, (Q, search.limit), why)
+    raise refused_spread(search.beta * search.friction, (Q, search.limit), why)
 
 
 def _marched_state(search: TangentialSearch, march: SpreadingMarch, Q: float) -> SpreadingContact:

@@ -224,14 +224,14 @@ class TangentialSearch:
     # -- the search --------------------------------------------------------------------------------
 
     @reported("zones of stick and slip")
-    def found(self, Q: float) -> Trial:
-        """The state under Q.
+    def found(self, Q: float, *, arrived: bool = False) -> Trial:
+        """The state under Q; `arrived` tells that a march over smaller loads has led to its zones.
 
         Raises ContactError where none has these zones, or slip would oppose Q in them.
         """
         answer = self._newton(self.start(Q), Q)
         if answer is not None and self.least_slip(answer) >= 0.0:
-            return unless_late(self, answer, Q)
+            return answer if arrived else unless_late(self, answer, Q)
         least, opposed = math.inf, self._spreads
         for load in () if opposed else self._first_loads:
             if Q < least <= load:  # from there one arrives where one has been
@@ -240,7 +240,7 @@ class TangentialSearch:
             if first is not None and self.least_slip(first) >= 0.0:
                 now, end, opposed = LoadPath(self).followed(first, load, Q)
                 if end == Q:
-                    return unless_late(self, now, Q)
+                    return now if arrived else unless_late(self, now, Q)
                 least = min(least, end)
                 # Where e1 ends at the edge of the contact of P alone, what it reached sticks below
                 opposed = opposed or now.zones.e1 - self._bounds[0] < AT_EDGE * self.normal.b
