@@ -3,6 +3,7 @@
 The mesh solver does not use superposition.
 """
 
+from functools import cache
 from itertools import pairwise
 
 import numpy as np
@@ -43,6 +44,18 @@ def at_constant_load(scene, *fractions):
     return sie.follow(scene, sie.Path([(P, k * F * P) for k in fractions]))
 
 
+@cache
+def pressed(scene):
+    """The scene without shear; what is changed of Q shares its pressure."""
+    solution = sie.solve(scene)
+    _ = solution.normal
+    return solution
+
+
+def sheared(scene, fraction):
+    return pressed(scene).with_(tangential_load=fraction * F * scene.normal_load)
+
+
 def places(solution):
     return np.concatenate([np.linspace(a, b, 23)[1:-1] for a, b in solution.patches])
 
@@ -50,7 +63,7 @@ def places(solution):
 @each
 def test_a_path_of_one_point_is_the_scene(scene):
     followed = at_constant_load(scene, 0.8)[0]
-    alone = sie.solve(followed.scene)
+    alone = sheared(scene, 0.8)
     x = places(alone)
     assert followed.stick == alone.stick
     assert (followed.shear(x) == alone.shear(x)).all()
@@ -66,7 +79,7 @@ def test_a_path_is_certified_also_where_nothing_is_sheared_yet(name):
 def test_unloading_is_half_of_the_first_loading_twice(scene):
     """q = q(Q_max) - 2 q((Q_max - Q)/2), Mindlin & Deresiewicz 1953, and so is the slip."""
     loaded, unloaded = at_constant_load(scene, 0.9, 0.1)
-    half = at_constant_load(scene, 0.4)[0]
+    half = sheared(scene, 0.4)
     x = places(loaded)
     error = 1e-13 * loaded.pressure(x).max()
     assert unloaded.shear(x) == pytest.approx(loaded.shear(x) - 2.0 * half.shear(x), abs=error)
@@ -85,7 +98,7 @@ def test_a_closed_loop_closes(scene):
 @each
 @pytest.mark.parametrize("part", [0.05, 0.7, 0.995])
 def test_friction_obeys_its_laws_on_every_patch(scene, part):
-    solution = at_constant_load(scene, part)[0]
+    solution = sheared(scene, part)
     x, Q = places(solution), part * F * scene.normal_load
     p, q = solution.pressure(x), solution.shear(x)
     stuck = solution.slip(x) == 0.0
@@ -198,9 +211,7 @@ def test_normal_and_tangential_loads_that_change_together_agree_with_a_mesh(name
 
 @each
 def test_slip_at_incipient_sliding_is_the_limit_of_slip(scene):
-    nearly, sliding = (
-        sie.solve(at_constant_load(scene, part)[0].scene) for part in (1 - 1e-7, 1.0)
-    )
+    nearly, sliding = (sheared(scene, part) for part in (1 - 1e-7, 1.0))
     x = places(sliding)
     assert sliding.stick == ()
     assert sliding.slip(x) == pytest.approx(nearly.slip(x), abs=1e-5 * (1.0 + np.ptp(x)))
