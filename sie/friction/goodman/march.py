@@ -10,7 +10,10 @@ as m ∓ k r turns, u goes a quarter of the way of m ∓ k r: with u = λ τ² a
 
     ∫_{-√λ T}^0 sqrt(λ T² - τ²) dτ + ∫_0^T (λ T² - (1 + λ) τ²/2)/sqrt(λ (T² - τ²)) dτ = 0
 
-gives λ = 1/4. The series of u on a part of a panel of contacts has V = 0 at Radau's points, which
+gives λ = 1/4. Where dm/dr jumps, as an edge passes a jump of the slope, |d(m ∓ k r)/dr| is w before
+and w' after, and with dP/dr also λ² w' P'/(w P'') + 2 λ = 1 (docs/derivations/goodman.md).
+
+The series of u on a part of a panel of contacts has V = 0 at Radau's points, which
 hold the end of the part: Newton's method, with differences for derivatives. What the load before
 the part adds to V is a series in the root of the distance from the u at its beginning. The end
 recedes until m ∓ k r comes back to it, and then advances again.
@@ -43,6 +46,7 @@ FIRST = 0.1  # the first part tried
 GROWTH, WELL = 2.0, 0.01  # a part is so much longer than one that was so well resolved
 SLOWLY = 1.2  # ... and than one that was resolved
 QUARTER = 0.25  # λ
+TURNED = 1e-6  # of dm/dr: where it jumps by less the onset is one of a smooth growth
 RESOLVED = 1e-11  # of the half-width: the last terms of the series of u
 ROUGHLY = 1e-6  # of the way of u on the part: the same
 CONVERGED, SETTLED = 1e-11, 1e-13  # of the half-width: what a step of Newton's method may still be
@@ -113,6 +117,7 @@ class _March:
                 a, b = float(v[i - 1]), float(v[i])
                 onset = a if ahead(a) >= 0.0 else float(brentq(ahead, a, b, xtol=1e-15))
             self.side, self.fresh, self.length = side, True, FIRST
+            self.part = self._first_part(replace(course, first=onset))
         if onset > course.first:
             self._add(advancing(replace(course, last=onset), self.zones))
         elif not self.done:
@@ -123,6 +128,22 @@ class _March:
                 "the tilt, or give dundurs = 0 to neglect β"
             )
         return replace(course, first=onset)
+
+    def _first_part(self, course: Course) -> float:
+        """λ: the way of u over that of m ∓ k r, as u begins to recede with this course."""
+        if not self.done or self.done[-1].side:
+            return QUARTER
+        begun, before = course.contacts(np.array([-1.0]))[0], self.done[-1].course
+        here = np.array([course.first]), np.array([before.last])
+        if float(before.panel.hi) != float(course.panel.lo) or begun[0] > course.panel.lo:
+            return QUARTER
+        ahead = self.side * self._turn(course, here[0])[0] - self.zones.k
+        behind = self.zones.k - self.side * self._turn(before, here[1])[0]
+        if min(ahead, behind) < TURNED:
+            return QUARTER
+        rate, new = before.panel.load_rate(np.array([before.panel.length])), course.panel
+        kappa = ahead / behind * float(rate[0] / new.load_rate(np.zeros(1))[0])
+        return 1.0 / (1.0 + math.sqrt(1.0 + kappa))
 
     @staticmethod
     def _turn(course: Course, v: Array) -> Array:
@@ -326,8 +347,8 @@ class _March:
                 fraction = chebyshev.evaluate(part @ z, course_points)
                 return chebyshev.transform(start + fraction * whole)
 
-            begin = np.append(start, np.full(COUNT, QUARTER))
-            size = QUARTER * float(np.abs(way).max())
+            begin = np.append(start, np.full(COUNT, self.part))
+            size = self.part * float(np.abs(way).max())
             return Unknown(begin, lambda z: start + z * way, fresh_series, size)
         rate = _end_rate(previous.receding) / _end_rate(previous.series[0])
         r = course.contacts(np.append(-1.0, y))[0]

@@ -1,0 +1,47 @@
+"""How a stick zone begins to recede out of proportion in Goodman's approximation."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+import sie
+from sie.friction.goodman.history import lack
+
+
+def solved(profile, load, friction=0.25):
+    return sie.solve(
+        sie.Scene(
+            profile=profile,
+            modulus=2.0,
+            dundurs=0.3,
+            friction=friction,
+            coupling="goodman",
+            normal_load=load,
+        )
+    )
+
+
+def test_stick_zone_recedes_as_an_edge_passes_a_jump_of_the_slope():
+    # The right edge of a parabola stays where the slope jumps: dm/dr jumps from 0 to -1, dP/dr by
+    # two. With w = ∓ dm/dr - k before and after, λ² w'/(w P'/P) + 2 λ = 1
+    bent = sie.Piecewise((-30.0, 0.3, 30.0), ((0.0, 0.2), (0.1, 0.5)))
+    spells = solved(bent, 0.032).tangential.before.spells
+    n = next(i for i, spell in enumerate(spells) if spell.side)
+    spell, k = spells[n], spells[n].zones.k
+    r, m, end = (
+        np.polynomial.chebyshev.chebval([-1.0, -0.9], c)
+        for c in (spell.series[0], spell.series[1], spell.receding)
+    )
+    way = (m + k * r)[1] - end[0]
+    kappa = 0.5 * (1.0 - k) / k
+    # 2e-8 is found on a way of 8e-9, which is known to 1e-8
+    expected = 1.0 / (1.0 + math.sqrt(1.0 + kappa))
+    assert (end[1] - end[0]) / way == pytest.approx(expected, rel=3e-6)
+    for i in range(n, len(spells)):
+        part = (*spells[:i], spells[i].until(0.37))
+        u = np.array([np.polynomial.chebyshev.chebval(0.37, spells[i].receding)])
+        # 1e-11 where the pressure is 0.06
+        assert abs(lack(part, u, -1.0)[0]) < 1e-10
