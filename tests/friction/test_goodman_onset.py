@@ -45,3 +45,10 @@ def test_stick_zone_recedes_as_an_edge_passes_a_jump_of_the_slope():
         u = np.array([np.polynomial.chebyshev.chebval(0.37, spells[i].receding)])
         # 1e-11 where the pressure is 0.06
         assert abs(lack(part, u, -1.0)[0]) < 1e-10
+
+
+def test_both_ends_that_recede_at_once_are_refused():
+    # The left edge passes a jump of the slope, and then the right one
+    bent = sie.Piecewise((-30.0, -0.3, 0.38, 30.0), ((-0.146, 0.2), (0.0, 0.155), (0.176, 0.8)))
+    with pytest.raises(sie.ContactError, match=r"both ends of the stick zone recede at once from"):
+        _ = solved(bent, 0.07, 0.29).stick

@@ -36,6 +36,7 @@ from .end_course import DEGREE as COUNT
 from .end_course import Unknown, points, slowing
 from .growth import DEGREE, ContactTable
 from .history import HIGH, LOW, lack, lack_in
+from .other_end import end_rate, refuse_both, refuse_both_behind
 from .spells import Course, Spell, advancing, receding
 from .zone_table import ZoneTable
 
@@ -101,7 +102,7 @@ class _March:
 
         k, end = self.zones.k, course.last
         v = np.linspace(course.first, end, LOOKS + 1)
-        turn = self._turn(course, v)
+        turn = course.turn(v)
         fast = np.flatnonzero(np.abs(turn) > k + TURNING)
         onset = end
         if fast.size:
@@ -109,7 +110,7 @@ class _March:
             side = 1 if turn[i] > 0.0 else -1
 
             def ahead(place: float) -> float:
-                return side * float(self._turn(course, np.array([place]))[0]) - k
+                return side * float(course.turn(np.array([place]))[0]) - k
 
             if i == 0:
                 onset = course.first
@@ -137,24 +138,20 @@ class _March:
         here = np.array([course.first]), np.array([before.last])
         if float(before.panel.hi) != float(course.panel.lo) or begun[0] > course.panel.lo:
             return QUARTER
-        ahead = self.side * self._turn(course, here[0])[0] - self.zones.k
-        behind = self.zones.k - self.side * self._turn(before, here[1])[0]
+        ahead = self.side * course.turn(here[0])[0] - self.zones.k
+        behind = self.zones.k - self.side * before.turn(here[1])[0]
         if min(ahead, behind) < TURNED:
             return QUARTER
         rate, new = before.panel.load_rate(np.array([before.panel.length])), course.panel
         kappa = ahead / behind * float(rate[0] / new.load_rate(np.zeros(1))[0])
         return 1.0 / (1.0 + math.sqrt(1.0 + kappa))
 
-    @staticmethod
-    def _turn(course: Course, v: Array) -> Array:
-        panel = course.panel
-        grown = panel.begin - panel.lo + panel.scale * np.sinh(v) ** 2
-        return panel.turn(np.clip(grown, 0.0, panel.length))
-
     # -- one end recedes ---------------------------------------------------------------------------
 
     def _recede(self, course: Course) -> Course:
         """The rest of a course behind the next part of it."""
+        if not self.fresh:
+            refuse_both_behind(self.done[-1], course, self.zones)
         left = course.last - course.first
         length = min(self.length, left, LONGEST)
         if left - length < 0.2 * length:
@@ -184,6 +181,7 @@ class _March:
                 break
             # Where the end is met sooner the part ends before
             length *= 0.5 if trial is None or met <= 0.0 else 0.4 * (met + 1.0)
+        refuse_both(trial.spell)
         self._add(trial.spell)
         part = trial.spell.course
         self.length = (part.last - part.first) * (
@@ -198,7 +196,7 @@ class _March:
         """About how far in v m ∓ k r comes back to the end that recedes, 0 where it does not."""
         previous = self.done[-1]
         r, m, end = (np.polynomial.chebyshev.chebval(1.0, c) for c in self._ahead_of(previous))
-        rates = [_end_rate(c) for c in self._ahead_of(previous)]
+        rates = [end_rate(c) for c in self._ahead_of(previous)]
         ahead = self.side * (m - end) - self.zones.k * r
         by_r = (self.side * (rates[1] - rates[2]) / rates[0]) - self.zones.k
         here, there = course.contacts(np.array([-1.0, 1.0]))[0].tolist()
@@ -217,8 +215,8 @@ class _March:
         mark = min(ahead, key=lambda x: self.side * x)
         if self.fresh:
             return mark, 0.0
-        r = _end_rate(self.done[-1].series[0])
-        by_r = (mark - start) / _end_rate(self.done[-1].receding) * r
+        r = end_rate(self.done[-1].series[0])
+        by_r = (mark - start) / end_rate(self.done[-1].receding) * r
         here, there = course.contacts(np.array([-1.0, 1.0]))[0].tolist()
         if not (by_r > 0.0 and there > here):
             return mark, 0.0
@@ -350,7 +348,7 @@ class _March:
             begin = np.append(start, np.full(COUNT, self.part))
             size = self.part * float(np.abs(way).max())
             return Unknown(begin, lambda z: start + z * way, fresh_series, size)
-        rate = _end_rate(previous.receding) / _end_rate(previous.series[0])
+        rate = end_rate(previous.receding) / end_rate(previous.series[0])
         r = course.contacts(np.append(-1.0, y))[0]
         way = rate * (r[1:] - r[0])
         size = float(np.abs(way).max())
@@ -376,10 +374,6 @@ class _March:
             return np.asarray(chebyshev.evaluate(series, 2.0 * root - 1.0))
 
         return at
-
-
-def _end_rate(series: Array) -> float:
-    return float(np.polynomial.chebyshev.chebval(1.0, np.polynomial.chebyshev.chebder(series)))
 
 
 def _not_found(course: Course) -> ContactError:

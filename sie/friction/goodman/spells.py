@@ -54,6 +54,12 @@ class Course:
         m = self.origin + panel.moved(np.zeros(ahead.shape), ahead)
         return panel.lo + ahead, m, panel.load_rate(ahead) * panel.scale * np.sinh(2.0 * v) * half
 
+    def turn(self, v: Array) -> Array:
+        """dm/dr at v."""
+        panel = self.panel
+        grown = panel.begin - panel.lo + panel.scale * np.sinh(v) ** 2
+        return panel.turn(np.clip(grown, 0.0, panel.length))
+
 
 @dataclass(frozen=True, eq=False)
 class Spell:
