@@ -9,6 +9,8 @@ import pytest
 
 import sie
 from sie.friction.goodman.history import lack
+from sie.friction.goodman.march import march
+from sie.friction.goodman.zone_table import zone_table
 
 
 def solved(profile, load, friction=0.25):
@@ -52,3 +54,15 @@ def test_both_ends_that_recede_at_once_are_refused():
     bent = sie.Piecewise((-30.0, -0.3, 0.38, 30.0), ((-0.146, 0.2), (0.0, 0.155), (0.176, 0.8)))
     with pytest.raises(sie.ContactError, match=r"both ends of the stick zone recede at once from"):
         _ = solved(bent, 0.07, 0.29).stick
+
+
+def test_a_march_from_first_touch_is_the_growth_in_proportion():
+    # Two unlike parabolas grow in proportion all along, and are solved without a march
+    state = solved(sie.Piecewise((-30.0, 0.0, 30.0), ((0.0, 0.2), (0.0, 0.3))), 0.1, 0.1).tangential
+    spells = march(state.table, zone_table(3.0))
+    stick = tuple(state.table.first_centre + end for end in spells[-1].ends[1, 2:])
+    # 1e-13 is found
+    assert stick == pytest.approx(state.normal_stick, abs=1e-11)
+    x = np.linspace(*stick, 5)[1:-1]
+    shear = 0.1 * (lack(spells, x, 1.0) - state.step.pressure(x))
+    assert shear == pytest.approx(state.before(x), abs=1e-11)

@@ -34,6 +34,7 @@ from sie.numerics import chebyshev
 
 from .end_course import DEGREE as COUNT
 from .end_course import Unknown, points, slowing
+from .first_touch import from_touch
 from .growth import DEGREE, ContactTable
 from .history import HIGH, LOW, lack, lack_in
 from .other_end import end_rate, refuse_both, refuse_both_behind
@@ -122,12 +123,10 @@ class _March:
         if onset > course.first:
             self._add(advancing(replace(course, last=onset), self.zones))
         elif not self.done:
-            raise ContactError(
-                "the contact moves aside faster than it grows where it touches first: its stick "
-                "zone would recede at one end at once, which Goodman's approximation solves only "
-                "for growth in proportion all along, as under a wedge; raise the friction, reduce "
-                "the tilt, or give dundurs = 0 to neglect β"
-            )
+            # Behind so small contacts that they grow in proportion
+            self._add(from_touch(course, self.zones, self.side, self.table.ends[1]))
+            self.fresh, self.length = False, self.done[0].course.last
+            return replace(course, first=self.done[0].course.last)
         return replace(course, first=onset)
 
     def _first_part(self, course: Course) -> float:

@@ -163,5 +163,20 @@ def receding(course: Course, zones: ZoneTable, side: int, end: Array) -> Spell:
     return Spell(course, zones, side, _as_series((r, m, rate, lo, hi, K)))
 
 
+def in_proportion(course: Course, zones: ZoneTable, turn: float, advance: float) -> Spell:
+    """The spell from first touch on in which centre and receding end go in proportion to r.
+
+    turn, advance   dm/dr, and how fast the receding end goes
+    """
+    r, _, rate = course.contacts(chebyshev.points(POINTS))
+    side = 1 if turn > 0.0 else -1
+    e = np.array([1.0 - abs(turn) + advance])
+    K = zones.ratio(e)
+    other = turn + side * (1.0 - zones.zone(e, K).right_slip)
+    lo, hi = (side * advance * r, other * r)[::side]
+    rows = (r, turn * r, rate, lo, hi, np.broadcast_to(K, r.shape))
+    return Spell(course, zones, side, _as_series(rows))
+
+
 def _as_series(rows: tuple[Array, ...]) -> tuple[Array, ...]:
     return tuple(chopped(c, LEAST) for c in chebyshev.transform(np.array(rows)))
