@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import sie
+from oracles.goodman_grid import grown
 from sie.friction.goodman.history import lack
 from sie.friction.goodman.march import march
 from sie.friction.goodman.zone_table import zone_table
@@ -66,3 +67,17 @@ def test_a_march_from_first_touch_is_the_growth_in_proportion():
     x = np.linspace(*stick, 5)[1:-1]
     shear = 0.1 * (lack(spells, x, 1.0) - state.step.pressure(x))
     assert shear == pytest.approx(state.before(x), abs=1e-11)
+
+
+def test_stick_zone_behind_a_jump_of_the_slope_is_that_of_a_grid():
+    bent = sie.Piecewise((-30.0, 0.3, 30.0), ((0.0, 0.2), (0.1, 0.5)))
+    ends = np.linspace(-0.37, 0.32, 121)
+    x = 0.5 * (ends[1:] + ends[:-1])
+    height = np.array([bent.height(place) for place in x.tolist()])
+    grid = grown(ends, height, 0.04, (0.3, 0.25), 80)
+    solution = solved(bent, 0.04)
+    # 0.7 of a cell is found; on twice as many cells 0.3 of one
+    assert grid.stick == pytest.approx(solution.stick[0], abs=1.1 * (ends[1] - ends[0]))
+    # 1.4e-3 is found, and on twice as many cells 2e-4
+    q = np.interp([-0.15, 0.1], grid.x, grid.shear)
+    assert q == pytest.approx(solution.shear(np.array([-0.15, 0.1])), rel=3e-3)
