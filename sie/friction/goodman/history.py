@@ -22,6 +22,7 @@ from numpy.typing import NDArray
 from sie.friction.coupled.panels import totals
 from sie.numerics import chebyshev
 from sie.numerics.gauss_jacobi import gauss_jacobi
+from sie.numerics.interval import EPS
 
 from .receding_flat import Distances
 from .spells import Spell
@@ -34,7 +35,7 @@ FAR, FEW = 1.0, 10  # of its length: no singularity so near to a part asks for s
 LEAST, MOST = 1e-15, 1e3  # of y, for B
 NONE = -1
 NOWHERE = 1e-18  # a distance, as good as none
-NEWTONS, SETTLED = 60, 2e-16
+NEWTONS, SETTLED = 60, 4.0 * EPS
 LEFT, RIGHT, LOW, HIGH = range(4)  # the edges and the ends of the stick zone, in `Spell.curves`
 INWARDS = np.array([1.0, -1.0, 1.0, -1.0])
 
@@ -129,15 +130,18 @@ def _passing(curve: Array, x: Array, until: Array, rising: bool) -> Array:
     """y at which a curve that rises or falls passes x."""
     sign = 1.0 if rising else -1.0
     rate: Array = np.polynomial.chebyshev.chebder(curve).astype(float)
+    size = float(np.abs(curve).sum())
     lo, hi = np.full(x.shape, -1.0), until.copy()
     y = 0.5 * (lo + hi)
     for _ in range(NEWTONS):
         missed = sign * (chebyshev.evaluate(curve, y) - x)
         lo, hi = np.where(missed < 0.0, y, lo), np.where(missed < 0.0, hi, y)
+        speed = sign * chebyshev.evaluate(rate, y)
         with np.errstate(divide="ignore", invalid="ignore"):
-            moved = y - missed / (sign * chebyshev.evaluate(rate, y))
-        moved = np.where((moved > lo) & (moved < hi), moved, 0.5 * (lo + hi))
-        settled = np.abs(moved - y) <= SETTLED
+            moved = y - missed / speed
+        moved = np.where((moved >= lo) & (moved <= hi), moved, 0.5 * (lo + hi))
+        # Rounding of the curve moves y by so much
+        settled = np.abs(moved - y) * np.abs(speed) <= SETTLED * (np.abs(speed) + size)
         y = moved
         if settled.all():
             break

@@ -10,7 +10,10 @@ as m ∓ k r turns, u goes a quarter of the way of m ∓ k r: with u = λ τ² a
 
     ∫_{-√λ T}^0 sqrt(λ T² - τ²) dτ + ∫_0^T (λ T² - (1 + λ) τ²/2)/sqrt(λ (T² - τ²)) dτ = 0
 
-gives λ = 1/4. The series of u on a part of a panel of contacts has V = 0 at Radau's points, which
+gives λ = 1/4. Where dm/dr jumps, as an edge passes a jump of the slope, |d(m ∓ k r)/dr| is w before
+and w' after, and with dP/dr also λ² w' P'/(w P'') + 2 λ = 1 (docs/derivations/goodman.md).
+
+The series of u on a part of a panel of contacts has V = 0 at Radau's points, which
 hold the end of the part: Newton's method, with differences for derivatives. What the load before
 the part adds to V is a series in the root of the distance from the u at its beginning. The end
 recedes until m ∓ k r comes back to it, and then advances again.
@@ -31,8 +34,10 @@ from sie.numerics import chebyshev
 
 from .end_course import DEGREE as COUNT
 from .end_course import Unknown, points, slowing
+from .first_touch import from_touch
 from .growth import DEGREE, ContactTable
 from .history import HIGH, LOW, lack, lack_in
+from .other_end import end_rate, refuse_both, refuse_both_behind
 from .spells import Course, Spell, advancing, receding
 from .zone_table import ZoneTable
 
@@ -43,6 +48,7 @@ FIRST = 0.1  # the first part tried
 GROWTH, WELL = 2.0, 0.01  # a part is so much longer than one that was so well resolved
 SLOWLY = 1.2  # ... and than one that was resolved
 QUARTER = 0.25  # λ
+TURNED = 1e-6  # of dm/dr: where it jumps by less the onset is one of a smooth growth
 RESOLVED = 1e-11  # of the half-width: the last terms of the series of u
 ROUGHLY = 1e-6  # of the way of u on the part: the same
 CONVERGED, SETTLED = 1e-11, 1e-13  # of the half-width: what a step of Newton's method may still be
@@ -97,7 +103,7 @@ class _March:
 
         k, end = self.zones.k, course.last
         v = np.linspace(course.first, end, LOOKS + 1)
-        turn = self._turn(course, v)
+        turn = course.turn(v)
         fast = np.flatnonzero(np.abs(turn) > k + TURNING)
         onset = end
         if fast.size:
@@ -105,7 +111,7 @@ class _March:
             side = 1 if turn[i] > 0.0 else -1
 
             def ahead(place: float) -> float:
-                return side * float(self._turn(course, np.array([place]))[0]) - k
+                return side * float(course.turn(np.array([place]))[0]) - k
 
             if i == 0:
                 onset = course.first
@@ -113,27 +119,38 @@ class _March:
                 a, b = float(v[i - 1]), float(v[i])
                 onset = a if ahead(a) >= 0.0 else float(brentq(ahead, a, b, xtol=1e-15))
             self.side, self.fresh, self.length = side, True, FIRST
+            self.part = self._first_part(replace(course, first=onset))
         if onset > course.first:
             self._add(advancing(replace(course, last=onset), self.zones))
         elif not self.done:
-            raise ContactError(
-                "the contact moves aside faster than it grows where it touches first: its stick "
-                "zone would recede at one end at once, which Goodman's approximation solves only "
-                "for growth in proportion all along, as under a wedge; raise the friction, reduce "
-                "the tilt, or give dundurs = 0 to neglect β"
-            )
+            # Behind so small contacts that they grow in proportion
+            self._add(from_touch(course, self.zones, self.side, self.table.ends[1]))
+            self.fresh, self.length = False, self.done[0].course.last
+            return replace(course, first=self.done[0].course.last)
         return replace(course, first=onset)
 
-    @staticmethod
-    def _turn(course: Course, v: Array) -> Array:
-        panel = course.panel
-        grown = panel.begin - panel.lo + panel.scale * np.sinh(v) ** 2
-        return panel.turn(np.clip(grown, 0.0, panel.length))
+    def _first_part(self, course: Course) -> float:
+        """λ: the way of u over that of m ∓ k r, as u begins to recede with this course."""
+        if not self.done or self.done[-1].side:
+            return QUARTER
+        begun, before = course.contacts(np.array([-1.0]))[0], self.done[-1].course
+        here = np.array([course.first]), np.array([before.last])
+        if float(before.panel.hi) != float(course.panel.lo) or begun[0] > course.panel.lo:
+            return QUARTER
+        ahead = self.side * course.turn(here[0])[0] - self.zones.k
+        behind = self.zones.k - self.side * before.turn(here[1])[0]
+        if min(ahead, behind) < TURNED:
+            return QUARTER
+        rate, new = before.panel.load_rate(np.array([before.panel.length])), course.panel
+        kappa = ahead / behind * float(rate[0] / new.load_rate(np.zeros(1))[0])
+        return 1.0 / (1.0 + math.sqrt(1.0 + kappa))
 
     # -- one end recedes ---------------------------------------------------------------------------
 
     def _recede(self, course: Course) -> Course:
         """The rest of a course behind the next part of it."""
+        if not self.fresh:
+            refuse_both_behind(self.done[-1], course, self.zones)
         left = course.last - course.first
         length = min(self.length, left, LONGEST)
         if left - length < 0.2 * length:
@@ -163,6 +180,7 @@ class _March:
                 break
             # Where the end is met sooner the part ends before
             length *= 0.5 if trial is None or met <= 0.0 else 0.4 * (met + 1.0)
+        refuse_both(trial.spell)
         self._add(trial.spell)
         part = trial.spell.course
         self.length = (part.last - part.first) * (
@@ -177,7 +195,7 @@ class _March:
         """About how far in v m ∓ k r comes back to the end that recedes, 0 where it does not."""
         previous = self.done[-1]
         r, m, end = (np.polynomial.chebyshev.chebval(1.0, c) for c in self._ahead_of(previous))
-        rates = [_end_rate(c) for c in self._ahead_of(previous)]
+        rates = [end_rate(c) for c in self._ahead_of(previous)]
         ahead = self.side * (m - end) - self.zones.k * r
         by_r = (self.side * (rates[1] - rates[2]) / rates[0]) - self.zones.k
         here, there = course.contacts(np.array([-1.0, 1.0]))[0].tolist()
@@ -196,8 +214,8 @@ class _March:
         mark = min(ahead, key=lambda x: self.side * x)
         if self.fresh:
             return mark, 0.0
-        r = _end_rate(self.done[-1].series[0])
-        by_r = (mark - start) / _end_rate(self.done[-1].receding) * r
+        r = end_rate(self.done[-1].series[0])
+        by_r = (mark - start) / end_rate(self.done[-1].receding) * r
         here, there = course.contacts(np.array([-1.0, 1.0]))[0].tolist()
         if not (by_r > 0.0 and there > here):
             return mark, 0.0
@@ -326,10 +344,10 @@ class _March:
                 fraction = chebyshev.evaluate(part @ z, course_points)
                 return chebyshev.transform(start + fraction * whole)
 
-            begin = np.append(start, np.full(COUNT, QUARTER))
-            size = QUARTER * float(np.abs(way).max())
+            begin = np.append(start, np.full(COUNT, self.part))
+            size = self.part * float(np.abs(way).max())
             return Unknown(begin, lambda z: start + z * way, fresh_series, size)
-        rate = _end_rate(previous.receding) / _end_rate(previous.series[0])
+        rate = end_rate(previous.receding) / end_rate(previous.series[0])
         r = course.contacts(np.append(-1.0, y))[0]
         way = rate * (r[1:] - r[0])
         size = float(np.abs(way).max())
@@ -355,10 +373,6 @@ class _March:
             return np.asarray(chebyshev.evaluate(series, 2.0 * root - 1.0))
 
         return at
-
-
-def _end_rate(series: Array) -> float:
-    return float(np.polynomial.chebyshev.chebval(1.0, np.polynomial.chebyshev.chebder(series)))
 
 
 def _not_found(course: Course) -> ContactError:

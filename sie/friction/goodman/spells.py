@@ -54,6 +54,12 @@ class Course:
         m = self.origin + panel.moved(np.zeros(ahead.shape), ahead)
         return panel.lo + ahead, m, panel.load_rate(ahead) * panel.scale * np.sinh(2.0 * v) * half
 
+    def turn(self, v: Array) -> Array:
+        """dm/dr at v."""
+        panel = self.panel
+        grown = panel.begin - panel.lo + panel.scale * np.sinh(v) ** 2
+        return panel.turn(np.clip(grown, 0.0, panel.length))
+
 
 @dataclass(frozen=True, eq=False)
 class Spell:
@@ -155,6 +161,21 @@ def receding(course: Course, zones: ZoneTable, side: int, end: Array) -> Spell:
     other = m + side * r * (1.0 - zones.zone(e, K).right_slip)
     lo, hi = (u, other) if side > 0 else (other, u)
     return Spell(course, zones, side, _as_series((r, m, rate, lo, hi, K)))
+
+
+def in_proportion(course: Course, zones: ZoneTable, turn: float, advance: float) -> Spell:
+    """The spell from first touch on in which centre and receding end go in proportion to r.
+
+    turn, advance   dm/dr, and how fast the receding end goes
+    """
+    r, _, rate = course.contacts(chebyshev.points(POINTS))
+    side = 1 if turn > 0.0 else -1
+    e = np.array([1.0 - abs(turn) + advance])
+    K = zones.ratio(e)
+    other = turn + side * (1.0 - zones.zone(e, K).right_slip)
+    lo, hi = (side * advance * r, other * r)[::side]
+    rows = (r, turn * r, rate, lo, hi, np.broadcast_to(K, r.shape))
+    return Spell(course, zones, side, _as_series(rows))
 
 
 def _as_series(rows: tuple[Array, ...]) -> tuple[Array, ...]:
