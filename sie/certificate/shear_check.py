@@ -13,6 +13,7 @@ max |γ - γ'| / max|q|, γ = 1/π PV∫q/(x - t) dt + β p, where they stuck un
 from __future__ import annotations
 
 import itertools
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -237,7 +238,7 @@ P_ROUNDING = 16.0 * EPS  # of p, which q is balanced with in (12)
 
 
 def goodman_certificate(state: GrownSlip, kind: str, tol: float) -> ShearCertificate:
-    """Measured on a state and on that under a lighter load; `kind` says what is neglected."""
+    """Measured on a state and on those before; `kind` says what is neglected."""
     pressure, (term,) = state.step.pressure, _terms(state)
     x, weight = term.rule.x, term.rule.weight
     p, q = finite(state.friction * pressure(x)), finite(term.density(x))
@@ -246,27 +247,45 @@ def goodman_certificate(state: GrownSlip, kind: str, tol: float) -> ShearCertifi
     # Nearer to an edge p and q are roots of distances that doubles do not tell
     margin = ENDS * (contact.r + abs(contact.m))
     known = (contact.from_left(x) > margin) & (contact.from_right(x) > margin)
-    at = points(state.untouched, [term])
-    force, gamma, of_force, of_gamma = integrals([term], at)
-    due = np.zeros(len(at))
-    if state.lighter is not None:
-        _, before, _, of_before = integrals(_terms(state.lighter), at)
-        change = state.lighter.step.pressure(at) - pressure(at)
-        due, of_gamma = before + state.step.scene.beta * change, of_gamma + of_before
-    else:
-        due = -state.step.scene.beta * pressure(at)
-    of_p = P_ROUNDING * float(pressure(at).max(initial=0.0))
+    force, _, of_force, _ = integrals([term], np.empty(0))
+    missed, of_gamma = _kept(state, term)
     return ShearCertificate(
-        residual=float(np.abs(gamma - due).max(initial=0.0)) / peak,
+        residual=missed / peak,
         equilibrium=abs(force - state.step.Q) / size,
         excess=excess(state, contact, x[known], p[known], q[known]) / float(p.max()),
         opposing=opposing(state, state.slip_now(x), x) if state.zones is None else 0.0,
-        abscissae=max(of_force / size, (float(of_gamma.max(initial=0.0)) + of_p) / peak),
+        abscissae=max(of_force / size, of_gamma / peak),
         condition=1.0,
         advancing=True,
         kind=f"{state.kind}; {kind}",
         tol=max(tol, OF_SHEAR),
     )
+
+
+def _kept(state: GrownSlip, term: Term) -> tuple[float, float]:
+    """By how much H q + β p changed at most where bodies did not slip, and its rounding.
+
+    What sticks under Q has not slipped since P alone; then, nor did what stuck under a lighter load
+    and sticks still. Without such places nothing is known.
+    """
+    before, light = state.before_Q, state.lighter
+    if before is not None:
+        at = points(state.stick[0], [term])
+        change = term._replace(density=lambda x: term.density(x) - before.shear(x))
+        _, gamma, _, rounding = integrals([change], at)
+        missed, of_gamma = _kept(before, *_terms(before))
+        missed = max(missed, float(np.abs(gamma).max(initial=0.0)))
+        return missed, max(of_gamma, float(rounding.max(initial=0.0)))
+    pressure, beta = state.step.pressure, state.step.scene.beta
+    at = points(state.untouched, [term])
+    _, gamma, _, rounding = integrals([term], at)
+    due = -beta * pressure(at)
+    if light is not None:
+        _, then, _, of_then = integrals(_terms(light), at)
+        due, rounding = due + then + beta * light.step.pressure(at), rounding + of_then
+    missed = float(np.abs(gamma - due).max()) if len(at) else math.inf
+    of_p = P_ROUNDING * float(pressure(at).max(initial=0.0))
+    return missed, float(rounding.max(initial=0.0)) + of_p
 
 
 @dataclass(frozen=True, eq=False)

@@ -165,12 +165,14 @@ class GrownSlip(Slip):
     zones       the zones under Q, None before
     marks       places where q is not smooth, with the edges
     lighter     the state under a lighter normal load, None where the contact does not grow
+    before_Q    the state before Q, None where that is this one
     """
 
     step: Step
     zones: SlipZones | None
     marks: tuple[float, ...]
     lighter: GrownSlip | None
+    before_Q: GrownSlip | None
 
 
 @dataclass(frozen=True, eq=False)

@@ -127,6 +127,13 @@ class GoodmanSlip(GrownSlip):
         before = replace(step, normal=found, pressure=step.pressure_on(found), Q=0.0)
         return GoodmanSlip(before, self.flat, contact_table(before, self.table.search, self.flat))
 
+    @property
+    def before_Q(self) -> GoodmanSlip | None:  # type: ignore[override]
+        """The state before Q, None where that is this one."""
+        if self.zones is None:
+            return None
+        return replace(self, step=replace(self.step, Q=0.0), zones=None)
+
     @cached_property
     def marks(self) -> tuple[float, ...]:  # type: ignore[override]
         """Places where q is not smooth, with the edges."""
