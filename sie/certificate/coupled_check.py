@@ -14,59 +14,49 @@ from __future__ import annotations
 import itertools
 import math
 from dataclasses import replace
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from sie.contact.small_strains import notes
 from sie.friction.coupled.contact import CoupledContact
-from sie.numerics.gauss_jacobi import with_weight
 from sie.numerics.interval import EPS
 from sie.problem.scene import Scene
 from sie.progress_bar import reported
 
+from .coupled_rule import (
+    Values,
+    distinct_marks,
+    principal_value,
+    to_edge,
+    values_on_panels,
+)
 from .result import Certificate, ShearCertificate
 
 Array = NDArray[np.float64]
 
 PROMISED, OF_SHEAR = 1e-11, 1e-10  # of the largest pressure, and of the largest shear in (12)
-NODES = 14
-NEAREST = 1e-12  # the first panel next to a mark, in parts of the way to the next mark
-RATIO = 4.0  # growth of the panels away from a mark
-EDGE_LEVELS, LAST = 8, 28  # at the edge: panels towards it, and nodes of the last
 LOOKS = 5  # points of each of the middle panels at which the equations are measured
-THIN = 1e-8  # half-widths: a zone so narrow is left out, where no edge is sharp
 P_ROUNDING = 16.0 * EPS  # of p, which q is balanced with in (12)
 LIGHTER = 0.9  # of the growth beyond the flat base
 BESIDE = 0.02  # of the half-width: no point of the residual is nearer to a sharp edge
 OUTSIDE = (1.0 + 1e-6, 1.001, 1.1, 2.0, 10.0)  # half-widths at which the gap is tested
 
 
-class Values(NamedTuple):
-    """Nodes y and b - y, weights, and p and q there; how far before b the LAST of them begin."""
-
-    edge: float
-    y: Array
-    rest: Array
-    weight: Array
-    p: Array
-    q: Array
-
-
 @reported("certificate")
 def coupled_certificate(state: CoupledContact, scene: Scene, tol: float) -> Certificate:
     """Measured on p and q under the load, and q also under a lighter one."""
-    values, x = _values(state), _looked_at(state)
-    p, q = state.pressure(x), state.shear(x)
-    Hp, Hq = (_principal(values, state.b, x, f, s) for f, s in ((p, 1.0), (q, -1.0)))
+    values, x = values_on_panels(state), _looked_at(state)
+    p, q = state.pressure_and_shear(x)
+    Hp, Hq = (principal_value(values, state, x, f, s) for f, s in ((p, 1.0), (q, -1.0)))
     slopes = scene.profile.slope(state.axis + x), -scene.profile.slope(state.axis - x)
     peak = float(p.max())
     G, beta = state.half_modulus, scene.beta
     missed = max(float(np.abs(Hp - beta * q - G * H).max()) for H in slopes) / peak
     gamma = Hq + beta * p
     stuck, of_shear = _drift(state, x, gamma, beta), float(np.abs(q).max())
-    rounding = EPS * state.b / float(np.diff((0.0, *_marks(state))).min()) if state.growth else EPS
+    rounding = EPS + (_of_nodes(values, state, x, values.p) + _of_slope(state, scene, x)) / peak
+    of_q = EPS + _of_nodes(values, state, x, values.q) / of_shear
     f_p = scene.friction * p
     beside = state.b * np.array(OUTSIDE)
     gaps = state.gap(state.axis + beside, scene.profile)
@@ -77,7 +67,7 @@ def coupled_certificate(state: CoupledContact, scene: Scene, tol: float) -> Cert
         equilibrium=abs(flow - state.load) / state.load,
         excess=max(float((np.abs(q) - f_p).max()) / float(f_p.max()), 0.0),
         opposing=min(float((state.sign * state.slip(x)).min()), 0.0),
-        abscissae=rounding + P_ROUNDING * peak / of_shear,
+        abscissae=of_q + P_ROUNDING * peak / of_shear,
         condition=1.0,
         advancing=True,
         kind=kind_of_slip(state.full_stick, scene.beta),
@@ -123,82 +113,42 @@ def _drift(state: CoupledContact, x: Array, gamma: Array, beta: float) -> float:
 
 def gradient_of_slip(state: CoupledContact, y: Array, beta: float) -> Array:
     """γ = 1/π PV∫q/(x - t) dt + β p at 0 < y < b."""
-    Hq = _principal(_values(state), state.b, y, state.shear(y), -1.0)
-    gamma: Array = Hq + beta * state.pressure(y)
+    p, q = state.pressure_and_shear(y)
+    gamma: Array = principal_value(values_on_panels(state), state, y, q, -1.0) + beta * p
     return gamma
-
-
-def _values(state: CoupledContact) -> Values:
-    """Values on panels between the marks; next to the edge by the distance from it."""
-    marks = _marks(state)
-    widths = np.diff((0.0, *marks))
-    if len(marks) > 1 and not state.growth:
-        widths[-1] = state.flat.rest * state.b
-    beyond = np.append(np.cumsum(widths[:0:-1])[::-1], 0.0)
-    parts = []
-    nearest = min(NEAREST, 0.1 * state.flat.rest)
-    powers = [*(0.0 for _ in marks[1:]), state.edge_power]
-    for lo, width, after, power in zip((0.0, *marks), widths, beyond, powers, strict=False):
-        first = min(nearest, NEAREST * lo / float(width)) if lo else nearest
-        ahead, behind, weight = _panels(float(width), power, first)
-        parts.append((lo + ahead, after + behind, weight))
-    y, rest, weight = (np.concatenate(column) for column in zip(*parts, strict=True))
-    y = np.minimum(y, state.b)
-    start = 0.5 * float(widths[-1]) * RATIO ** -(EDGE_LEVELS - 1.0)
-    return Values(start, y, rest, weight, state.pressure(y, rest), state.shear(y, rest))
-
-
-def _marks(state: CoupledContact) -> tuple[float, ...]:
-    """The marks of the tractions, without edges of zones of stick or slip that are too narrow."""
-    flat = state.flat
-    if min(flat.rest, flat.c) > THIN or not state.growth:
-        return state.marks
-    places = {y for y in (*state.kinks, state.flat_base) if 0.0 < y < state.b}
-    return (*sorted(places), state.b)
-
-
-def _panels(width: float, power: float, nearest: float) -> tuple[Array, Array, Array]:
-    """Distances from both ends and weights, on panels that shrink towards both ends.
-
-    There are LAST nodes at an end with a power.
-    """
-    half, at_edge = 0.5 * width, power != 0.0
-    levels = math.ceil(math.log(1.0 / nearest) / math.log(RATIO))
-    near = half * np.append(0.0, RATIO ** -np.arange(levels, -0.5, -1.0))
-    x, _, w = with_weight(NODES, 0.0, 0.0)
-    length = np.diff(near)[:, None]
-    side, weight = (near[:-1, None] + length * x).ravel(), (length * w).ravel()
-    other, beside = side, weight
-    if at_edge:
-        start = half * RATIO ** -(EDGE_LEVELS - 1.0)
-        kept = side > start
-        x, _, w = with_weight(LAST, 0.0, power)
-        other = np.append(side[kept], start * x[::-1])
-        beside = np.append(weight[kept], start * w[::-1])
-    return (
-        np.append(side, width - other),
-        np.append(width - side, other),
-        np.append(weight, beside),
-    )
 
 
 def _looked_at(state: CoupledContact) -> Array:
     """Points between the marks, not on nodes."""
-    ends = (0.0, *_marks(state))
+    ends = (0.0, *distinct_marks(state))
     part = (np.arange(LOOKS) + 0.5) / LOOKS
     x = np.concatenate([lo + (hi - lo) * part for lo, hi in itertools.pairwise(ends)])
     if state.corner_load:
         x = x[x < (1.0 - BESIDE) * state.b]
-    kept: Array = x[x > BESIDE * state.marks[0]]
+    kept: Array = x[(x > BESIDE * state.marks[0]) & ~np.isin(x, ends)]
     return kept
 
 
-def _principal(values: Values, b: float, x: Array, at_x: Array, parity: float) -> Array:
-    """1/π PV∫f/(x - t) dt over the whole contact, f = p (parity 1) or q (-1)."""
-    f = values.p if parity > 0.0 else values.q
-    y, w = values.y, values.weight
-    subtracted = np.where(np.arange(len(y)) < len(y) - LAST, at_x[:, None], 0.0)
-    own = ((f - subtracted) / (x[:, None] - y)) @ w + at_x * np.log(x / (b - values.edge - x))
-    mirrored = (parity * f / (x[:, None] + y)) @ w
-    total: Array = (own + mirrored) / math.pi
-    return total
+def _of_nodes(values: Values, state: CoupledContact, x: Array, f: Array) -> float:
+    """What rounding of the nodes does to the principal value of f: the root of sums of squares.
+
+    Where f is singular or changes in a strip they are as exact as their distance from the edge.
+    """
+    order = np.argsort(-values.rest, kind="stable")
+    y, rest, weight, f = (column[order] for column in (values.y, values.rest, values.weight, f))
+    by_rest = state.narrow or state.corner_load > 0.0
+    moved = EPS * (np.minimum(y, rest) if by_rest else y)
+    steps = np.maximum(-np.diff(rest, prepend=state.b), moved)
+    change = np.abs(np.diff(f, prepend=f[0])) * moved / steps
+    apart = np.abs(np.where(rest < y, rest - to_edge(state, x)[:, None], x[:, None] - y))
+    moves = weight * change / np.maximum(apart, moved)
+    return float(np.linalg.norm(moves, axis=1).max()) / math.pi
+
+
+def _of_slope(state: CoupledContact, scene: Scene, x: Array) -> float:
+    """What rounding of x does to E*/2 h': x is a distance from the axis, and exact at 0."""
+    if not state.axis:
+        return 0.0
+    at, slope = state.axis + np.append(x, -x), scene.profile.slope
+    change = slope(np.nextafter(at, np.inf)) - slope(at)
+    return state.half_modulus * float(np.abs(change).max())

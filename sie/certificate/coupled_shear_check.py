@@ -75,6 +75,8 @@ def sheared_certificate(state: State, scene: Scene, tol: float) -> Certificate:
     stuck = np.any([(x > lo) & (x < hi) for lo, hi in zones], axis=0)
     before = _kept_gradient(state, x[stuck], beta)
     drift = float(np.abs((Hq + beta * at_p)[stuck] - before).max(initial=0.0)) / of_shear
+    rounded = EPS + 16.0 * EPS * peak / of_shear  # of p, which q is balanced with in (12)
+    rounded += _one_ulp(q, values.q, values, x[stuck]) / of_shear
     m, r = state.contact.m, state.contact.r
     apart = np.diff(marks) / r
     if isinstance(state, ShearedContact) and state.spreads:
@@ -91,7 +93,7 @@ def sheared_certificate(state: State, scene: Scene, tol: float) -> Certificate:
         lowest_gap=float(gaps.min(initial=0.0)) / float(np.abs(gaps).max(initial=EPS)),
         abscissae=min(rounding, EPS / NARROW, _one_ulp(p, values.p, values, x) / peak),
         tol=max(tol, MARCHED if getattr(state, "doubt", 0.0) else PROMISED),
-        shear=_of_shear(state, scene, values, drift, tol),
+        shear=_of_shear(state, scene, values, (drift, rounded), tol),
         notes=notes(H, peak / scene.Estar),
     )
 
@@ -110,7 +112,7 @@ def _one_ulp(
     apart = np.abs(x[:, None] - values.x)
     apart[apart == 0.0] = np.inf
     summed = (values.weight * of_nodes / apart).sum(axis=1) / np.pi
-    return float((change + summed).max())
+    return float((change + summed).max(initial=0.0))
 
 
 def _kept_gradient(state: State, x: Array, beta: float) -> Array:
@@ -146,10 +148,10 @@ def _of_shear(
     state: State,
     scene: Scene,
     values: Values,
-    drift: float,
+    measured: tuple[float, float],
     tol: float,
 ) -> ShearCertificate:
-    """What is measured on q; `drift` is the change of the slip gradient in the stick zone."""
+    """What is measured on q, given the change of the slip gradient in stick and its rounding."""
     Q, peak, size = scene.tangential_load, float(values.p.max()), np.abs(values.q)
     if isinstance(state, UnevenContact):
         kind = kind_of_slip(state.full_stick, scene.beta)
@@ -161,11 +163,11 @@ def _of_shear(
     excess = float((size - scene.friction * values.p).max()) / (scene.friction * peak)
     doubt = getattr(state, "doubt", 0.0)
     return ShearCertificate(
-        residual=max(drift, doubt),
+        residual=max(measured[0], doubt),
         equilibrium=abs(float(values.weight @ values.q) - Q) / float(values.weight @ size),
         excess=max(excess, 0.0),
         opposing=min(state.least_slip, 0.0),
-        abscissae=EPS + 16.0 * EPS * peak / float(size.max()),
+        abscissae=measured[1],
         condition=1.0,
         advancing=True,
         kind=kind,

@@ -14,6 +14,7 @@ import sie
 from sie.certificate.coupled_check import coupled_certificate
 from sie.friction.coupled.functions import flat_functions
 from sie.friction.coupled.half_potential import DEGREE, HalfPotential, Panels
+from sie.friction.coupled.profile import Superposition
 from sie.friction.coupled.zones import NODES, _from_others
 from sie.numerics.gauss_jacobi import gauss_jacobi
 
@@ -74,6 +75,43 @@ def test_certificate_is_not_ok_for_another_mismatch(name):
     right = solved(PROFILES[name])
     wrong = coupled_certificate(right.coupled[1], replace(right.scene, dundurs=0.3001), 1e-13)
     assert not wrong.ok
+
+
+@pytest.mark.parametrize("narrow", [1e-12, 1e-9, 3.3e-8, 1e-5])
+@pytest.mark.parametrize(("beta", "friction"), [(0.2, 0.3), (0.05, 0.5)])
+def test_certificate_is_as_strict_in_a_narrow_strip_beside_a_flat_base(narrow, beta, friction):
+    right = solved(sie.RoundedFlat(1.0, 1.0), beta, friction, half_width=1.0 + narrow)
+    certificate = right.check()
+    assert certificate.ok and certificate.residual < 1e-11 and certificate.abscissae < 1e-13
+    other = replace(right.scene, dundurs=beta * (1.0 + 1e-7))
+    assert not coupled_certificate(right.coupled[1], other, 1e-13).ok
+
+
+def places_of_pressure(contact, monkeypatch):
+    """How many a certificate takes, and the certificate."""
+    places = []
+
+    def counted(self, x, *others):
+        places.append(len(x))
+        return known(self, x, *others)
+
+    known = Superposition.pressure
+    monkeypatch.setattr(Superposition, "pressure", counted)
+    return coupled_certificate(contact.coupled[1], contact.scene, 1e-13), places
+
+
+def test_certificate_takes_each_pressure_once(monkeypatch):
+    _, places = places_of_pressure(solved(sie.RoundedFlat(0.5, 1.0)), monkeypatch)
+    assert len(places) <= 4  # at the nodes and where it looks, and as many under a lighter load
+
+
+def test_certificate_of_a_trace_takes_few_places_between_its_points(monkeypatch):
+    x = np.linspace(-1.5, 1.5, 41)
+    contact = solved(sie.Sampled(x, x**2 / 2.0 + x**4 / 10.0), 0.2, normal_load=1.0)
+    certificate, places = places_of_pressure(contact, monkeypatch)
+    assert len(contact.coupled[1].marks) == 20
+    assert sum(places) < 8000  # with panels down to rounding at every mark 23000
+    assert certificate.ok and certificate.residual < 1e-12
 
 
 @pytest.mark.parametrize("name", PROFILES)

@@ -120,6 +120,14 @@ def test_certificate_is_as_strict_where_slip_zones_are_narrow():
     assert not sheared_certificate(right.coupled[1], wrong, 1e-13).ok
 
 
+def test_rounding_of_a_narrow_rim_is_counted_in_the_stick_zone_too():
+    right = solved(sie.RoundedFlat(1.0, 1.0), 0.2, 0.3, load=1e-8)
+    certificate = right.check()
+    assert certificate.ok and certificate.shear.abscissae < 1e-8
+    wrong = replace(right.scene, dundurs=0.2 * (1.0 + 1e-6))
+    assert not sheared_certificate(right.coupled[1], wrong, 1e-13).shear.ok
+
+
 def test_certificate_is_not_ok_for_another_load():
     right = solved()
     other = replace(right.scene, tangential_load=right.tangential_load * (1.0 + 1e-6))

@@ -293,6 +293,24 @@ def test_what_is_not_solved_is_refused_with_the_reason(profile, changes, words):
         _ = solved(profile, **changes).edges
 
 
+def test_a_noisy_trace_is_refused_once_its_kinks_are_seen_to_take_too_many_panels(monkeypatch):
+    x = np.linspace(-1.5, 1.5, 61)
+    noise = 1e-4 * np.random.default_rng(1).standard_normal(len(x))
+    panels = []
+
+    def counted(self, lo, length):
+        panels.append(lo)
+        return known(self, lo, length)
+
+    known = uneven_march.March._solved
+    monkeypatch.setattr(uneven_march.March, "_solved", counted)
+    monkeypatch.setattr(uneven_march, "TELLING", 3)
+    monkeypatch.setattr(uneven_march, "MOST", 60)
+    with pytest.raises(sie.ContactError, match="smooth the profile, give fewer points of it"):
+        _ = solved(sie.Sampled(x, x**2 / 2.0 + noise), load=1.0).edges
+    assert len(panels) < 60
+
+
 @pytest.mark.parametrize("friction", [0.1, 0.05, 0.03])
 def test_a_contact_is_solved_up_to_the_load_that_a_refusal_names(friction):
     with pytest.raises(sie.ContactError, match="from P = ") as refusal:

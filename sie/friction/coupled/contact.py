@@ -40,6 +40,9 @@ CLOSEST = 1e-17  # of r: as near a contact begins the sum over wider ones, not s
 FEW = 12  # marks: between more of them interpolation saves little
 # half-widths: the first panel beside the edge, where H has a power of the distance
 NEAR_EDGE = 1e-9
+# half-widths: in wider strips beside a flat base rounding of y changes p by 1e-12 or less, as at
+# distances from the edge whose square is BESIDE of a strip, where p falls with the square
+NARROW, BESIDE = 1e-4, 1e-2
 
 
 @dataclass(frozen=True, eq=False)
@@ -157,13 +160,18 @@ class CoupledContact:
         return Superposition(self.flat, self.growth)
 
     @property
+    def narrow(self) -> bool:
+        """Whether the strip beside a flat base is too narrow for its places to be known by y."""
+        return bool(self.growth) and self.ahead < NARROW * self.flat_base
+
+    @property
     def flat_base(self) -> float:
         """Half the width of the profile's flat base, or of the flat punch."""
         return self.growth[0].origin if self.growth else self.b
 
     def pressure(self, y: Array, rest: Array | None = None) -> Array:
         """p at 0 <= y <= b; rest is b - y where that is known better than from y."""
-        p = self._of(self.superposition.pressure, y)
+        p = self._of(self.superposition.pressure, y, rest)
         if not self.flat_base:
             p[y == 0.0] = self._pressure_on_axis
         return p + self._of_corner(self.flat.pressure, y, self.b, rest)
@@ -175,7 +183,7 @@ class CoupledContact:
 
     def pressure_and_shear(self, y: Array, rest: Array | None = None) -> Array:
         """Rows of p and q."""
-        deficit = self._of(self.superposition.shear_deficit, y)
+        deficit = self._of(self.superposition.shear_deficit, y, rest)
         deficit += self._of_corner(self.flat.shear_deficit, y, self.b, rest)
         p = self.pressure(y, rest)
         q = self.flat.friction * p
@@ -189,12 +197,18 @@ class CoupledContact:
         g = self._of(self.superposition.slip, y) + self._of_corner(self.flat.slip, y, 1.0)
         return self.sign / self.half_modulus * g
 
-    def _of(self, function: Callable[[Array, Array], Array], y: Array) -> Array:
+    def _of(self, function: Callable[..., Array], y: Array, rest: Array | None = None) -> Array:
         def direct(y: Array) -> Array:
             return function(y, np.full(len(y), self.ahead))
 
         values = np.zeros(len(y))
         inside = (y > 0.0) & (y <= self.b) if not self.flat_base else y <= self.b
+        if rest is not None and self.narrow:
+            near = rest < math.sqrt(BESIDE * self.flat_base * self.ahead)
+            values[near] = function(
+                y[near], np.full(near.sum(), self.ahead), self.ahead - rest[near]
+            )
+            inside &= ~near
         y = np.maximum(y, INNERMOST * self.b / self.flat.c)
         if not self.growth or len(self.marks) > FEW:
             values[inside] = direct(y[inside])

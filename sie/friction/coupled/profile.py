@@ -87,13 +87,16 @@ class Superposition:
     def __init__(self, flat: FlatFunctions, growth: tuple[GrowthPanel, ...]) -> None:
         self.flat, self.growth, self.stack = flat, growth, Stack(growth)
 
-    def pressure(self, x: Array, b: Array) -> Array:
-        """p at 0 < x <= origin + b, for each x with a contact of its own."""
-        return self._sum(self._pressure_kernels, x, b, over_s=True)
+    def pressure(self, x: Array, b: Array, beyond: Array | None = None) -> Array:
+        """p at 0 < x <= origin + b, for each x with a contact of its own.
 
-    def shear_deficit(self, x: Array, b: Array) -> Array:
+        `beyond` is x - origin where that is known better than from x.
+        """
+        return self._sum(self._pressure_kernels, x, b, over_s=True, beyond=beyond)
+
+    def shear_deficit(self, x: Array, b: Array, beyond: Array | None = None) -> Array:
         """f p - q, 0 in slip."""
-        return self._sum(self._deficit_kernels, x, b, over_s=True)
+        return self._sum(self._deficit_kernels, x, b, over_s=True, beyond=beyond)
 
     def slip(self, x: Array, b: Array) -> Array:
         """E*/2 times the slip of x > 0 since it came into contact."""
@@ -144,22 +147,30 @@ class Superposition:
 
     # -- integrals ---------------------------------------------------------------------------------
 
-    def _sum(self, kernels: tuple[Kernel, ...], x: Array, b: Array, over_s: bool) -> Array:
+    def _sum(
+        self,
+        kernels: tuple[Kernel, ...],
+        x: Array,
+        b: Array,
+        over_s: bool,
+        beyond: Array | None = None,
+    ) -> Array:
         total = np.zeros(len(x))
+        from_origin = x - self.stack.origin if beyond is None else beyond
         for kernel in kernels:
-            for powers, part in self._parts(kernel, x, b):
+            for powers, part in self._parts(kernel, x, from_origin, b):
                 step_done(0)
                 total += self._integral(kernel, powers, part, x, over_s)
         return total
 
     def _parts(
-        self, kernel: Kernel, x: Array, b: Array
+        self, kernel: Kernel, x: Array, from_origin: Array, b: Array
     ) -> Iterator[tuple[tuple[float, float], Part]]:
         """The intervals of s - origin that lie on a panel and below b, by the powers at both ends.
 
         They begin or end at the kernel's own places, or the panel's.
         """
-        all_, from_origin = self.stack, x - self.stack.origin
+        all_ = self.stack
         start, top = all_.lo[:, None], np.minimum(b, all_.hi[:, None])
         # From x on: in x/t, a little more than x, the digits of a narrow slip zone are lost
         below_lo = x * (kernel.above + kernel.span) if kernel.lo else np.full(len(x), np.inf)

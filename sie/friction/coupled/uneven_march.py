@@ -34,6 +34,8 @@ CUT, GROWN = 0.4, 2.5  # of a panel that is cut, and of the next one over it, or
 STEEPLY, LEAST_CUT = 0.7, 1e-4
 SHORTEST = 1e-13  # of the half-width, a panel
 MOST = 400  # panels
+# Kinks after which their number is foretold, and how many times MOST it then has to be
+TELLING, SURELY = 10, 1.2
 BEYOND = 1.01  # of the length at which an edge seems to reach a kink, a panel
 LANDED, LANDINGS = 1e-14, 12  # of the half-width: an edge at a kink; and trials
 CLOSE = 1e-12  # of the half-width: kinks so near the place of first contact are that place
@@ -253,6 +255,8 @@ class March:
             break
         self._next = GROWN * length if before < math.inf and not at_kink else math.inf
         self._accept(panel)
+        if at_kink:
+            self._refuse_many(goal)
         return panel
 
     def _solved(self, lo: float, length: float) -> UnevenPanel | None:
@@ -301,6 +305,20 @@ class March:
                 edge.passed()
                 self.kinked = panel.hi
                 self.kinks.append(panel.hi)
+
+    def _refuse_many(self, goal: float) -> None:
+        """Raises ContactError where so many panels a kink as so far are too many by far."""
+        n, passed = len(self.history.panels), len(self.kinks)
+        breaks = self.edges[0].slope.breaks
+        ahead = sum(abs(breaks - self.middle) < goal) - passed
+        if passed < TELLING or n + ahead * n / passed < SURELY * MOST:
+            return
+        raise ContactError(
+            f"the contact of dissimilar bodies grows over {passed + ahead} places where h'' or h' "
+            f"jumps, as at the points of a trace, and takes {n} steps over the first {passed}: its "
+            f"growth is solved in {MOST} steps at most; smooth the profile, give fewer points of "
+            f"it, lower the load, {NEGLECT}"
+        )
 
     @property
     def stopped(self) -> Edge | None:
