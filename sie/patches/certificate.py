@@ -161,7 +161,23 @@ def _rounding(o: Operator, linear: Linear, given: Given, peak: float) -> float:
         float(np.linalg.norm(force)) / given.load,
         moment / (given.load * hull),
         float(np.spacing(largest)) / (2.0 * peak),
+        _charge_of_closed_corners(o) / peak,
     )
+
+
+def _charge_of_closed_corners(o: Operator) -> float:
+    """What an ulp of the place of a concave corner inside a patch changes in H close to it.
+
+    p has -(step of H)/π ln(distance) there: an ulp is a charge of as much to the nearest places.
+    """
+    k, pieces, ends = o.panels, o.pieces, np.stack(o.ends)
+    at, length = k.piece + np.array([[0], [1]]), ends[1] - ends[0]
+    concave = np.zeros(len(pieces.ends))
+    concave[1:-1] = np.maximum(-pieces.steps, 0.0)
+    meets = np.abs(ends - pieces.ends[at]) <= SHORT * length
+    ulp = np.spacing(np.maximum(np.abs(ends), o.patches.r[k.patch]))
+    charge = np.where(meets, concave[at] * ulp, 0.0) / np.pi
+    return float((charge / (SHORT * length)).max(initial=0.0))
 
 
 class Measure(NamedTuple):
