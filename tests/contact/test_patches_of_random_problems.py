@@ -162,6 +162,18 @@ def test_a_corner_that_closes_to_rounding_leaves_no_charge_in_the_measure():
     assert measured.residual < 3e-13  # 5e-14 of rounding; 1.5e-12 if p is 0 there
 
 
+@pytest.mark.parametrize("part", [1e-3, 2e-3, 5e-3])
+@pytest.mark.parametrize("load", [0.02, 0.2])
+def test_closed_corners_are_certified_to_the_rounding_of_their_place(part, load):
+    """The narrow one of two parabolas shows over so much of its radius of about 0.25."""
+    place, length, curvature = 0.04, 0.25 * part, 1.0 / 0.25 - 1.0 / 4.0
+    touches = 0.5 * place**2 / (4.0 - 0.25)
+    narrow = sie.Parabola(0.25).shifted(place).raised(touches - curvature * length**2 / 8.0)
+    measured = solved(profile=sie.Row([sie.Parabola(4.0), narrow]), normal_load=load).check()
+    assert measured.tension == () and measured.ok
+    assert measured.measured_to < 1e-10
+
+
 @pytest.mark.parametrize("load", [1e-4, 1e-6])
 def test_a_flat_pressed_lightly_keeps_within_its_concave_corners(load):
     """Its edges are close to the kinks at the ends of its base, beside which h' is small."""
