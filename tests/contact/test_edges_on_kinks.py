@@ -78,8 +78,8 @@ def test_a_moment_is_met_where_tilting_moves_the_contact_across_a_straight_part_
 
 
 def test_a_search_that_begins_far_from_its_tilt_is_not_barred_by_the_smaller_rounding_there():
-    """Untilted, the slope is hundreds of times as large, and its rounding too: in units of that no contact
-    came nearer, and the answer by several patches was wrong by 1e-5 of the peak.
+    """Untilted, the slope is hundreds of times as large, and its rounding too: in units of that no
+    contact came nearer, and the answer by several patches was wrong by 1e-5 of the peak.
     """
     found = kinks.outcome(drawn(1_774_421_137, "quadratic pieces, jumps of h'", "load, moment"))
     assert max(found.edges, found.pressure) <= kinks.PROMISE
