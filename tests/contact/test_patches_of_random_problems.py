@@ -151,6 +151,29 @@ def test_a_concave_corner_that_nearly_closes_is_open_or_closed_without_tension(g
     assert solution.patches[-1][1] == pytest.approx(middle + outer, abs=1e-9)
 
 
+def test_a_corner_that_closes_to_rounding_leaves_no_charge_in_the_measure():
+    """A narrow parabola shows by 1e-5 under a wide one. At its corners p falls like 1e-4 ln x, is
+    0.1 as near as doubles tell, and -inf where a distance from one is rounded to 0.
+    """
+    wide, narrow = sie.Parabola(1.3).shifted(0.064), sie.Parabola(0.7).shifted(0.049)
+    row = sie.Row([wide.raised(3.7e-4), narrow.raised(5.5e-4)])
+    measured = solved(profile=row, normal_load=0.05).check()
+    assert measured.tension == ()
+    assert measured.residual < 3e-13  # 5e-14 of rounding; 1.5e-12 if p is 0 there
+
+
+@pytest.mark.parametrize("part", [1e-3, 2e-3, 5e-3])
+@pytest.mark.parametrize("load", [0.02, 0.2])
+def test_closed_corners_are_certified_to_the_rounding_of_their_place(part, load):
+    """The narrow one of two parabolas shows over so much of its radius of about 0.25."""
+    place, length, curvature = 0.04, 0.25 * part, 1.0 / 0.25 - 1.0 / 4.0
+    touches = 0.5 * place**2 / (4.0 - 0.25)
+    narrow = sie.Parabola(0.25).shifted(place).raised(touches - curvature * length**2 / 8.0)
+    measured = solved(profile=sie.Row([sie.Parabola(4.0), narrow]), normal_load=load).check()
+    assert measured.tension == () and measured.ok
+    assert measured.measured_to < 1e-10
+
+
 @pytest.mark.parametrize("load", [1e-4, 1e-6])
 def test_a_flat_pressed_lightly_keeps_within_its_concave_corners(load):
     """Its edges are close to the kinks at the ends of its base, beside which h' is small."""
