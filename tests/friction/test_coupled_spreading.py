@@ -45,7 +45,7 @@ def small_load() -> sie.Solution:
 
 @pytest.fixture
 def no_gaps(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Certificates without gaps beside the contact, which take two thirds of the time."""
+    """No gaps beside the contact in certificates: they take two thirds of the time."""
     monkeypatch.setattr(coupled_shear_check, "_gaps", lambda state, scene: np.zeros(1))
 
 
@@ -200,7 +200,7 @@ def test_conditions_of_reciprocity_hold_with_what_the_contact_kept(
     assert np.abs(gaps).max() < 3e-9
 
 
-def test_state_is_certified(small_load: sie.Solution) -> None:
+def test_state_is_certified(small_load: sie.Solution, no_gaps: None) -> None:
     certificate = small_load.check()
     assert certificate.ok
     assert certificate.residual < 1e-10
@@ -283,10 +283,11 @@ def test_the_march_begins_in_a_contact_that_hardly_sticks(
     assert 0.5 < first(np.array([first.hi]))[0][0] * march.expected(1.0) < 1.0
 
 
-def test_a_profile_with_a_strip_that_old_places_have_left_obeys_equation_1(no_gaps: None) -> None:
+def test_a_profile_with_a_strip_that_old_places_have_left_obeys_equation_1() -> None:
     # 1e-8 of the peak was missed where panels did not know of the places that the strip had left
     scene = replace(_scene(0.01, 0.47, 0.015), profile=sie.Polynomial((0.0, 0.0, 0.5, 0.0, 0.3)))
     certificate = sie.solve(scene).check()
+    # With the gaps
     assert certificate.ok
     assert certificate.residual < 1e-11
 
@@ -354,7 +355,7 @@ def test_energy_is_the_sum_of_what_friction_works(small_load: sie.Solution) -> N
     state = small_load.coupled[1]
     assert isinstance(state, SpreadingContact)
     march, power = state.march, SpreadingPower(state.march)
-    node, mass = leggauss(9)
+    node, mass = leggauss(5)
     part = 0.5 * (1.0 + node)
     works = [
         power(s) * float(march.history.panel_of(s)(np.array([s]))[0][0])
@@ -362,4 +363,5 @@ def test_energy_is_the_sum_of_what_friction_works(small_load: sie.Solution) -> N
     ]
     total = float(mass @ (np.array(works) * part)) * state.s / state.search.normal.half_modulus
     spent = small_load.energy_lost - sie.solve(_scene(0.0)).energy_lost
-    assert spent == pytest.approx(total, rel=1e-4)
+    # With five nodes 2e-8 of it, with four 9e-7
+    assert spent == pytest.approx(total, rel=1e-6)
