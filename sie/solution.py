@@ -449,7 +449,8 @@ class Solution(Frictionless, StressAnswers):
         In full sliding it is the slip at incipient sliding, when the last stick zone vanishes.
         Where dissimilar bodies are pressed together it is counted from when a point came into
         contact: what slipped first sticks later, and keeps its slip. Where their contact spreads
-        under a tangential load, it is counted from when that load began.
+        under a tangential load, it is counted from when that load began, or from when a point is
+        touched if the load is so small that all that is gained sticks.
 
         Examples
         --------

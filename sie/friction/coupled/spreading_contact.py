@@ -30,6 +30,7 @@ from .integral import Integral, integral, on_marks, towards_ends
 from .sheared import LOOKED_AT, ShearedContact
 from .spreading_beginning import Beginning
 from .spreading_march import OPEN, SpreadingMarch
+from .spreading_slip import StripSlip
 from .spreading_zones import Places
 from .tables import interpolated
 from .tangential import TangentialSearch, Trial
@@ -177,6 +178,13 @@ class SpreadingContact(ShearedContact):
         cuts = np.array([y for y in self.frame_marks if e2 < y < x2])
         return integral(lambda u: self.added(u)[2], towards_ends(e2, x2, cuts))
 
+    @cached_property
+    def _slipped_back(self) -> StripSlip:
+        """The slip on the strip at x1, and on what it left."""
+        (x1, e0, _, _), history = self.trial.zones, self.march.history
+        ends = x1, e0, max(e0, self.first_strip - history.b)
+        return StripSlip(history, self.s, lambda u: self.added(u)[2], ends)
+
     @property
     def least_slip(self) -> float:
         """The least slip along Q that Q added in the slip zone at x2, over the largest."""
@@ -215,7 +223,10 @@ class SpreadingContact(ShearedContact):
         return self.sign * values
 
     def relative_slip(self, x: ArrayLike) -> Array:
-        """The slip at x, same shape: 0 outside the contact, and in what was gained."""
+        """The slip at x, same shape: 0 outside the contact.
+
+        What was gained under Q slips on the strip, from when it is touched.
+        """
 
         def value(flat: Array) -> Array:
             u, g = self.in_frame(flat), np.zeros(flat.shape)
@@ -224,6 +235,9 @@ class SpreadingContact(ShearedContact):
             g[old] = np.sign(u[old]) * normal.sign * normal.slip(np.abs(u[old]))
             slips = (u > e2) & (u <= x2)
             g[slips] += self._slipped(u[slips]) / normal.half_modulus
+            if self.first_strip > SEEN * normal.b:
+                within = (u > x1) & (u < e2)
+                g[within] += self._slipped_back(u[within]) / normal.half_modulus
             return self.turn * g
 
         return on_line(value, x)

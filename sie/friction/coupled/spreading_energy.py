@@ -24,7 +24,6 @@ from sie.numerics import chebyshev
 from sie.numerics.gauss_jacobi import with_weight
 from sie.progress_bar import reported, step_done
 
-from .edge_rate import Lengths, Weights
 from .panels import graded, totals
 from .spreading_march import SpreadingMarch
 from .spreading_zones import Places, SpreadingPanel
@@ -63,7 +62,7 @@ class SpreadingPower:
         owner, from_e2, to_x, mass = graded(ahead, AT_ONCE * ahead, left, (-0.5 - self.theta, 0.0))
         to_x2 = to_x + left[owner][:, None]
         whole = history.b + history.c + s - e2
-        rate = self._rate(s, (whole + from_e2, -from_e2, to_x2), (e2, e3))
+        rate = history.gradient_rate(s, (whole + from_e2, -from_e2, to_x2), (e2, e3))
         slip = totals(owner, rate * mass, len(ahead))
         from_b = history.b + history.c - e2 + ahead
         p = self._pressure(Places(from_b, e2 - ahead, e3 + left, np.full(len(ahead), s)))
@@ -79,27 +78,9 @@ class SpreadingPower:
         from_x1 = ahead[owner][:, None] + from_x
         b, c = history.b, history.c
         ends = from_x1, (b + c + s - e2) - from_x1, (2.0 * b + s - e3) - from_x1
-        slip = totals(owner, self._rate(s, ends, (e2, e3)) * mass, len(ahead))
+        slip = totals(owner, history.gradient_rate(s, ends, (e2, e3)) * mass, len(ahead))
         places = Places(ahead - s, b + c + s - ahead, 2.0 * b + s - ahead, np.full(len(ahead), s))
         return self.friction * float(weight @ (self._pressure(places) * slip))
-
-    def _rate(self, s: float, places: tuple[Array, ...], ways: tuple[float, float]) -> Array:
-        """γ̇ at the distances from x1, e2 and x2."""
-        shape, history = places[0].shape, self.history
-        one, e2, e3 = (np.array([v]) for v in (s, *ways))
-        stuck, slipping = history.lengths_of_zones(one, e2, e3)
-        weights = Weights(
-            *(
-                np.broadcast_to(v[..., None], (*v.shape[:-1], *shape))
-                for v in history.weights(one, e2, e3)
-            )
-        )
-        to_x1, to_e2, to_x2 = places
-        lengths = Lengths(
-            to_x1, to_e2, to_x2, np.full(shape, stuck[0]), np.full(shape, slipping[0])
-        )
-        values: Array = history.rates.inside(lengths, weights, history.strip)[2]
-        return values
 
     def _pressure(self, places: Places) -> Array:
         p, normal = self.history.inside(places)[0], self.march.normal

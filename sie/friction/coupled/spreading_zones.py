@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from sie.numerics import chebyshev
 
-from .edge_rate import EdgeRates, Weights
+from .edge_rate import EdgeRates, Lengths, Weights
 from .panels import graded
 
 Array = NDArray[np.float64]
@@ -155,6 +155,21 @@ class SpreadingZones:
             self._weights = {k: v for k, v in self._weights.items() if k in kept}
             self._weights[id(panel)] = panel, chebyshev.transform(rows)
         return self._weights[id(panel)][1], lo
+
+    def gradient_rate(
+        self, s: float, places: tuple[Array, ...], ways: tuple[float, float]
+    ) -> Array:
+        """γ̇ at the distances from x1, e2 and x2, where the zones have moved by ε2 and ε3."""
+        shape, (one, e2, e3) = places[0].shape, (np.array([v]) for v in (s, *ways))
+        lengths = (np.full(shape, v[0]) for v in self.lengths_of_zones(one, e2, e3))
+        weights = Weights(
+            *(
+                np.broadcast_to(v[..., None], (*v.shape[:-1], *shape))
+                for v in self.weights(one, e2, e3)
+            )
+        )
+        values: Array = self.rates.inside(Lengths(*places, *lengths), weights, self.strip)[2]
+        return values
 
     def strip_width(self, s: float, e2: float, e3: float) -> float:
         """The width of the strip of these zones."""
