@@ -23,6 +23,7 @@ from sie.friction.coupled.opened_rule import beside_rule, zone_rule
 from sie.friction.coupled.sheared import ShearedContact
 from sie.friction.coupled.sheared_contact import either, found_state
 from sie.friction.coupled.spreading_contact import spreading_march
+from sie.friction.coupled.spreading_zones import SpreadingPanel
 from sie.friction.coupled.zones import Zones
 from sie.numerics import chebyshev
 from sie.problem.coverage import LargerLoad
@@ -114,6 +115,26 @@ def test_polynomials_between_nodes_are_exact_on_and_off_them():
     nodes, x = np.array([-1.0, 0.3, 0.8, 1.7]), np.array([0.3, 0.5, 2.0])
     rows = between(nodes, x)
     np.testing.assert_allclose(rows @ (nodes**3 - nodes), x**3 - x, atol=1e-14)
+
+
+def test_gradient_goes_on_smoothly_beyond_a_panel_that_is_very_short(search):
+    # The slip zone may open just where a panel of the march before ended
+    def panel(lo, hi):
+        nodes = math.log(lo) + 0.5 * math.log(hi / lo) * (1.0 + chebyshev.points(16))
+        return GradientPanel(lo, hi, nodes, np.exp(0.6 * nodes))
+
+    kept = KeptGradient(search, (panel(0.02, 0.06), panel(0.06, 0.06 * (1.0 + 1e-6))))
+    s = 0.06 * np.array([1.01, 1.05, 1.1])
+    assert kept.gained(s) == pytest.approx(s**0.6, rel=1e-3)
+
+
+def test_panels_end_where_slip_enters_the_left_half(search):
+    # γ under P alone has a kink at 0
+    march, c = spreading_march(search), search.normal.c
+    ways = np.log([[1.0, 1.0], [0.9 * c, 1.1 * c], [0.3 * c, 0.4 * c]])
+    series = np.stack((ways.sum(axis=1), ways[:, 1] - ways[:, 0]), axis=1) / 2.0
+    panel = SpreadingPanel(0.2, 0.3, series, False)
+    assert panel(np.array([march._entry(panel)]))[1] == pytest.approx(c, rel=1e-12)
 
 
 def test_both_equations_hold_with_the_gradient_that_was_given(contact):

@@ -107,8 +107,11 @@ class OpenedMarch:
         nodes = math.log(lo) + math.log(hi / lo) * _radau(POINTS)
         s = np.exp(nodes)
         logs = np.array([self._guess(one) for one in s.tolist()])
-        last, few = self.kept.panels[-1], slice(-FEW, None)
-        first = between(last.nodes[few], nodes) @ last.values[few]
+        if self._last:
+            last, few = self.kept.panels[-1], slice(-FEW, None)
+            first = between(last.nodes[few], nodes) @ last.values[few]
+        else:
+            first = self.kept.continued(nodes)
         return self._solved(GradientPanel(lo, hi, nodes, first), logs, None)
 
     def shortened(

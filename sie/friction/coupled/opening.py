@@ -152,8 +152,8 @@ def _opening(search: TangentialSearch, march: SpreadingMarch) -> float:
 
     if not history.panels or deficit(history.panels[-1].hi) > 0.0:
         try:
-            far = FAR * b * march.beginning.rates.sticking
-            march.marched(far / march.expected(1.0))
+            far = FAR * b * march.beginning.rates.sticking / march.expected(1.0)
+            _ = march.onward(far) if history.panels else march.marched(far)
         except LargerLoad:
             pass
         else:

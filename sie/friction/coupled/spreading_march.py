@@ -54,7 +54,7 @@ MOST, MOST_SUMS = 60, 1200  # panels; times that sums on a panel are taken, of 5
 NEXT, BEYOND = 1.02, 1.2  # the last panel goes on beyond the s at which Q seems to be reached
 EXCEEDED = 1e-6  # of f p at the old edge, by how much q is more
 OPEN = "a slip zone is open at the old edge, inside the stick zone"
-WIDEST = 0.5  # half-widths: how far the march goes
+WIDEST = 0.8  # half-widths: how far the march goes
 
 
 class Known(NamedTuple):
@@ -154,8 +154,12 @@ class SpreadingMarch:
 
     def marched(self, Q: float) -> float:
         """Panels up to the load Q; s there."""
-        history, b = self.history, self.normal.b
         self.started(self.expected(Q))
+        return self.onward(Q)
+
+    def onward(self, Q: float) -> float:
+        """The same from the panels on that are known."""
+        history, b = self.history, self.normal.b
         while (load := history.load(math.inf)) < Q:
             last = history.panels[-1]
             if last.hi > WIDEST * b or len(history.panels) > MOST:
@@ -223,7 +227,8 @@ class SpreadingMarch:
                     break
                 if math.log(hi / lo) < SHORTEST:
                     break
-                # The right edge enters what stuck under P alone
+                # The right edge enters what stuck under P alone, or slip the left half of it, where
+                # γ has a kink
                 end = self._entry(found)
                 if lo * 1.01 < end < hi * 0.99:
                     hi = stopped = end
@@ -238,15 +243,16 @@ class SpreadingMarch:
         self.history.width = self.history.strip_width(hi, *self.history.zones(hi))
 
     def _entry(self, panel: SpreadingPanel) -> float:
-        """s at which ε3 = b - c, if on the panel; otherwise 0."""
-        aim, y = math.log(self.beginning.rest), np.linspace(-1.0, 1.0, 65)
-        way = chebyshev.evaluate(panel.series[2], y) - aim
-        k = np.flatnonzero((way[:-1] < 0.0) & (way[1:] >= 0.0))
-        if not k.size:
-            return 0.0
-        i = int(k[0])
-        part = y[i] - way[i] * (y[i + 1] - y[i]) / (way[i + 1] - way[i])
-        return panel.lo * math.exp(0.5 * panel.length * (1.0 + part))
+        """The s on the panel at which ε3 = b - c, or else ε2 = c, or 0."""
+        y = np.linspace(-1.0, 1.0, 65)
+        for row, aim in ((2, self.beginning.rest), (1, self.normal.c)):
+            way = chebyshev.evaluate(panel.series[row], y) - math.log(aim)
+            k = np.flatnonzero((way[:-1] < 0.0) & (way[1:] >= 0.0))
+            if k.size:
+                i = int(k[0])
+                part = y[i] - way[i] * (y[i + 1] - y[i]) / (way[i + 1] - way[i])
+                return panel.lo * math.exp(0.5 * panel.length * (1.0 + part))
+        return 0.0
 
     def _panel(self, last: SpreadingPanel, lo: float, hi: float) -> SpreadingPanel | None:
         """The panel that goes on like the last one at first."""
