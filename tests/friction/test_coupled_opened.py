@@ -13,7 +13,12 @@ import pytest
 
 import sie
 from oracles.bonded_edge import missed
-from sie.certificate.coupled_shear_check import sheared_certificate
+from sie.certificate.coupled_shear_check import (
+    MARCHED,
+    PROMISED,
+    _promised,
+    sheared_certificate,
+)
 from sie.friction.coupled import opened_march, opening
 from sie.friction.coupled import spreading_march as first_march
 from sie.friction.coupled.opened_contact import Opened, OpenedContact, opened_contact
@@ -153,6 +158,27 @@ def test_certificate_is_not_ok_with_another_gradient(contact):
     vars(wrong)["known"] = known
     certificate = sheared_certificate(wrong, replace(scene(0.5), tangential_load=contact.Q), 0.0)
     assert not certificate.ok
+
+
+def test_what_is_known_from_a_march_is_promised_to_a_millionth_where_more_is_missed(contact):
+    assert _promised(contact, 1e-9, PROMISED) == MARCHED
+    assert _promised(contact, 1e-11, PROMISED) == PROMISED
+
+
+def test_strip_of_old_slip_that_is_left_out_counts_as_doubt(contact):
+    march = march_with(contact.search, 1.0)
+    march.unseen = 3e-8
+    assert replace(contact, march=march).doubt == 3e-8
+
+
+def test_pressure_is_positive_beside_the_strip_that_is_left_out(contact):
+    beside = contact.ends[0] + contact.known.zones.strip * np.geomspace(0.1, 1e5, 200)
+    turned = replace(contact)
+    vars(turned)["known"] = contact.known
+    # p + i q turns with ln d: a strip that is wider shows it
+    object.__setattr__(turned, "_stuck", lambda u, k: contact._stuck(u, k) - 1e-5)
+    assert turned.frame_pressure(beside).min() == 0.0
+    assert (contact.frame_pressure(beside)[20:] > 0.0).all()
 
 
 def test_conditions_of_a_single_stick_zone_hold_with_the_gradient_in_the_slip_zone(contact):

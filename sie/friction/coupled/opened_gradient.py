@@ -73,11 +73,12 @@ class KeptGradient:
         first = self.panels[0]
         start = float(first(np.array([first.lo]))[0]) - self.at_edge
         values = self.at_edge + start * (s / first.lo) ** (0.5 + self.search.theta)
-        which = np.searchsorted([panel.lo for panel in self.panels], s) - 1
+        beyond = s > self.panels[-1].hi
+        which = np.where(beyond, -1, np.searchsorted([panel.lo for panel in self.panels], s) - 1)
         for k in np.unique(which[which >= 0]).tolist():
             own = which == k
             values[own] = self.panels[k](s[own])
-        if (beyond := s > self.panels[-1].hi).any():
+        if beyond.any():
             values[beyond] = self.continued(np.log(s[beyond]))
         return values
 

@@ -53,6 +53,7 @@ class OpenedMarch:
     start       s, Q, and ln of (c - e2)/s and (b - x2)/s where the zone opens
     slopes      of these logarithms with ln s before
     sliding     computes p_s
+    unseen      of s: the strip of old slip at the edge that is left out
     ended       whether nothing sticks beside the edge under the load that was asked for
     """
 
@@ -61,7 +62,7 @@ class OpenedMarch:
     ) -> None:
         self.kept, self.search, self.start = kept, kept.search, start
         self.slopes, self.sliding = slopes, sliding
-        self.ended = False
+        self.ended, self.unseen = False, 0.0
         self.jumps: list[tuple[float, float]] = []
         self.s = start.s
         self._last: tuple[OpenedPoint, ...] = ()

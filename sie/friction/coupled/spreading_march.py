@@ -50,7 +50,8 @@ ROUNDS = 12  # of what the panels before add
 LINEAR, NEAR, ROUGHLY = 1e-7, 1e-3, 1e-2
 CUT, SHORTEST, LONGER = 0.3, 0.02, 1.6  # of a panel in ln s
 DECAYED, NOISE = 1e-9, 64.0  # of the last coefficients of a panel that is not cut; roundings of b
-MOST, MOST_SUMS = 60, 1200  # panels; times that sums on a panel are taken, of 5 to 10 ms each
+MOST, MOST_SUMS = 60, 1800  # panels; times that sums on a panel are taken, of 5 to 10 ms each
+ON_ONE = 120  # of them on one panel, before it is cut
 NEXT, BEYOND = 1.02, 1.2  # the last panel goes on beyond the s at which Q seems to be reached
 EXCEEDED = 1e-6  # of f p at the old edge, by how much q is more
 OPEN = "a slip zone is open at the old edge, inside the stick zone"
@@ -315,7 +316,10 @@ class SpreadingMarch:
         step, linear = max(STEP, math.sqrt(rounding)), max(LINEAR, settled)
         moved = self._before(panel, s, known.logs + step)
         known = known._replace(slopes=(moved - known.values) / step)
+        most = self._sums + ON_ONE
         for _ in range(ROUNDS):
+            if self._sums > most:
+                return None
             finish = gap < NEAR
             found = self._iterated(panel, s, known, settled if finish else ROUGHLY * gap)
             if found is None:
