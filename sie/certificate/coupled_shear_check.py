@@ -92,10 +92,17 @@ def sheared_certificate(state: State, scene: Scene, tol: float) -> Certificate:
         lowest_pressure=min(float(values.p.min()) / peak, 0.0),
         lowest_gap=float(gaps.min(initial=0.0)) / float(np.abs(gaps).max(initial=EPS)),
         abscissae=min(rounding, EPS / NARROW, _one_ulp(p, values.p, values, x) / peak),
-        tol=max(tol, MARCHED if getattr(state, "doubt", 0.0) else PROMISED),
+        tol=max(tol, _promised(state, missed, PROMISED)),
         shear=_of_shear(state, scene, values, (drift, rounded), tol),
         notes=notes(H, peak / scene.Estar),
     )
+
+
+def _promised(state: State, missed: float, promise: float) -> float:
+    """The promise, unless it is missed where γ is known from a march alone."""
+    marched = isinstance(state, ShearedContact) and state.spreads
+    doubt = float(getattr(state, "doubt", 0.0))
+    return MARCHED if marched and max(missed - promise, doubt) > 0.0 else promise
 
 
 def _one_ulp(
@@ -162,8 +169,9 @@ def _of_shear(
         kind = f"{way} beside the stick zone; β couples p and q"
     excess = float((size - scene.friction * values.p).max()) / (scene.friction * peak)
     doubt = getattr(state, "doubt", 0.0)
+    missed = max(measured[0], doubt)
     return ShearCertificate(
-        residual=max(measured[0], doubt),
+        residual=missed,
         equilibrium=abs(float(values.weight @ values.q) - Q) / float(values.weight @ size),
         excess=max(excess, 0.0),
         opposing=min(state.least_slip, 0.0),
@@ -171,7 +179,7 @@ def _of_shear(
         condition=1.0,
         advancing=True,
         kind=kind,
-        tol=max(tol, MARCHED if doubt else OF_SHEAR),
+        tol=max(tol, _promised(state, missed, OF_SHEAR)),
     )
 
 

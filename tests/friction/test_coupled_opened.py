@@ -13,7 +13,12 @@ import pytest
 
 import sie
 from oracles.bonded_edge import missed
-from sie.certificate.coupled_shear_check import sheared_certificate
+from sie.certificate.coupled_shear_check import (
+    MARCHED,
+    PROMISED,
+    _promised,
+    sheared_certificate,
+)
 from sie.friction.coupled import opened_march, opening
 from sie.friction.coupled import spreading_march as first_march
 from sie.friction.coupled.opened_contact import Opened, OpenedContact, opened_contact
@@ -23,6 +28,7 @@ from sie.friction.coupled.opened_rule import beside_rule, zone_rule
 from sie.friction.coupled.sheared import ShearedContact
 from sie.friction.coupled.sheared_contact import either, found_state
 from sie.friction.coupled.spreading_contact import spreading_march
+from sie.friction.coupled.spreading_zones import SpreadingPanel
 from sie.friction.coupled.zones import Zones
 from sie.numerics import chebyshev
 from sie.problem.coverage import LargerLoad
@@ -116,6 +122,26 @@ def test_polynomials_between_nodes_are_exact_on_and_off_them():
     np.testing.assert_allclose(rows @ (nodes**3 - nodes), x**3 - x, atol=1e-14)
 
 
+def test_gradient_goes_on_smoothly_beyond_a_panel_that_is_very_short(search):
+    # The slip zone may open just where a panel of the march before ended
+    def panel(lo, hi):
+        nodes = math.log(lo) + 0.5 * math.log(hi / lo) * (1.0 + chebyshev.points(16))
+        return GradientPanel(lo, hi, nodes, np.exp(0.6 * nodes))
+
+    kept = KeptGradient(search, (panel(0.02, 0.06), panel(0.06, 0.06 * (1.0 + 1e-6))))
+    s = 0.06 * np.array([1.01, 1.05, 1.1])
+    assert kept.gained(s) == pytest.approx(s**0.6, rel=1e-3)
+
+
+def test_panels_end_where_slip_enters_the_left_half(search):
+    # γ under P alone has a kink at 0
+    march, c = spreading_march(search), search.normal.c
+    ways = np.log([[1.0, 1.0], [0.9 * c, 1.1 * c], [0.3 * c, 0.4 * c]])
+    series = np.stack((ways.sum(axis=1), ways[:, 1] - ways[:, 0]), axis=1) / 2.0
+    panel = SpreadingPanel(0.2, 0.3, series, False)
+    assert panel(np.array([march._entry(panel)]))[1] == pytest.approx(c, rel=1e-12)
+
+
 def test_both_equations_hold_with_the_gradient_that_was_given(contact):
     certificate = sheared_certificate(contact, replace(scene(0.5), tangential_load=contact.Q), 0.0)
     assert certificate.residual < 1e-12
@@ -132,6 +158,27 @@ def test_certificate_is_not_ok_with_another_gradient(contact):
     vars(wrong)["known"] = known
     certificate = sheared_certificate(wrong, replace(scene(0.5), tangential_load=contact.Q), 0.0)
     assert not certificate.ok
+
+
+def test_what_is_known_from_a_march_is_promised_to_a_millionth_where_more_is_missed(contact):
+    assert _promised(contact, 1e-9, PROMISED) == MARCHED
+    assert _promised(contact, 1e-11, PROMISED) == PROMISED
+
+
+def test_strip_of_old_slip_that_is_left_out_counts_as_doubt(contact):
+    march = march_with(contact.search, 1.0)
+    march.unseen = 3e-8
+    assert replace(contact, march=march).doubt == 3e-8
+
+
+def test_pressure_is_positive_beside_the_strip_that_is_left_out(contact):
+    beside = contact.ends[0] + contact.known.zones.strip * np.geomspace(0.1, 1e5, 200)
+    turned = replace(contact)
+    vars(turned)["known"] = contact.known
+    # p + i q turns with ln d: a strip that is wider shows it
+    object.__setattr__(turned, "_stuck", lambda u, k: contact._stuck(u, k) - 1e-5)
+    assert turned.frame_pressure(beside).min() == 0.0
+    assert (contact.frame_pressure(beside)[20:] > 0.0).all()
 
 
 def test_conditions_of_a_single_stick_zone_hold_with_the_gradient_in_the_slip_zone(contact):

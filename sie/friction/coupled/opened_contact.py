@@ -43,7 +43,7 @@ Array = NDArray[np.float64]
 
 NEAREST = 1e-10  # of a slip zone, from an end: nearer p - p there is a power of the distance
 ROUNDINGS = 8.0  # of b
-BLURRED = 1e-8  # of what was gained: so near to x1 the strip counts that is left out
+BLURRED = 1e-6  # of what was gained: so near to x1 the strip counts that is left out
 
 
 class Opened(NamedTuple):
@@ -69,9 +69,14 @@ class OpenedContact(ShearedContact):
 
     @property
     def doubt(self) -> float:
-        """By how much γ on two panels differs where they meet and stick now, over the mean f p."""
+        """By how much γ may err where surfaces stick, over the mean f p.
+
+        It differs by so much on two panels where they meet, or the strip that is left out changes
+        it.
+        """
         h1 = self.known.zones.h1
-        return max((jump for s, jump in self.march.jumps if -s < h1), default=0.0)
+        jumps = (jump for s, jump in self.march.jumps if -s < h1)
+        return max(self.march.unseen, *jumps, 0.0)
 
     @property
     def state(self) -> Opened:  # type: ignore[override]
@@ -138,7 +143,15 @@ class OpenedContact(ShearedContact):
         # On the strip, which only makes exponents real, p rises from 0
         part = (u - self.ends[0]) / own.zones.strip
         p[part < 1.0] *= np.maximum(part[part < 1.0], 0.0)
+        # Beside it, where p + i q turns with ln d, the strip of old slip is left out
+        near = self._blurred(u)
+        p[near] = np.maximum(p[near], 0.0)
         return p
+
+    def _blurred(self, u: Array) -> NDArray[np.bool_]:
+        """Whether places are so near to x1 that the strip counts which is left out."""
+        near: NDArray[np.bool_] = u - self.ends[0] < BLURRED * self.point.s
+        return near
 
     def _stuck(self, u: Array, k: int) -> Array:
         x, at = self._located(u, k)
@@ -175,7 +188,7 @@ class OpenedContact(ShearedContact):
         q = (self._frame_density.hilbert(v) - self.search.H(v)) / self.search.beta
         limit = self.friction * self.frame_pressure(v)
         # The slip of the normal load goes on in a strip that is left out: there |q| is f p at most
-        near = v - self.ends[0] < BLURRED * self.point.s
+        near = self._blurred(v)
         r[stuck] = np.where(near, np.clip(limit - q, 0.0, 2.0 * limit), limit - q)
         return r
 

@@ -20,6 +20,7 @@ from .opened_search import Search
 Array = NDArray[np.float64]
 
 NODES = 12  # for ∫γ between two cuts
+CONTINUED = 0.1  # of ln s, before the last panel ends: from there on γ is continued
 
 
 class GradientPanel(NamedTuple):
@@ -72,10 +73,22 @@ class KeptGradient:
         first = self.panels[0]
         start = float(first(np.array([first.lo]))[0]) - self.at_edge
         values = self.at_edge + start * (s / first.lo) ** (0.5 + self.search.theta)
-        which = np.searchsorted([panel.lo for panel in self.panels], s) - 1
+        beyond = s > self.panels[-1].hi
+        which = np.where(beyond, -1, np.searchsorted([panel.lo for panel in self.panels], s) - 1)
         for k in np.unique(which[which >= 0]).tolist():
             own = which == k
             values[own] = self.panels[k](s[own])
+        if beyond.any():
+            values[beyond] = self.continued(np.log(s[beyond]))
+        return values
+
+    def continued(self, logs: Array) -> Array:
+        """A guess of γ beyond the last panel, given ln s.
+
+        That panel may be so short that its polynomial is of no use there.
+        """
+        places = self.panels[-1].hi * np.exp(-CONTINUED * np.array([0.0, 0.5, 1.0]))
+        values: Array = between(np.log(places), logs) @ self.gained(places)
         return values
 
     def __call__(self, y: Array) -> Array:

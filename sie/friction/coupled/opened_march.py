@@ -53,6 +53,7 @@ class OpenedMarch:
     start       s, Q, and ln of (c - e2)/s and (b - x2)/s where the zone opens
     slopes      of these logarithms with ln s before
     sliding     computes p_s
+    unseen      of s: the strip of old slip at the edge that is left out
     ended       whether nothing sticks beside the edge under the load that was asked for
     """
 
@@ -61,7 +62,7 @@ class OpenedMarch:
     ) -> None:
         self.kept, self.search, self.start = kept, kept.search, start
         self.slopes, self.sliding = slopes, sliding
-        self.ended = False
+        self.ended, self.unseen = False, 0.0
         self.jumps: list[tuple[float, float]] = []
         self.s = start.s
         self._last: tuple[OpenedPoint, ...] = ()
@@ -107,8 +108,11 @@ class OpenedMarch:
         nodes = math.log(lo) + math.log(hi / lo) * _radau(POINTS)
         s = np.exp(nodes)
         logs = np.array([self._guess(one) for one in s.tolist()])
-        last, few = self.kept.panels[-1], slice(-FEW, None)
-        first = between(last.nodes[few], nodes) @ last.values[few]
+        if self._last:
+            last, few = self.kept.panels[-1], slice(-FEW, None)
+            first = between(last.nodes[few], nodes) @ last.values[few]
+        else:
+            first = self.kept.continued(nodes)
         return self._solved(GradientPanel(lo, hi, nodes, first), logs, None)
 
     def shortened(

@@ -34,7 +34,9 @@ from .tangential import TangentialSearch
 Array = NDArray[np.float64]
 
 FAR = 40.0  # times the length on which what is touched sticks: a zone has opened before
-UNSEEN = 1e-9  # of what was gained: wider strips of old slip at the edge are refused
+# Of what was gained: wider strips of old slip at the edge are refused; narrower ones are left out,
+# which changes the state by about as much
+UNSEEN = 1e-7
 ON_PANEL = 16  # places of a panel at which γ is kept
 ASIDE = 1e-4  # of s, for slopes at the opening
 REACHED, TRIES = 3e-11, 6  # of Q, how near the march comes; times that its last panel is solved
@@ -126,7 +128,9 @@ def opened_march(search: TangentialSearch, march: SpreadingMarch) -> OpenedMarch
     slopes = (logs - np.log(np.array(history.zones(before)) / before)) / math.log(s / before)
     start = OpenedPoint(s, logs, history.load(s))
     kept = KeptGradient(search, tuple(panels))
-    return OpenedMarch(kept, start, slopes, partial(bounded_sliding, search))
+    opened = OpenedMarch(kept, start, slopes, partial(bounded_sliding, search))
+    opened.unseen = strip / s
+    return opened
 
 
 def _touched(march: SpreadingMarch, s: Array, now: float) -> Array:
@@ -152,8 +156,8 @@ def _opening(search: TangentialSearch, march: SpreadingMarch) -> float:
 
     if not history.panels or deficit(history.panels[-1].hi) > 0.0:
         try:
-            far = FAR * b * march.beginning.rates.sticking
-            march.marched(far / march.expected(1.0))
+            far = FAR * b * march.beginning.rates.sticking / march.expected(1.0)
+            _ = march.onward(far) if history.panels else march.marched(far)
         except LargerLoad:
             pass
         else:

@@ -50,11 +50,12 @@ ROUNDS = 12  # of what the panels before add
 LINEAR, NEAR, ROUGHLY = 1e-7, 1e-3, 1e-2
 CUT, SHORTEST, LONGER = 0.3, 0.02, 1.6  # of a panel in ln s
 DECAYED, NOISE = 1e-9, 64.0  # of the last coefficients of a panel that is not cut; roundings of b
-MOST, MOST_SUMS = 60, 1200  # panels; times that sums on a panel are taken, of 5 to 10 ms each
+MOST, MOST_SUMS = 60, 1800  # panels; times that sums on a panel are taken, of 5 to 10 ms each
+ON_ONE = 120  # of them on one panel, before it is cut
 NEXT, BEYOND = 1.02, 1.2  # the last panel goes on beyond the s at which Q seems to be reached
 EXCEEDED = 1e-6  # of f p at the old edge, by how much q is more
 OPEN = "a slip zone is open at the old edge, inside the stick zone"
-WIDEST = 0.5  # half-widths: how far the march goes
+WIDEST = 0.8  # half-widths: how far the march goes
 
 
 class Known(NamedTuple):
@@ -154,8 +155,12 @@ class SpreadingMarch:
 
     def marched(self, Q: float) -> float:
         """Panels up to the load Q; s there."""
-        history, b = self.history, self.normal.b
         self.started(self.expected(Q))
+        return self.onward(Q)
+
+    def onward(self, Q: float) -> float:
+        """The same from the panels on that are known."""
+        history, b = self.history, self.normal.b
         while (load := history.load(math.inf)) < Q:
             last = history.panels[-1]
             if last.hi > WIDEST * b or len(history.panels) > MOST:
@@ -223,7 +228,8 @@ class SpreadingMarch:
                     break
                 if math.log(hi / lo) < SHORTEST:
                     break
-                # The right edge enters what stuck under P alone
+                # The right edge enters what stuck under P alone, or slip the left half of it, where
+                # γ has a kink
                 end = self._entry(found)
                 if lo * 1.01 < end < hi * 0.99:
                     hi = stopped = end
@@ -238,15 +244,16 @@ class SpreadingMarch:
         self.history.width = self.history.strip_width(hi, *self.history.zones(hi))
 
     def _entry(self, panel: SpreadingPanel) -> float:
-        """s at which ε3 = b - c, if on the panel; otherwise 0."""
-        aim, y = math.log(self.beginning.rest), np.linspace(-1.0, 1.0, 65)
-        way = chebyshev.evaluate(panel.series[2], y) - aim
-        k = np.flatnonzero((way[:-1] < 0.0) & (way[1:] >= 0.0))
-        if not k.size:
-            return 0.0
-        i = int(k[0])
-        part = y[i] - way[i] * (y[i + 1] - y[i]) / (way[i + 1] - way[i])
-        return panel.lo * math.exp(0.5 * panel.length * (1.0 + part))
+        """The s on the panel at which ε3 = b - c, or else ε2 = c, or 0."""
+        y = np.linspace(-1.0, 1.0, 65)
+        for row, aim in ((2, self.beginning.rest), (1, self.normal.c)):
+            way = chebyshev.evaluate(panel.series[row], y) - math.log(aim)
+            k = np.flatnonzero((way[:-1] < 0.0) & (way[1:] >= 0.0))
+            if k.size:
+                i = int(k[0])
+                part = y[i] - way[i] * (y[i + 1] - y[i]) / (way[i + 1] - way[i])
+                return panel.lo * math.exp(0.5 * panel.length * (1.0 + part))
+        return 0.0
 
     def _panel(self, last: SpreadingPanel, lo: float, hi: float) -> SpreadingPanel | None:
         """The panel that goes on like the last one at first."""
@@ -309,7 +316,10 @@ class SpreadingMarch:
         step, linear = max(STEP, math.sqrt(rounding)), max(LINEAR, settled)
         moved = self._before(panel, s, known.logs + step)
         known = known._replace(slopes=(moved - known.values) / step)
+        most = self._sums + ON_ONE
         for _ in range(ROUNDS):
+            if self._sums > most:
+                return None
             finish = gap < NEAR
             found = self._iterated(panel, s, known, settled if finish else ROUGHLY * gap)
             if found is None:
