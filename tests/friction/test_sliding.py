@@ -3,13 +3,13 @@ flat punch).
 """
 
 import math
-from dataclasses import replace
 
 import mpmath
 import numpy as np
 import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
+from sliding_cases import RIM, SIMILAR, bonded, inside, slid
 
 import analytic
 import sie
@@ -17,8 +17,6 @@ from sie.numerics.interval import Interval
 from sie.profiles.slope import Slope
 from sie.traction.piece_quadrature import SlidingGeometry
 
-SIMILAR = {"modulus": 2.0}
-RIM = sie.RoundedFlat(half_flat=1.0, radius=50.0)
 PROFILES = {
     "parabola": sie.Parabola(3.0),
     "rounded flat": RIM,
@@ -31,29 +29,11 @@ PROFILES = {
 COUPLINGS = (0.3, -0.3, 0.49, 1e-3)
 
 
-def slid(profile, coupling, **given):
-    """Full sliding in +x with β f = coupling."""
-    return sie.solve(
-        sie.Scene(
-            profile=profile, **SIMILAR, dundurs=0.5 * coupling, friction=2.0, sliding=1, **given
-        )
-    )
-
-
 def shift(coupling):
     return -math.atan(coupling) / math.pi
 
 
-def inside(solution, n=201):
-    x1, x2 = solution.edges
-    return (
-        solution.centre + solution.half_width * np.cos((np.arange(n) + 0.5) * np.pi / n)
-        if x1 < x2
-        else None
-    )
-
-
-# -- closed forms ---------------------------------------------------------------------------------
+# -- closed forms ----------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("coupling", COUPLINGS)
@@ -151,6 +131,29 @@ def test_the_sliding_rounded_punch_of_both_packages(coupling, half_flat):
     )
 
 
+@pytest.mark.parametrize("coupling", COUPLINGS)
+@pytest.mark.parametrize("tilt", [0.05, -0.12])
+def test_a_tilted_flat_that_slides_on_both_its_edges_carries_its_load(coupling, tilt):
+    """p times the roots of its singular ends is a straight line c0 + c1 s of s = x/b.
+
+    The means of s and s² under (1 - s)^(-1/2-ε) (1 + s)^(-1/2+ε), whose integral is π/cos πε, are
+    2ε and 1/2 + 2ε² (a beta distribution).
+    """
+    b, P, e = 1.5, 2.0, shift(coupling)
+    solution = slid(sie.Flat(b), coupling, normal_load=P, tilt=tilt)
+    assert solution.sharp == (True, True)
+    s = np.array([-0.8, 0.1, 0.9])
+    line = solution.pressure(b * s) * (1.0 - s) ** (0.5 + e) * (1.0 + s) ** (0.5 - e)
+    c1 = (line[2] - line[0]) / (s[2] - s[0])
+    c0 = line[0] - c1 * s[0]
+    assert line[1] == pytest.approx(c0 + c1 * s[1], rel=1e-12)
+    whole = np.pi / np.cos(np.pi * e)
+    assert b * whole * (c0 + 2.0 * e * c1) == pytest.approx(P, rel=1e-12)
+    assert b * b * whole * (2.0 * e * c0 + (0.5 + 2.0 * e * e) * c1) == pytest.approx(
+        solution.moment, rel=1e-11, abs=1e-12 * P * b
+    )
+
+
 @pytest.mark.parametrize("beta", [0.3, -0.2, 0.0, 0.49])
 def test_bonded_flat(beta):
     b, P, Q, eta = 2.0, 5.0, -2.0, math.atanh(beta) / math.pi
@@ -169,18 +172,6 @@ def test_bonded_flat(beta):
     )
     assert solution.tilt == 0.0
     assert solution.check().ok, solution.check()
-
-
-def bonded(beta, P=5.0, Q=2.0, b=2.0, **given):
-    return sie.Scene(
-        profile=sie.Flat(b),
-        modulus=3.0,
-        dundurs=beta,
-        friction=math.inf,
-        normal_load=P,
-        tangential_load=Q,
-        **given,
-    )
 
 
 @pytest.mark.parametrize("beta", [0.4, -0.4])
@@ -207,7 +198,8 @@ def test_at_a_sharp_edge_of_dissimilar_bodies_stresses_are_infinite_and_the_load
     assert solution.elastic_limit().load == 0.0
 
 
-# -- laws -----------------------------------------------------------------------------------------
+# -- laws ------------------------------------------------------------------------------------------
+
 
 GIVEN = (
     {"normal_load": 0.1},
@@ -326,182 +318,3 @@ def test_the_tilt_of_a_bonded_punch_answers_the_moment(moment):
     assert solution.pressure.moment == pytest.approx(moment, abs=1e-13)
     assert sie.solve(bonded(0.3, tilt=solution.tilt)).moment == pytest.approx(moment, abs=1e-13)
     assert solution.check().ok, solution.check()
-
-
-# -- what is said about it ------------------------------------------------------------------------
-
-
-def test_shear_is_friction_times_pressure_and_nothing_is_solved_for_it():
-    solution = slid(RIM, 0.3, normal_load=0.1)
-    x = inside(solution, 11)
-    assert solution.shear(x) == pytest.approx(2.0 * solution.pressure(x), rel=1e-15)
-    assert solution.tangential_load == 0.2
-    assert set(vars(solution)) >= {"normal", "pressure"}
-
-
-def test_a_tangential_load_of_f_times_p_is_full_sliding():
-    given = sie.Scene(
-        profile=RIM, **SIMILAR, dundurs=0.1, friction=0.3, normal_load=0.1, tangential_load=-0.03
-    )
-    said = sie.Scene(profile=RIM, **SIMILAR, dundurs=0.1, friction=0.3, normal_load=0.1, sliding=-1)
-    assert sie.solve(given).edges == sie.solve(said).edges
-
-
-def test_a_change_of_direction_is_a_new_contact_and_a_change_of_nothing_is_not():
-    solution = slid(RIM, 0.3, normal_load=0.1)
-    edges = solution.edges
-    assert "normal" in vars(solution.with_(tangential_load=0.2, sliding=0))
-    assert solution.with_(sliding=-1).edges == pytest.approx((-edges[1], -edges[0]), rel=1e-13)
-
-
-@pytest.mark.parametrize(
-    ("scene", "words"),
-    [
-        (
-            sie.Scene(profile=RIM, **SIMILAR, dundurs=0.2, normal_load=0.1),
-            "f = 0: no shear acts back",
-        ),
-        (
-            sie.Scene(
-                profile=RIM, **SIMILAR, dundurs=0.2, friction=0.5, sliding=1, normal_load=0.1
-            ),
-            "exponents 1/2 ±",
-        ),
-        (sie.Scene(profile=RIM, **SIMILAR, friction=0.5, sliding=1, normal_load=0.1), "uncoupled"),
-        (bonded(0.3), "1/2 ± iη"),
-    ],
-)
-def test_the_plan_says_how_pressure_and_shear_are_coupled(scene, words):
-    assert words in str(sie.plan(scene))
-
-
-PAIR = {
-    "body": sie.Elastic(young=115e3, poisson=0.32),
-    "indenter": sie.Elastic(young=210e3, poisson=0.3),
-}
-
-
-@pytest.mark.parametrize(
-    "loads",
-    [
-        {"bulk_stress": 200.0},
-        {"tangential_load": 30.0, "bulk_stress": 20.0},
-    ],
-)
-def test_the_remedy_for_dissimilar_bodies_keeps_all_but_their_coupling(loads):
-    """Followed, it is the contact of bodies with β = 0 whose E* and whose strain under the bulk
-    stress are those of the scene.
-    """
-    scene = sie.Scene(profile=sie.Parabola(50.0), **PAIR, friction=0.4, normal_load=200.0, **loads)
-    with pytest.raises(sie.ContactError, match="give dundurs = 0") as refusal:
-        sie.solve(scene)
-    assert f"{scene.beta:.4g}" in str(refusal.value)
-    followed = sie.solve(replace(scene, dundurs=0))
-    body, indenter = ((1.0 - e.poisson**2) / e.young for e in PAIR.values())
-    assert followed.scene.Estar == pytest.approx(1.0 / (body + indenter), rel=1e-15)
-    # The strain of the body in plane strain; E*/2 times it is balanced by the shear.
-    strain = loads.get("bulk_stress", 0.0) * body
-    similar = {name: value for name, value in loads.items() if name != "bulk_stress"} | {
-        "bulk_stress": 2.0 * strain / (body + indenter)
-    }
-    same = sie.solve(
-        sie.Scene(
-            profile=sie.Parabola(50.0),
-            modulus=scene.Estar,
-            friction=0.4,
-            normal_load=200.0,
-            **similar,
-        )
-    )
-    assert followed.energy_lost == pytest.approx(same.energy_lost, rel=1e-12)
-    assert np.array(followed.stick) == pytest.approx(np.array(same.stick), rel=1e-12)
-    assert followed.check().ok
-    x = np.array([-0.9, 0.1, 1.3]) * followed.half_width
-    assert followed.surface_stress(x).xx - same.surface_stress(x).xx == pytest.approx(
-        followed.scene.bulk_stress - same.scene.bulk_stress, abs=1e-9
-    )
-
-
-def test_bodies_that_differ_by_rounding_are_similar():
-    body, indenter = (
-        sie.Elastic(210e3, 0.3),
-        sie.Elastic(210e3 * (1.0 + 1e-15), 0.30000000000000004),
-    )
-    one = sie.Scene(
-        profile=sie.Parabola(50.0),
-        body=body,
-        indenter=indenter,
-        friction=0.3,
-        normal_load=200.0,
-        tangential_load=30.0,
-    )
-    assert one.beta == 0.0
-    same = sie.solve(replace(one, indenter=body))
-    assert sie.solve(one).energy_lost == pytest.approx(same.energy_lost, rel=1e-13)
-    assert sie.solve(replace(one, indenter=sie.RIGID, body=sie.Elastic(210e3, 0.5))).stick
-
-
-@pytest.mark.parametrize(
-    ("beta", "similar"), [(9e-13, True), (-9e-13, True), (1.1e-12, False), (-1.1e-12, False)]
-)
-def test_beta_below_1e_minus_12_is_zero(beta, similar):
-    assert (
-        sie.Scene(profile=RIM, modulus=1.0, dundurs=beta, normal_load=1.0).beta == 0.0
-    ) is similar
-    # β = (1 - 2ν) / (2 - 2ν) on a rigid indenter
-    nearly = sie.Elastic(1.0, 0.5 - 0.5 * abs(beta))
-    scene = sie.Scene(profile=RIM, body=nearly, indenter=sie.RIGID, normal_load=1.0)
-    assert (scene.beta == 0.0) is similar
-
-
-def test_another_beta_than_that_of_the_bodies_is_refused():
-    with pytest.raises(ValueError, match=r"dundurs = 0\.1 follows .* or give 0"):
-        sie.Scene(profile=RIM, **PAIR, dundurs=0.1, normal_load=1.0)
-
-
-def test_a_changed_beta_changes_a_bonded_punch():
-    first = sie.solve(bonded(0.1))
-    _ = first.pressure(0.5)
-    assert first.with_(dundurs=0.3).pressure(0.5) == sie.solve(bonded(0.3)).pressure(0.5)
-
-
-def test_full_stick_is_for_flat_punches():
-    with pytest.raises(sie.ContactError, match="full stick"):
-        _ = sie.solve(sie.Scene(profile=RIM, **SIMILAR, friction=math.inf, normal_load=0.1)).edges
-
-
-@pytest.mark.parametrize(
-    ("given", "words"),
-    [
-        ({"sliding": 2, "friction": 0.1}, "sliding = 2"),
-        ({"sliding": 1}, "without friction"),
-        ({"sliding": 1, "friction": 0.1, "tangential_load": 0.1}, "both sliding"),
-        ({"sliding": 1, "friction": math.inf}, "infinite friction"),
-    ],
-)
-def test_contradictory_sliding_is_refused(given, words):
-    with pytest.raises(ValueError, match=words):
-        sie.Scene(profile=RIM, **SIMILAR, normal_load=0.1, **given)
-
-
-@pytest.mark.parametrize("coupling", COUPLINGS)
-@pytest.mark.parametrize("tilt", [0.05, -0.12])
-def test_a_tilted_flat_that_slides_on_both_its_edges_carries_its_load(coupling, tilt):
-    """p times the roots of its singular ends is a straight line c0 + c1 s of s = x/b.
-
-    The means of s and s² under (1 - s)^(-1/2-ε) (1 + s)^(-1/2+ε), whose integral is π/cos πε, are
-    2ε and 1/2 + 2ε² (a beta distribution).
-    """
-    b, P, e = 1.5, 2.0, shift(coupling)
-    solution = slid(sie.Flat(b), coupling, normal_load=P, tilt=tilt)
-    assert solution.sharp == (True, True)
-    s = np.array([-0.8, 0.1, 0.9])
-    line = solution.pressure(b * s) * (1.0 - s) ** (0.5 + e) * (1.0 + s) ** (0.5 - e)
-    c1 = (line[2] - line[0]) / (s[2] - s[0])
-    c0 = line[0] - c1 * s[0]
-    assert line[1] == pytest.approx(c0 + c1 * s[1], rel=1e-12)
-    whole = np.pi / np.cos(np.pi * e)
-    assert b * whole * (c0 + 2.0 * e * c1) == pytest.approx(P, rel=1e-12)
-    assert b * b * whole * (2.0 * e * c0 + (0.5 + 2.0 * e * e) * c1) == pytest.approx(
-        solution.moment, rel=1e-11, abs=1e-12 * P * b
-    )
