@@ -281,7 +281,7 @@ def test_energy_and_shift_at_a_given_moment_are_those_of_the_tilts_that_carry_it
     assert (last.energy_lost, last.shift) == pytest.approx(tuple(expected), rel=1e-6)
 
 
-def test_slip_is_the_same_with_the_path_in_parts():
+def test_slip_does_not_depend_on_how_a_path_is_cut():
     scene, points = LOPSIDED, [(1, 0, 0, 0), (1.2, 0.6, 0.1, 0.01)]
     whole, parts = (followed(scene, points, n)[-1] for n in (1, 4))
     x = np.linspace(*whole.edges, 41)
