@@ -47,7 +47,7 @@ ALONE = 8.0
 # Columns whose values are below HOPELESS times the largest one within WINDOW depths are left out.
 HOPELESS = 0.8
 WINDOW = 4.0
-# So are columns where so many oscillations of the surface values there do not reach the largest one.
+# So are those where so many oscillations of the surface values do not reach the largest one.
 SWINGS = 4.0
 MOST_STARTS = 48
 # Points on a circle, and the depth over its radius: seven digits of the third derivative are good.
