@@ -47,6 +47,8 @@ ALONE = 8.0
 # Columns whose values are below HOPELESS times the largest one within WINDOW depths are left out.
 HOPELESS = 0.8
 WINDOW = 4.0
+# So are those where so many oscillations of the surface values do not reach the largest one.
+SWINGS = 4.0
 MOST_STARTS = 48
 # Points on a circle, and the depth over its radius: seven digits of the third derivative are good.
 CIRCLE = 6
@@ -203,18 +205,20 @@ def _rows(
         _, x, value = new[-1]
         k = np.searchsorted(x, columns)
         beside = np.maximum(value[np.maximum(k - 1, 0)], value[np.minimum(k, len(x) - 1)])
-        bound = measure.value(_bounds(columns, above, WINDOW * levels[-1]))
-        stay = (np.maximum(beside, bound) >= HOPELESS * best) & (shallow < levels[-1])
+        size, swing = _bounds(columns, above, WINDOW * levels[-1])
+        likely = np.maximum(beside, measure.value(size + swing)) >= HOPELESS * best
+        likely &= measure.value(size + SWINGS * swing) >= best
+        stay = likely & (shallow < levels[-1])
         columns, shallow = columns[stay], shallow[stay]
         distance, above = distance[stay], above[:, stay]
         y /= RATIO**LEVELS
     return rows
 
 
-def _bounds(x: Array, above: Array, window: float) -> Array:
-    """Approximate bounds of |s|, |D_r| and |D_i| at a depth below the window's width.
+def _bounds(x: Array, above: Array, window: float) -> tuple[Array, Array]:
+    """Approximate bounds of |s|, |D_r| and |D_i| at a depth below the window's width, in two parts.
 
-    They follow from the surface within the windows around x.
+    They are the largest values on the surface within the windows around x, and their oscillation.
 
     s and Fq are harmonic, and y Φ' is not larger than the oscillation of Φ around it, but for a
     factor of 2/π.
@@ -229,7 +233,8 @@ def _bounds(x: Array, above: Array, window: float) -> Array:
     swing = np.where(np.isinf(largest_there), np.inf, high - np.where(np.isinf(low), 0.0, low)).sum(
         axis=0
     )
-    return np.repeat(largest_there + swing, np.diff(np.append(first, len(x))), axis=1)
+    count = np.diff(np.append(first, len(x)))
+    return np.repeat(largest_there, count, axis=1), np.repeat(swing, count)
 
 
 def _beneath(tractions: Tractions, measure: Measure, mesh: Mesh, places: list[float]) -> Complex:

@@ -14,6 +14,9 @@ differences D = (H(x) - H(e))/(x - e), which are polynomials:
 
 from __future__ import annotations
 
+import math
+from dataclasses import dataclass
+from functools import cached_property
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -27,28 +30,48 @@ Array = NDArray[np.float64]
 Index = NDArray[np.int64]
 
 
-class ContinuousBreaks(NamedTuple):
-    """The breaks where two pieces meet without a jump of H, ascending; all (B,).
+@dataclass(frozen=True)
+class ContinuousBreaks:
+    """The breaks between neighbouring pieces, ascending; e, e_left, e_right and d are (B,).
 
     e           the break
     e_left      sqrt((e - x1)/2r)
     e_right     sqrt((x2 - e)/2r)
-    d           the distance up to which a point is near
-    level       L_e at that distance
-    divided     D in T_n(s), per unit of s, and the half-length: of the left and of the right piece
+    d           the distance up to which a point is near; 0 where H jumps
+    r           half-width of the contact
+    series      Chebyshev series of the pieces, (B + 1, n)
+    half        half-lengths of the pieces, (B + 1,)
     """
 
     e: Array
     e_left: Array
     e_right: Array
     d: Array
-    level: Array
-    divided: list[tuple[Array, Array]]
+    r: float
+    series: Array
+    half: Array
+
+    @cached_property
+    def level(self) -> Array:
+        """L_e at the distance d, but for a constant of the size 1 where ε is not 0."""
+        near = self.d > 0.0
+        level = np.zeros(len(near))
+        level[near] = np.log(self.d[near]) - math.log(8.0 * self.r)
+        level[near] -= 2.0 * np.log((self.e_left * self.e_right)[near])
+        return level
+
+    @cached_property
+    def divided(self) -> list[tuple[Array, Array]]:
+        """D in T_n(s), per unit of s, and the half-length: of the left and of the right piece."""
+        return [
+            (chebyshev.divided(self.series[pieces], end).T, self.half[pieces])
+            for pieces, end in ((slice(-1), 1.0), (slice(1, None), -1.0))
+        ]
 
     def near(self, x: Array) -> NearBreaks | None:
         """The ascending points x that are near a break; None if there are none."""
         first, last = x.searchsorted(self.e - self.d), x.searchsorted(self.e + self.d, "right")
-        some = np.flatnonzero(first < last)
+        some = np.flatnonzero((first < last) & (self.d > 0.0))
         if not len(some):
             return None
         i = np.concatenate([np.arange(*ends) for ends in zip(first[some], last[some], strict=True)])

@@ -249,19 +249,14 @@ class Panels:
     def continuous_breaks(self) -> ContinuousBreaks:
         """The breaks where H does not jump; near them both closed forms serve."""
         g, half = self.geometry, self.half_length
-        k = np.flatnonzero(g.ends[1, :-1] == g.ends[0, 1:])
-        if len(k) and self.jumps:
-            k = k[~np.isin(g.ends[1, k], [e for e, _ in self.jumps])]
+        e, left, right = g.ends[1, :-1], g.root_left[1, :-1], g.root_right[1, :-1]
         part = half * np.minimum(2.0 * NEXT_TO_BREAK, 0.5 * (self.reach_in_s - 1.0))
-        d, left, right = np.minimum(part[k], part[k + 1]), g.root_left[1, k], g.root_right[1, k]
-        k, d, left, right = (a[(d > 0.0) & (left * right > 0.0)] for a in (k, d, left, right))
-        # L_e there, but for a constant of the size 1 where the exponents are not 1/2
-        level = np.log(d) - math.log(8.0 * self.contact.r) - 2.0 * np.log(left * right)
-        divided = [
-            (chebyshev.divided(self.series[piece], end).T, half[piece])
-            for piece, end in ((k, 1.0), (k + 1, -1.0))
-        ]
-        return ContinuousBreaks(g.ends[1, k], left, right, d, level, divided)
+        d = np.minimum(part[:-1], part[1:])
+        # No break where a piece without slope was left out, or next to an edge
+        d[(e != g.ends[0, 1:]) | (left * right == 0.0)] = 0.0
+        if self.jumps:
+            d[np.isin(e, [of_jump for of_jump, _ in self.jumps])] = 0.0
+        return ContinuousBreaks(e, left, right, d, self.contact.r, self.series, half)
 
     @cached_property
     def kinks(self) -> tuple[tuple[float, float], ...]:
