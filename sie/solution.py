@@ -50,8 +50,7 @@ from .friction.coupled.uneven_contact import UnevenContact
 from .friction.dissipation import dissipated
 from .friction.full_stick import Component, full_stick_contact
 from .friction.goodman.departure import departure
-from .friction.goodman.slip import GoodmanSlip
-from .friction.goodman.states import goodman_slip
+from .friction.goodman.slip import GoodmanSlip, goodman_slip
 from .friction.partial_slip import slip
 from .friction.slip_state import Slip, Step
 from .frictionless import Frictionless

@@ -61,7 +61,7 @@ class Scene:
         Poisson's ratio of the body beside `modulus`, for σ_zz.
     coupling : {"full", "goodman"}, optional
         "goodman" leaves β q out of equation (1), so that the pressure is that without friction: an
-        approximation for dissimilar bodies, of any profile.
+        approximation for dissimilar bodies, in contacts that are symmetric.
 
     Raises
     ------
