@@ -15,7 +15,7 @@ from typing import Any, cast
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import arguments, higher_layers
+from . import arguments
 from .cauchy.density import JacobiDensity
 from .certificate.coupled_check import coupled_certificate
 from .certificate.coupled_shear_check import sheared_certificate
@@ -647,10 +647,14 @@ class Solution(Frictionless, StressAnswers):
         >>> scene = sie.Scene(profile=sie.Parabola(1.0), modulus=1.0, normal_load=1.0)
         >>> axes = sie.solve(scene).plot(what="gap")    # doctest: +SKIP
         """
-        return higher_layers.module("plots.one_axes").of_solution(self, ax, what, units)
+        from sie.plots.one_axes import of_solution  # noqa: PLC0415 -- a higher layer
+
+        return of_solution(self, ax, what, units)
 
     def _repr_html_(self) -> str:
-        return higher_layers.module("io.html_report").html(self)
+        from sie.io.html_report import html  # noqa: PLC0415 -- a higher layer
+
+        return html(self)
 
     def with_(self, **changes: Any) -> Solution:
         """The solution of a changed scene, which keeps the stages that cannot have changed.

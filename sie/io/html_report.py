@@ -8,7 +8,6 @@ from __future__ import annotations
 import base64
 from html import escape
 
-from sie import higher_layers
 from sie.errors import ContactError
 from sie.messages import NAMES
 from sie.solution import Solution
@@ -43,7 +42,7 @@ def _table(solution: Solution) -> str:
 
 def _picture(solution: Solution) -> str:
     try:
-        picture = higher_layers.module("plots.contact_plot").picture
+        from sie.plots.contact_plot import picture  # noqa: PLC0415 -- a higher layer
     except ImportError:
         return ""
     data = base64.b64encode(picture(solution)._repr_png_()).decode()
