@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import base64
 from html import escape
+from typing import Any
 
 from sie.errors import ContactError
 from sie.messages import NAMES
@@ -45,5 +46,6 @@ def _picture(solution: Solution) -> str:
         from sie.plots.contact_plot import picture  # noqa: PLC0415 -- a higher layer
     except ImportError:
         return ""
-    data = base64.b64encode(picture(solution)._repr_png_()).decode()
+    drawn: Any = picture(solution)  # whose figure draws itself in a notebook
+    data = base64.b64encode(drawn._repr_png_()).decode()
     return f'<br><img style="width:{WIDTH}" src="data:image/png;base64,{data}">'
