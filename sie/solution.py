@@ -54,7 +54,6 @@ from .friction.goodman.slip import GoodmanSlip, goodman_slip
 from .friction.partial_slip import slip
 from .friction.slip_state import Slip, Step
 from .frictionless import Frictionless
-from .kept_stages import changed_scene, kept_stages
 from .numerics.interval import Interval
 from .patches.answer import SeveralPatches
 from .patches.friction import PatchesUnder, PatchSlip
@@ -68,6 +67,7 @@ from .problem.coverage import (
 )
 from .problem.request import ECONOMY, sheared
 from .problem.scene import Scene
+from .stages import changed_scene, kept_stages
 from .stages import stage as cached_property  # its first reading is logged
 from .stress_answers import StressAnswers
 from .traction.base import ZERO, Density, on_line
