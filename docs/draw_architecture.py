@@ -17,6 +17,7 @@ SOLVER = DOCS.parent / "sie"
 PICTURE = DOCS / "architecture.svg"
 # The face of the package, of the command, data, and the handler of Ctrl-C.
 LEFT_OUT = {"__init__", "__main__", "examples", "interrupt"}
+UPWARD = "-- a higher layer"  # the remark on an import that points upward
 WIDTH, HEIGHT, ACROSS, DOWN, MARGIN = 128, 30, 18, 44, 16
 
 
@@ -31,9 +32,13 @@ def boxes() -> dict[str, set[str]]:
 
 
 def _imported(path: Path) -> Iterator[str]:
-    """The boxes that a file imports from."""
+    """The boxes that a file imports from, but those that a method hands its work up to."""
     package = ["sie", *path.relative_to(SOLVER).parts[:-1]]
-    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+    text = path.read_text(encoding="utf-8")
+    lines = text.splitlines()
+    for node in ast.walk(ast.parse(text)):
+        if isinstance(node, ast.Import | ast.ImportFrom) and UPWARD in lines[node.lineno - 1]:
+            continue
         if isinstance(node, ast.Import):
             names = [alias.name for alias in node.names]
         elif isinstance(node, ast.ImportFrom):

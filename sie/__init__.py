@@ -32,7 +32,6 @@ Units are free: any consistent set works, and nothing depends on scale.
 
 from typing import Any
 
-from . import higher_layers
 from . import interrupt as interrupt
 from .cauchy.equation import CauchyEquation
 from .certificate.trace_noise import TraceReport
@@ -112,5 +111,7 @@ __all__ = [
 def __getattr__(name: str) -> Any:
     """`sie.plots`, whose import needs Matplotlib, when it is asked for."""
     if name == "plots":
-        return higher_layers.module("plots")
+        from importlib import import_module  # noqa: PLC0415
+
+        return import_module("sie.plots")
     raise AttributeError(f"module 'sie' has no attribute {name!r}")

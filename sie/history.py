@@ -38,7 +38,6 @@ from typing import Any, overload
 import numpy as np
 from numpy.typing import NDArray
 
-from . import higher_layers
 from .certificate.result import ShearCertificate
 from .certificate.shear_check import marched_certificate
 from .contact.known_contact import Edges, Normal
@@ -212,7 +211,9 @@ class History(PathContacts, Sequence[Solution]):
         ImportError
             If Matplotlib is not installed.
         """
-        return higher_layers.module("plots.one_axes").of_history(self, ax, units)
+        from sie.plots.one_axes import of_history  # noqa: PLC0415 -- a higher layer
+
+        return of_history(self, ax, units)
 
     def rows(self) -> list[dict[str, Any]]:
         """The points of the path for files.

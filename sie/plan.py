@@ -238,8 +238,6 @@ def _resolution(scene: Scene, economy: Collection[str]) -> Step:
 def _edges(scene: Scene, economy: Collection[str]) -> str:
     if asks_for_patches(scene.profile):
         how = "patches from a grid, their edges by Newton, verified by bounds"
-        if scene.half_width is not None:
-            return f"half-width given: its load by bracketed Newton; {how}"
         return f"load given: {how}"
     given = "half-width" if scene.half_width is not None else "load"
     if upright_law(scene, economy) is not None and scene.moment is None:

@@ -15,7 +15,7 @@ from typing import Any, cast
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import arguments, higher_layers
+from . import arguments
 from .cauchy.density import JacobiDensity
 from .certificate.coupled_check import coupled_certificate
 from .certificate.coupled_shear_check import sheared_certificate
@@ -50,12 +50,10 @@ from .friction.coupled.uneven_contact import UnevenContact
 from .friction.dissipation import dissipated
 from .friction.full_stick import Component, full_stick_contact
 from .friction.goodman.departure import departure
-from .friction.goodman.slip import GoodmanSlip
-from .friction.goodman.states import goodman_slip
+from .friction.goodman.slip import GoodmanSlip, goodman_slip
 from .friction.partial_slip import slip
 from .friction.slip_state import Slip, Step
 from .frictionless import Frictionless
-from .kept_stages import changed_scene, kept_stages
 from .numerics.interval import Interval
 from .patches.answer import SeveralPatches
 from .patches.friction import PatchesUnder, PatchSlip
@@ -69,6 +67,7 @@ from .problem.coverage import (
 )
 from .problem.request import ECONOMY, sheared
 from .problem.scene import Scene
+from .stages import changed_scene, kept_stages
 from .stages import stage as cached_property  # its first reading is logged
 from .stress_answers import StressAnswers
 from .traction.base import ZERO, Density, on_line
@@ -648,10 +647,14 @@ class Solution(Frictionless, StressAnswers):
         >>> scene = sie.Scene(profile=sie.Parabola(1.0), modulus=1.0, normal_load=1.0)
         >>> axes = sie.solve(scene).plot(what="gap")    # doctest: +SKIP
         """
-        return higher_layers.module("plots.one_axes").of_solution(self, ax, what, units)
+        from sie.plots.one_axes import of_solution  # noqa: PLC0415 -- a higher layer
+
+        return of_solution(self, ax, what, units)
 
     def _repr_html_(self) -> str:
-        return higher_layers.module("io.html_report").html(self)
+        from sie.io.html_report import html  # noqa: PLC0415 -- a higher layer
+
+        return html(self)
 
     def with_(self, **changes: Any) -> Solution:
         """The solution of a changed scene, which keeps the stages that cannot have changed.

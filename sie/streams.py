@@ -13,8 +13,8 @@ from collections.abc import Iterator
 from typing import TextIO
 
 from .messages import WIDE
-from .stages import LOG
 
+LOG = logging.getLogger("sie")
 # Characters that are printed at once: if standard output is not buffered, Python does not report an
 # error that occurs in the midst of one piece.
 PIECE = 4096

@@ -7,8 +7,8 @@ from __future__ import annotations
 
 import base64
 from html import escape
+from typing import Any
 
-from sie import higher_layers
 from sie.errors import ContactError
 from sie.messages import NAMES
 from sie.solution import Solution
@@ -43,8 +43,9 @@ def _table(solution: Solution) -> str:
 
 def _picture(solution: Solution) -> str:
     try:
-        picture = higher_layers.module("plots.contact_plot").picture
+        from sie.plots.contact_plot import picture  # noqa: PLC0415 -- a higher layer
     except ImportError:
         return ""
-    data = base64.b64encode(picture(solution)._repr_png_()).decode()
+    drawn: Any = picture(solution)  # whose figure draws itself in a notebook
+    data = base64.b64encode(drawn._repr_png_()).decode()
     return f'<br><img style="width:{WIDTH}" src="data:image/png;base64,{data}">'

@@ -21,11 +21,10 @@ from .certificate import certificate
 from .density import PatchPressure
 from .full import FullContact, full_contact
 from .gap import gap, gap_volume
-from .half_width import Ways, contact_of_half_width
 from .of_scene import Problem, problem_of
 from .operator import Found, Operator
 from .result import PatchCertificate
-from .solver import contact, contact_near, light_contact
+from .solver import contact, light_contact
 
 Array = NDArray[np.float64]
 
@@ -102,7 +101,7 @@ def several_patches(scene: Scene) -> SeveralPatches | FullContact:
     try:
         with np.errstate(all="ignore"):  # what that leaves is no certified contact
             problem = problem_of(scene)
-            found = whole(problem, scene) or answered(*_found(problem, scene), scene)
+            found = whole(problem, scene) or answered(problem, contact(problem), scene)
     except np.linalg.LinAlgError:
         raise LoadError(
             "the conditions of the edges became singular on the way to this load, as they are "
@@ -133,20 +132,9 @@ def light_patches(scene: Scene) -> SeveralPatches | None:
         return answered(problem, found, scene)
 
 
-def _found(problem: Problem, scene: Scene) -> tuple[Problem, Found]:
-    """The patches, and the problem with their load where a half-width is given."""
-    if problem.given.half_width is None:
-        return problem, contact(problem)
-
-    def is_whole(asked: Problem) -> bool:
-        return whole(asked, scene) is not None
-
-    return contact_of_half_width(problem, Ways(is_whole, contact_near, contact))
-
-
 def whole(problem: Problem, scene: Scene) -> FullContact | None:
     """Full contact of a periodic profile under a load, if that is the answer."""
-    if not problem.chord.periodic or np.isnan(problem.given.load):
+    if not problem.chord.periodic:
         return None
     G, start, period = 0.5 * scene.Estar, problem.domain[0], problem.chord.period
     return full_contact(
@@ -156,13 +144,13 @@ def whole(problem: Problem, scene: Scene) -> FullContact | None:
 
 def answered(problem: Problem, found: Found, scene: Scene) -> SeveralPatches:
     state, P, G = found.state, found.state.patches, 0.5 * scene.Estar
-    load = G * problem.given.load if scene.normal_load is None else scene.normal_load
     pressure = PatchPressure(found.operator, G, state.tilt, G * problem.given.load)
     singular = (-float(state.charge[0]), float(state.charge[-1]))
     moment = scene.moment if scene.moment is not None else pressure.moment
+    assert scene.normal_load is not None
     edges = Edges(
         Interval(float(P.a[0]), float(P.b[-1])),
-        load,
+        scene.normal_load,
         moment,
         state.tilt,
         (bool(state.sharp[0]), bool(state.sharp[-1])),
@@ -177,6 +165,11 @@ def answered(problem: Problem, found: Found, scene: Scene) -> SeveralPatches:
 
 
 def _refuse_uncovered(scene: Scene) -> None:
+    if scene.half_width is not None:
+        raise LoadError(
+            f"half_width = {scene.half_width:.6g} is not that of one patch of contact, and the "
+            "load of several patches is not sought from it: give normal_load instead"
+        )
     if scene.epsilon or scene.bonded:
         what = "bonded surfaces" if scene.bonded else "dissimilar bodies that slide"
         raise ContactError(

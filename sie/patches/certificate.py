@@ -77,7 +77,7 @@ def certificate(
         tension=tuple((t.lo, t.hi) for t in found.findings.tension),
         overlap=tuple((v.lo, v.hi) for v in found.findings.overlap),
         notes=(
-            *_notes(condition, "load" if given.half_width is None else "half-width"),
+            *_notes(condition),
             *_notes_on_heights(found, linear),
         ),
     )
@@ -98,11 +98,11 @@ def _without_infinities(x: Array, p: Array) -> Array:
     return filled
 
 
-def _notes(condition: float, asked: str) -> tuple[str, ...]:
+def _notes(condition: float) -> tuple[str, ...]:
     if condition < CLOSE:
         return ()
     sentence = (
-        f"note: a patch of contact is about to appear, or two to merge: a change of the {asked} by "
+        f"note: a patch of contact is about to appear, or two to merge: a change of the load by "
         f"1e-9 changes the narrowest patch or gap by {1e-9 * condition:.0e} of its width"
     )
     return (sentence,)
@@ -128,12 +128,9 @@ def _notes_on_heights(found: Found, linear: Linear) -> tuple[str, ...]:
 
 
 def conditioning(found: Found, given: Given, linear: Linear) -> float:
-    """The largest |d e / d ln P| of an edge e over its patch or gap; of r, where that is given."""
+    """The largest |d e / d ln P| of an edge e over its patch or gap."""
     state = found.state
-    if given.half_width is not None:
-        given = given._replace(load=np.nan)
-        linear = conditions(state, found.operator, given)
-    change = np.abs(linear.growth(state, given.size)) / state.patches.narrower
+    change = np.abs(linear.growth(state, given.load)) / state.patches.narrower
     return float(np.nan_to_num(change, nan=np.inf).max(initial=0.0))
 
 

@@ -4,15 +4,14 @@
     P = G ∫ H d(t, c_j) dν_j                      M = G ∫ H t d(t, c_j) dν_j
 
 An edge that moves is a point charge there. The conditions are linear in such charges, and
-`edge_charges` solves them for C_1..N, K_1..N-1, P and M. Two of these may give way to others:
+`edge_charges` solves them for C_1..N, K_1..N-1, P and M. One of these may give way to another:
 
     C_m to K_N where a period is closing, m its widest patch: ∫ g' dx over a period is a sum of all
     C_j, and rounding in them moves the middle of a gap s by 1/s² times as much as rounding in its
-    own condition;
-    P to half of the distance of the outermost edges, where that is given.
+    own condition.
 
-The answer is then that to the other conditions, and so much of the answers to a unit change of C_m
-and of P alone as the conditions in their places ask for.
+The answer is then that to the other conditions, and so much of the answer to a unit change of C_m
+alone as the condition in its place asks for.
 
 At a sharp edge, the end of the indenter, the unknown is the charge itself.
 """
@@ -31,7 +30,6 @@ from .edge_charges import EdgeCharges
 from .edge_moves import INSISTS, INWARD, Damping, event_of, moved, turning_smooth
 from .measure import edge_ratio
 from .operator import Operator, at_edges, gap_values, operator_of
-from .panels import Patches
 from .pieces import Pieces
 from .repairs import after
 from .state import Event, Given, State, balances
@@ -72,7 +70,7 @@ def solve(
         linear = conditions(state, o, given)
         changes = (
             -missed(state, o, given, linear),
-            loaded(state, given.size),
+            loaded(state, given.load),
             linear.roundings(BLURRED * given.load),
         )
         y, by_load, by_rounding = linear.charged(np.column_stack(changes)).T
@@ -246,8 +244,6 @@ def conditions(state: State, o: Operator, given: Given) -> Linear:
         replaced, rows = [int(np.argmax(P.r))], [_last_gap(o)]
         slack[replaced] = slack[-2]
     slack[-2:] = 0.0
-    if given.by_width:
-        replaced, rows = [*replaced, 2 * P.number - 1], [*rows, _of_width(state, intensity)]
     charges = edge_charges(o, given.moment is not None)
     return Linear(charges, intensity, replaced, np.array(rows), slack)
 
@@ -262,8 +258,6 @@ def missed(state: State, o: Operator, given: Given, linear: Linear) -> Array:
     if (linear.slack[N:] > BLURRED * given.load).any():
         # else rounding moves the edges to and fro, and with them the load
         out[np.abs(out) <= linear.slack] = 0.0
-    if given.by_width:
-        out[-2] = _width(o.patches) - given.size
     return out
 
 
@@ -308,30 +302,6 @@ def _slack(o: Operator, tilt: float, intensity: Array) -> Array:
     slack[N : N + n] += o.pieces.rounding(P.b[:n], P.b[:n] + P.gaps[:n])
     slack[N : N + n] += EPS * abs(tilt) * P.gaps[:n]
     return slack
-
-
-def outermost(patches: Patches) -> tuple[int, int]:
-    """The edges on both sides of all patches; per period, of its widest gap."""
-    last = int(np.argmax(patches.gaps)) if patches.chord.periodic else patches.number - 1
-    return 2 * last + 1, (2 * last + 2) % (2 * patches.number)
-
-
-def _width(P: Patches) -> float:
-    """The distance of the outermost edges; per period that beside its widest gap."""
-    last, first = outermost(P)
-    if P.chord.periodic:
-        return P.chord.period - float(P.gaps[last // 2])
-    return float(P.edges[last] - P.edges[first])
-
-
-def _of_width(state: State, intensity: Array) -> Array:
-    """The derivatives of that distance by the charges, (2N,)."""
-    row = np.zeros(len(intensity))
-    for edge, sign in zip(outermost(state.patches), (2.0, -2.0), strict=True):
-        if not state.sharp[edge]:
-            D = intensity[edge]
-            row[edge] = sign / (D if D > 0.0 else np.abs(intensity).mean())
-    return row
 
 
 def _last_panels(o: Operator) -> slice:

@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from sie.profiles.base import Profile
 
 from .density import PatchPressure
-from .newton import conditions, loaded, missed
+from .newton import conditions, missed
 from .of_scene import Problem
 from .operator import Found, Operator, operator_of
 from .profile_pieces import of_profile
@@ -99,12 +99,7 @@ def _changed(several: Answer, error: Profile, places: Array, moment: bool) -> tu
     linear = conditions(still, o, none)
     whole = conditions(state, several.found.operator, none)
     moved = np.where(sharp, 0.0, 2.0 / np.where(sharp, 1.0, whole.intensity))
-    y, by_load = linear.charged(
-        np.column_stack((-missed(still, o, none, linear), loaded(state, 1.0)))
-    ).T
-    if several.problem.given.half_width is not None:  # the load changes in its place
-        wider, by_load_wider = (moved[-1] * v[-2] - moved[0] * v[0] for v in (y, by_load))
-        y = y - by_load * (wider / by_load_wider)
+    y = linear.charged(-missed(still, o, none, linear)[:, None])[:, 0]
     charged = Operator(P, pieces, y[:-1])
     G, tilt = several.pressure.half_modulus, float(y[-1])
     p = PatchPressure(charged, G, tilt, 0.0)(places)

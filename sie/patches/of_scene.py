@@ -61,7 +61,7 @@ class Problem:
 def problem_of(scene: Scene, tol: float = 1e-15) -> Problem:
     profile, G = scene.profile, 0.5 * scene.Estar
     moment = None if scene.moment is None else scene.moment / G
-    load = np.nan if scene.normal_load is None else scene.normal_load / G
+    assert scene.normal_load is not None
     domain = profile.pieces.domain
     return Problem(
         pieces=lambda window, cuts=None: of_profile(profile, window, tol, cuts),
@@ -72,7 +72,7 @@ def problem_of(scene: Scene, tol: float = 1e-15) -> Problem:
         corners=profile.ends_are_corners,
         breaks=np.asarray(profile.breaks),
         chord=Chord(profile.period),
-        given=Given(load, scene.tilt, moment, scene.half_width),
+        given=Given(scene.normal_load / G, scene.tilt, moment),
         half_modulus=G,
     )
 

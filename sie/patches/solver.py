@@ -75,22 +75,6 @@ class Exhausted(Exception):
 
 
 @reported("patches of contact, step")
-def contact_near(problem: Problem, near: Found) -> Found | None:
-    """The patches of a problem from those under a close load; None if that does not find them."""
-    problem = replace(problem, effort=Effort())
-    window = near.operator.pieces.domain
-    try:
-        found = settled(near.state, near.operator.pieces, problem)
-        refuse_unknown_ends(found.state, problem)
-        _refuse_unknown(found, problem.given)
-        if overlap_beyond(found, problem, window, gap) == window:
-            return _in_one_period(_with_far_valleys(found, problem), problem)
-    except (*ASTRAY, Exhausted):
-        pass
-    return None
-
-
-@reported("patches of contact, step")
 def contact(problem: Problem) -> Found:
     """The patches of a problem. Raises ContactError where none are certified."""
     problem = replace(problem, effort=Effort())

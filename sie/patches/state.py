@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -18,25 +17,11 @@ SAME = 1e-9  # half-widths: by which starts differ that do not lead to the same
 
 
 class Given(NamedTuple):
-    """The given load, and tilt or moment, in units of E*/2; a half-width that gives the load.
-
-    The load is nan where that is sought.
-    """
+    """The given load, and tilt or moment, in units of E*/2."""
 
     load: float
     tilt: float
     moment: float | None
-    half_width: float | None = None
-
-    @property
-    def by_width(self) -> bool:
-        """Whether the half-width is given and no load of it is known."""
-        return math.isnan(self.load)
-
-    @property
-    def size(self) -> float:
-        """The load, or the width that is given in its place."""
-        return 2.0 * (self.half_width or 0.0) if self.by_width else self.load
 
 
 @dataclass(frozen=True, eq=False)

@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from sie import arguments, higher_layers
+from sie import arguments
 from sie.numerics.interval import EPS
 from sie.profiles.base import Profile
 
@@ -61,7 +61,7 @@ class Scene:
         Poisson's ratio of the body beside `modulus`, for σ_zz.
     coupling : {"full", "goodman"}, optional
         "goodman" leaves β q out of equation (1), so that the pressure is that without friction: an
-        approximation for dissimilar bodies, of any profile.
+        approximation for dissimilar bodies, in contacts that are symmetric.
 
     Raises
     ------
@@ -144,7 +144,9 @@ class Scene:
         >>> sie.Scene.from_dict(scene.to_dict()) == scene
         True
         """
-        return higher_layers.module("io.scene_writing").scene_of(tables)
+        from sie.io.scene_writing import scene_of  # noqa: PLC0415 -- a higher layer
+
+        return scene_of(tables)
 
     def to_dict(self) -> dict[str, Any]:
         """The scene as the tables of a scene file.
@@ -167,7 +169,9 @@ class Scene:
         >>> sie.Scene(profile=sie.Wedge(0.1), modulus=1.0, normal_load=2.0).to_dict()["profile"]
         {'kind': 'wedge', 'slope': 0.1}
         """
-        return higher_layers.module("io.scene_writing").tables_of(self)
+        from sie.io.scene_writing import tables_of  # noqa: PLC0415 -- a higher layer
+
+        return tables_of(self)
 
     def to_toml(self) -> str:
         """The scene as the text of a scene file, which reads back into an equal scene.
@@ -189,7 +193,9 @@ class Scene:
         >>> scene.to_toml().splitlines()[:3]
         ['[profile]', 'kind = "wedge"', 'slope = 0.1']
         """
-        return higher_layers.module("io.scene_writing").toml_text(self.to_dict())
+        from sie.io.scene_writing import toml_text  # noqa: PLC0415 -- a higher layer
+
+        return toml_text(self.to_dict())
 
     # -- checks ------------------------------------------------------------------------------------
 

@@ -18,7 +18,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from sie import arguments, higher_layers
+from sie import arguments
 
 from .power_law import PowerLaw
 from .slope import Slope
@@ -303,5 +303,7 @@ class Profile(ABC):
 
 def _derived(kind: str, *arguments: Any) -> Profile:
     """The profile of a class in `derived`, which imports this module."""
-    made: Profile = getattr(higher_layers.module("profiles.derived"), kind)(*arguments)
+    from . import derived  # noqa: PLC0415 -- a higher layer
+
+    made: Profile = getattr(derived, kind)(*arguments)
     return made

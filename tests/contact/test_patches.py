@@ -428,3 +428,28 @@ def test_a_random_row_is_certified_or_refused(seed):
     except sie.ContactError:
         return
     assert certificate.ok or certificate.tension  # a concave corner closed to rounding is named
+
+
+WELLS = sie.Polynomial((0.0, 0.0, -0.5, 0.0, 1.0))
+
+
+@pytest.mark.parametrize(
+    "profile",
+    [
+        WELLS,
+        sie.Row([sie.Parabola(1.0), sie.Parabola(1.0).shifted(3.0)]),
+        sie.Periodic(sie.Parabola(1.0), 2.0),
+    ],
+)
+def test_half_width_of_several_patches_is_refused_and_the_load_answered(profile):
+    with pytest.raises(sie.LoadError, match=r"one patch .* give normal_load") as refused:
+        _ = sie.solve(sie.Scene(profile=profile, modulus=1.0, half_width=0.2)).edges
+    assert len(str(refused.value).split()) <= 40
+    assert sie.solve(sie.Scene(profile=profile, modulus=1.0, normal_load=0.02)).check().ok
+
+
+def test_half_width_of_a_patch_merged_from_two_gives_the_load():
+    load = sie.solve(sie.Scene(profile=WELLS, modulus=1.0, half_width=1.5)).normal_load
+    back = sie.solve(sie.Scene(profile=WELLS, modulus=1.0, normal_load=load))
+    assert back.half_width == pytest.approx(1.5, rel=1e-13)
+    assert back.check().ok

@@ -107,17 +107,6 @@ def quartic_wells(gap):
     return sie.FromFunction("x**3 - x", domain=(-3.0, 3.0)), np.pi * (1.0 - gap * gap / 4) ** 2 / 2
 
 
-@pytest.mark.parametrize("second", [0.0, -0.0625, 0.0625])
-@pytest.mark.parametrize("gap", [1e-2, 1e-5, 1e-7])
-def test_a_wave_of_a_given_half_width_has_its_load_up_to_full_contact(gap, second):
-    profile, load = two_harmonics(gap, second)
-    solution = sie.solve(sie.Scene(profile=profile, modulus=2.0, half_width=0.5 - 0.5 * gap))
-    assert solution.normal_load == pytest.approx(load, rel=2e-14)
-    ((a, b),) = solution.patches
-    assert a + b == pytest.approx(0.0, abs=1e-13)
-    assert solution.check().ok
-
-
 def resolved(solution):
     """The relative error of a gap that rounding of the load, and of the sums for it, leaves."""
     return 64.0 * np.finfo(float).eps * solution.check().condition

@@ -22,10 +22,6 @@ SYMMETRIC = {
     "power": sie.Power(2.5, 0.4),
     "wedge": sie.Wedge(0.1),
 }
-TILTED = {
-    "skew polynomial": (sie.Polynomial((0.0, 0.0, 0.5, 0.1, 0.2)), 0.0),
-    "tilted parabola": (sie.Parabola(1.0), 0.05),
-}
 
 
 def solved(profile=None, beta=0.1, friction=0.1, **given):
@@ -64,37 +60,29 @@ def test_certificate_holds_for_symmetric_profiles(name):
     assert certificate.shear.residual < 1e-11
 
 
-@pytest.mark.parametrize("name", TILTED)
-def test_certificate_holds_where_the_contact_is_not_symmetric(name):
-    profile, tilt = TILTED[name]
-    certificate = solved(profile, tilt=tilt, normal_load=0.5).check()
-    assert certificate.ok
-    assert certificate.shear.residual < 1e-11
-
-
-SKEW = sie.Polynomial((0.0, 0.0, 0.5, 0.151, 0.212))
-UNEVEN_WEDGE = sie.Piecewise((-3.0, 0.0, 3.0), ((-0.615,), (0.246,)))
+SKEW = sie.Polynomial((0.0, 0.0, 0.5, 0.1, 0.2))
 CORNERS = sie.Piecewise((-3.0, -0.1, 0.1, 3.0), ((-0.17, 1.0), (0.0, 1.0), (0.17, 1.0)))
-UNLIKE_POWERS = sie.Piecewise((-3.0, 0.0, 3.0), ((0.0, 0.0, -1.0), (0.0, 1.0)))
 
 
-@pytest.mark.parametrize(
-    ("profile", "beta", "friction", "load", "part"),
-    [
-        (SKEW, 3e-3, 0.05, 0.09, 0.0),  # a slip zone narrower than rounding
-        (SKEW, 0.02, 0.7, 1.2, -0.9),
-        (SKEW, 0.1, 0.3, 0.5, 0.3),
-        (UNEVEN_WEDGE, 0.1, 0.17, 0.03, 0.0),
-        (UNEVEN_WEDGE, 0.1, 0.5, 0.03, 0.99),  # a stick zone narrower than sqrt(1 - Q/(f P))
-    ],
-)
-def test_certificate_holds_to_rounding_without_symmetry(profile, beta, friction, load, part):
-    given = {"normal_load": load, "tangential_load": part * friction * load}
-    certificate = solved(profile, beta, friction, **given).check()
-    assert certificate.ok
-    assert certificate.shear.residual < 1e-11
-    assert certificate.shear.equilibrium < 1e-11
-    assert certificate.shear.excess < 1e-11
+def test_contact_without_symmetry_is_refused_and_answered_as_the_message_says():
+    with pytest.raises(sie.ContactError, match=r"not symmetric: .* leave coupling out") as refused:
+        _ = solved(SKEW, 0.1, 0.3).stick
+    assert len(str(refused.value).split()) <= 40
+    assert solved(SKEW, 0.1, 0.3, coupling="full").check().ok
+    with pytest.raises(sie.ContactError, match=r"not symmetric: .*follow; give dundurs = 0"):
+        _ = solved(SKEW, 0.1, 0.3, tangential_load=0.1).stick
+    assert solved(SKEW, 0.0, 0.3, tangential_load=0.1).check().ok
+
+
+@pytest.mark.parametrize("load", [0.0, 0.3])
+def test_symmetric_trace_is_answered_as_the_profile_that_it_samples(load):
+    x = np.linspace(-2.0, 2.0, 41)
+    trace, smooth = (
+        solved(profile, friction=0.4, normal_load=0.2, tangential_load=0.08 * load)
+        for profile in (sie.Sampled(x, 0.5 * x * x), sie.Parabola(1.0))
+    )
+    assert trace.stick[0] == pytest.approx(smooth.stick[0], abs=1e-11)
+    assert trace.check().ok
 
 
 def test_tangential_load_moves_an_end_of_the_stick_zone_past_a_corner():
@@ -103,39 +91,12 @@ def test_tangential_load_moves_an_end_of_the_stick_zone_past_a_corner():
     assert solution.check().ok
 
 
-def test_contact_that_grows_to_one_side_at_first_sticks_under_high_friction():
-    # Its stick zone recedes under a part of the load below rounding
-    certificate = solved(UNLIKE_POWERS, 0.03, 1.0, normal_load=0.4).check()
-    assert certificate.ok
-    assert certificate.shear.residual < 1e-11
-
-
-def test_values_next_to_the_contacts_edges_keep_below_the_limit_in_narrow_slip_zones():
-    solution = solved(SKEW, 3e-3, 0.05, normal_load=0.09)
-    x1, x2 = solution.tangential.shear.interval
-    away = 10.0 ** -np.arange(2.0, 14.0)
-    x = np.concatenate((x1 + away, x2 - away))
-    assert (np.abs(solution.shear(x)) <= 0.05 * solution.pressure(x)).all()
-
-
-@pytest.mark.parametrize("part", [0.0, 0.5])
-def test_contact_that_begins_at_a_corner_of_a_tilted_flat_is_answered(part):
-    given = {"friction": 0.2, "tilt": 0.005, "normal_load": 1.0, "tangential_load": 0.2 * part}
-    assert solved(sie.RoundedFlat(0.5, 1.0), **given).check().ok
-
-
 def test_zone_past_two_breaks_at_one_distance_keeps_its_force():
     def one(distance, _):
         return np.ones_like(distance)
 
     frame = DeficitFrame(one, 0.5, 1.0, 0.5, (0.2, 0.2), None, 0.1)
     assert frame.zone(0.5).force.sum() == pytest.approx(0.5 / 0.5, rel=1e-12)
-
-
-@pytest.mark.parametrize("pieces", [((-3, 1), (0, 2)), ((0, 0, -1), (0, 1))])
-def test_contact_that_grows_to_one_side_alone_at_first_is_refused(pieces):
-    with pytest.raises(sie.ContactError, match=r"stick zone.* would recede"):
-        _ = solved(sie.Piecewise((-3, 0, 3), pieces), 0.2, 0.3).stick
 
 
 # In the second one nothing sticks that stuck under a lighter normal load
@@ -195,9 +156,9 @@ def test_a_periodic_contact_is_refused_as_one_that_repeats():
         _ = solved(sie.Periodic(sie.Parabola(1.0), 4.0), normal_load=0.1).stick
 
 
-def test_a_long_trace_is_refused_with_the_number_of_its_jumps():
-    x = np.linspace(-2.0, 2.0, 201)
-    with pytest.raises(sie.ContactError, match=r"holds \d+ places where .* at most; fit fewer"):
+def test_a_long_trace_is_refused_with_the_number_of_its_kinks():
+    x = np.linspace(-2.0, 2.0, 401)
+    with pytest.raises(sie.ContactError, match=r"has \d+ kinks .* at most: fit fewer points"):
         _ = solved(sie.Sampled(x, 0.5 * x * x)).stick
 
 
@@ -289,7 +250,7 @@ def test_report_says_how_far_the_approximation_is():
 @pytest.mark.parametrize(
     ("given", "words"),
     [
-        ({"tilt": 0.02, "profile": sie.Flat(1.0)}, "reached a corner .* symmetric"),
+        ({"tilt": 0.02, "profile": sie.Flat(1.0)}, "not symmetric: .* leave coupling out"),
         ({"profile": sie.Flat(1.0), "tangential_load": 0.05}, "corner behind sticks"),
         ({"bulk_stress": 0.1}, "bulk_stress"),
         ({"tangential_load": 0.2}, "slide"),

@@ -45,7 +45,7 @@ AXIS_ROUNDING = (
 )  # half-widths: such is the rounding of the frictionless contact's centre
 
 
-def _axis(scene: Scene, bound: Edges) -> float | None:
+def symmetry_axis(scene: Scene, bound: Edges) -> float | None:
     """The axis of the profile, or of the frictionless contact if h' is odd about it there.
 
     None if the profile is not symmetric.
@@ -100,7 +100,7 @@ def coupled_contact(
     half_modulus = 0.5 * scene.Estar
     bound = frictionless(_without_friction(scene))
     widest, sharp = bound.edges.contact.r, bound.edges.sharp[0]
-    axis = _axis(scene, bound.edges)
+    axis = symmetry_axis(scene, bound.edges)
     if axis is None:
         return uneven_contact(scene, bound)
     growth, kinks = _growth(flat, scene, widest, axis)

@@ -1,19 +1,17 @@
 """The shear and the slip of Goodman's approximation while the normal load grows.
 
 The pressure is that without friction, whose increment under dP is that of a flat punch of the
-present contact m ∓ r. Where the slip in stick stays, so is the increment of the shear, so that with
-t = (x - m)/r and the flat's functions (`functions`), over all r that reach x,
+present half-width r. Where the slip in stick stays, so is the increment of the shear, so that with
+t = y/r at the distance y from the axis and the flat's functions (`functions`), over all r >= y,
 
-    q(x) = f ∫ ρ(t) φ(t) dP/r,      g(x) = 2/E* ∫ ĝ(t) dP over r with |t| > k,
+    q(y) = f ∫ ρ(t) φ(t) dP/r,      g(y) = 2/E* ∫ ĝ(t) dP over r with t > k,
 
-ρ = ±1 in slip and q/(f p) of the flat in stick. This holds for unsymmetric contacts as well, as
-long as both ends m ± k r of the stick zone move outwards: |dm/dr| <= k. A point comes into contact
-in slip, sticks at r*, m + k r* = x, and sticks from then on. All terms are positive but where the
-middle of the contact passes x.
+ρ = 1 in slip and q/(f p) of the flat in stick. A point comes into contact in slip, sticks at
+r = y/k, and sticks from then on. All terms are positive.
 
-The distances e = m + r - x from the edge and s = m + k r - x from the end of the stick zone are
-counted from r*, where s = 0 and e = (1 - k) r*: both are known to relative accuracy, however narrow
-the slip zone is. From a place r0 on, behind which the nearest singularity lies at the distance B,
+The distances e = r - y from the edge and s = k r - y from the end of the stick zone are counted
+from where s = 0 and e = (1 - k) r: both are known to relative accuracy, however narrow the slip
+zone is. From a place r0 on, behind which the nearest singularity lies at the distance B,
 
     r = r0 + B sinh² v
 
@@ -33,7 +31,6 @@ from numpy.typing import NDArray
 from sie.friction.coupled.panels import totals
 from sie.friction.coupled.profile import NEAREST
 from sie.numerics.gauss_jacobi import gauss_jacobi
-from sie.numerics.interval import EPS
 
 from .functions import GoodmanFlat
 from .growth import ContactTable, Panel
@@ -43,17 +40,13 @@ Array = NDArray[np.float64]
 NODES, LONGEST = 16, 3.0  # of a panel of v, and its length: singularities lie beyond π/2 i
 SHORT = 1.0  # where there is one ahead as well, at twice the distance
 TOGETHER = 256  # places at a time: more do not fit a processor's cache
-LOOKS = 24  # places on a panel at which the ends of the stick zone must move outwards
-TURNING = 1e-9  # of the half-width: an end that moves inwards by less is rounding
-FAINT = 1e-12  # of the load: what a lighter one does leaves no trace
-STEPS, SETTLED = 60, 1e-13  # of Newton's method for a half-width, which then takes one step more
 
 
 class Contacts(NamedTuple):
-    """Contacts in the history of some places x, one of each.
+    """Contacts in the history of some places y, one of each.
 
     panel, ahead            number of the panel, and r less that at its beginning
-    from_edge, from_stick   e = m + r - x, and s = m + k r - x
+    from_edge, from_stick   e = r - y, and s = k r - y
     """
 
     panel: NDArray[np.intp]
@@ -78,23 +71,18 @@ class Piece(NamedTuple):
 
 
 class Nodes(NamedTuple):
-    """Nodes of the integrals over r: half-widths, x - m, the distance of the nearer edge, and s."""
+    """Nodes of the integrals over r: half-widths, e and s."""
 
     half_width: Array
-    offset: Array
     from_edge: Array
     from_stick: Array
 
 
 class GoodmanGrowth:
-    """Shear and slip at places y = x - middle on the right of where the profile touched first.
+    """Shear and slip at distances y >= 0 from the axis."""
 
-    Mirrored, y is middle - x, and the left is the right.
-    """
-
-    def __init__(self, flat: GoodmanFlat, table: ContactTable, mirrored: bool = False) -> None:
-        self.flat, self.table, self.side = flat, table, -1.0 if mirrored else 1.0
-        self._looks: dict[int, tuple[Array, Array]] = {}
+    def __init__(self, flat: GoodmanFlat, table: ContactTable) -> None:
+        self.flat, self.table = flat, table
 
     def shear(self, y: Array) -> Array:
         """q in the stick zone."""
@@ -113,37 +101,24 @@ class GoodmanGrowth:
         last = Contacts(*(np.where(slips, *both) for both in zip(end, begun, strict=True)))
         return self._before(last, self._in_slip, to_stick=True)
 
-    def pressure(self, from_edge: Array, r: Array) -> Array:
-        """p at a distance from the right edge, under the lighter load at which r is that."""
-        return self._before(self._contacts(r, from_edge), _flat_pressure)
-
     def dissipation(self, r: Array) -> Array:
-        """E*/2 times the energy that the slip of dP = 1 dissipates, at half-widths r (1-d)."""
+        """E*/2 times the energy that the slip of dP = 1 dissipates on a side, at half-widths r."""
         t, e, dt = self.flat.slip_places
         distance = r[:, None] * e
-        p = self.pressure(distance.ravel(), np.repeat(r, len(t))).reshape(distance.shape)
+        at = self._contacts(np.repeat(r, len(t)), distance.ravel())
+        p = self._before(at, _flat_pressure).reshape(distance.shape)
         rate: Array = self.flat.friction * r * (p @ (dt * self.flat.slip(t, e)))
         return rate
 
-    def stick_end(self, r: float) -> float:
-        """The right end of the stick zone of the contact of half-width r, from the middle."""
-        if not self.table.panels:
-            return self.flat.k * r
-        k, ahead = self._place(np.array([r]))
-        panel, centre = self.table.panels[k[0]], self.table.centres[k[0]]
-        centre += float(panel.moved(np.zeros(1), ahead)[0])
-        return self.side * centre + self.flat.k * r
-
     def _in_stick(self, at: Nodes) -> Array:
         r, k = at.half_width, self.flat.k
-        part = at.offset / (k * r)
-        off = np.where(part > 0.0, at.from_stick / (k * r), 1.0 + part)
+        off = np.maximum(at.from_stick / (k * r), 0.0)
         square = at.from_edge * (2.0 * r - at.from_edge) / (r * r)
-        return self.flat.ratio(part, np.maximum(off, 0.0), square) * _flat_pressure(at)
+        return self.flat.ratio((r - at.from_edge) / (k * r), off, square) * _flat_pressure(at)
 
     def _in_slip(self, at: Nodes) -> Array:
-        r = at.half_width
-        return self.flat.slip(at.offset / r, at.from_edge / r)
+        e = at.from_edge / at.half_width
+        return self.flat.slip(1.0 - e, e)
 
     # -- contacts in the history of places ---------------------------------------------------------
 
@@ -152,14 +127,10 @@ class GoodmanGrowth:
         """The half-widths at which panels begin; that of the contact where it does not grow."""
         return np.array([panel.lo for panel in self.table.panels] or [self.table.end])
 
-    def _place(self, r: Array) -> tuple[NDArray[np.intp], Array]:
-        """The panels that end with these half-widths or hold them, and how far along."""
-        lo = self._begins
-        k = np.maximum(np.searchsorted(lo, r) - 1, 0)
-        return k, r - lo[k]
-
     def _contacts(self, r: Array, from_edge: Array) -> Contacts:
-        return Contacts(*self._place(r), from_edge, from_edge - self.flat.modulus.rest * r)
+        number = np.maximum(np.searchsorted(self._begins, r) - 1, 0)
+        ahead = r - self._begins[number]
+        return Contacts(number, ahead, from_edge, from_edge - self.flat.modulus.rest * r)
 
     def _at_end(self, y: Array) -> Contacts:
         return self._contacts(np.full(len(y), self.table.end), self.table.end - y)
@@ -167,55 +138,11 @@ class GoodmanGrowth:
     def _sticking(self, y: Array) -> Contacts:
         """The contacts in which the places began to stick, those at first touch, or at the end."""
         k, lo = self.flat.k, self._begins
-        centres = self.side * np.array(self.table.centres)[: len(lo)]
-        begin = centres + k * lo
-        number = np.maximum(np.searchsorted(begin, y) - 1, 0)
-        ahead = np.zeros(len(y))
-        for j, panel in enumerate(self.table.panels):
-            own = number == j
-            if own.any():
-                rise = y[own] - begin[j]
-                ahead[own] = self._reached(panel, k, np.zeros(1), rise, self._near(j, rise))
+        number = np.maximum(np.searchsorted(k * lo, y) - 1, 0)
+        ahead = np.clip((y - k * lo[number]) / k, 0.0, self.table.end - lo[number])
+        stuck = np.maximum(k * lo[0] - y, 0.0)
         rest = self.flat.modulus.rest * (lo[number] + ahead)
-        stuck = np.maximum(begin[0] - y, 0.0) if self.table.start else np.zeros(len(y))
-        edge = np.where(stuck > 0.0, centres[0] + lo[0] - y, rest)
-        return Contacts(number, ahead, edge, stuck)
-
-    def _near(self, number: int, rise: Array) -> Array:
-        """About where the end of the stick zone has moved so far on a panel."""
-        if number not in self._looks:
-            panel = self.table.panels[number]
-            ahead = panel.length * (np.arange(LOOKS + 1) / LOOKS) ** 2
-            risen = self._rise(panel, self.flat.k, np.zeros(1), ahead)
-            self._looks[number] = np.maximum.accumulate(risen), ahead
-        values: Array = np.interp(rise, *self._looks[number])
-        return values
-
-    def _reached(
-        self, panel: Panel, part: float, ahead: Array, rise: Array, near: Array | float = 0.0
-    ) -> Array:
-        """By how much r has to grow from lo + ahead until m + part r has grown by so much.
-
-        It may be negative, and does not lead out of the panel.
-        """
-        limit = np.where(rise < 0.0, ahead, panel.length - ahead)
-        rise, sign = np.abs(rise), np.copysign(1.0, rise)
-        lo, hi = np.zeros(len(rise)), limit
-        found = np.minimum(near, limit)
-        for _ in range(STEPS):
-            by = sign * found
-            missed = rise - part * found - sign * self.side * panel.moved(ahead, by)
-            rate = part + self.side * panel.turn(ahead + by)
-            lo, hi = np.where(missed > 0.0, found, lo), np.where(missed > 0.0, hi, found)
-            rate = np.maximum(rate, NEAREST)
-            step = missed / rate
-            inside = (found + step >= lo) & (found + step <= hi)
-            moved = np.where(inside, found + step, 0.5 * (lo + hi))
-            settled = np.abs(moved - found) <= (SETTLED + 4.0 * EPS / rate) * moved
-            found = moved
-            if settled.all():
-                break
-        return sign * found
+        return Contacts(number, ahead, np.where(stuck > 0.0, lo[0] - y, rest), stuck)
 
     # -- integrals ---------------------------------------------------------------------------------
 
@@ -233,14 +160,12 @@ class GoodmanGrowth:
             if not own.size:
                 continue
             top = np.where(last.panel[own] == j, last.ahead[own], panel.length)
-            first = np.maximum(e[own] - self._rise(panel, 1.0, np.zeros(len(own)), top), 0.0)
-            length, inside = top.copy(), first == 0.0
-            length[inside] = -self._reached(panel, 1.0, top[inside], -e[own[inside]])
-            ahead = np.where(inside, top - length, 0.0)
-            at = first, s[own] - self._rise(panel, self.flat.k, ahead, length)
+            length = np.minimum(top, e[own])
+            first, ahead = np.maximum(e[own] - top, 0.0), top - length
+            at = first, s[own] - self.flat.k * length
             since = panel.lo - panel.begin + ahead
             behind = np.where(since > 0.0, since, panel.scale)
-            behind = np.where(inside, behind, np.minimum(behind, 0.5 * first))
+            behind = np.where(first == 0.0, behind, np.minimum(behind, 0.5 * first))
             if to_stick:
                 piece = Piece(ahead, 0.5 * length, *at, behind)
                 total[own] += self._integral(panel, piece, integrand, SHORT)
@@ -262,21 +187,15 @@ class GoodmanGrowth:
                 continue
             ahead = np.where(first.panel[own] == j, first.ahead[own], 0.0)
             length, r = panel.length - ahead, panel.lo + ahead
-            # Both ends of the contact and of the stick zone: they move by 2 dr at most
-            ends = e[own], s[own], 2.0 * r - e[own], 2.0 * k * r - s[own]
-            since = r - panel.begin
-            distances = np.array([2.0 * since, 2.0 * (since + panel.scale), 2.0 * r, *ends])
-            behind = 0.5 * np.where(distances > 0.0, distances, np.inf).min(axis=0)
+            # The axis, both ends of the contact and of the stick zone, which move by dr at most
+            since, ends = r - panel.begin, (e[own], s[own], 2.0 * r - e[own], 2.0 * k * r - s[own])
+            distances = np.array([since, since + panel.scale, r, *(0.5 * d for d in ends)])
+            behind = np.where(distances > 0.0, distances, np.inf).min(axis=0)
             piece = Piece(ahead, length, e[own], s[own], np.minimum(behind, panel.hi))
             total[own] += self._integral(panel, piece, integrand)
-            e[own] += self._rise(panel, 1.0, ahead, length)
-            s[own] += self._rise(panel, k, ahead, length)
+            e[own] += length
+            s[own] += k * length
         return total
-
-    def _rise(self, panel: Panel, part: float, ahead: Array, by: Array) -> Array:
-        """The growth of m + part r."""
-        rise: Array = part * by + self.side * panel.moved(ahead, by)
-        return rise
 
     def _integral(
         self,
@@ -297,31 +216,10 @@ class GoodmanGrowth:
         scale = behind[row][:, None]
         ahead, _, e, s, _ = (column[row][:, None] for column in piece)
         by = np.copysign(scale, piece.length[row][:, None]) * np.sinh(v) ** 2
-        moved = self.side * panel.moved(ahead, by)
-        r, e = panel.lo + ahead + by, e + by + moved
-        near = np.minimum(e, np.maximum(2.0 * r - e, NEAREST * r))
-        at = Nodes(r, r - e, near, s + self.flat.k * by + moved)
+        at = Nodes(panel.lo + ahead + by, e + by, s + self.flat.k * by)
         mass = scale * np.sinh(2.0 * v) * size * w * panel.load_rate(ahead + by)
         values = integrand(Nodes(*(column.ravel() for column in at))).reshape(mass.shape)
         return totals(row, mass * values, len(count))
-
-    @cached_property
-    def recedes(self) -> float:
-        """A half-width at which an end of the stick zone would move inwards, 0 where none does.
-
-        Then this does not hold.
-        """
-        carried = 0.0
-        for panel in self.table.panels:
-            ahead = panel.length * (np.arange(LOOKS + 1) / LOOKS) ** 2
-            rise = np.diff(self._rise(panel, self.flat.k, np.zeros(1), ahead))
-            rates = panel.load_rate(ahead[1:])
-            load = carried + np.cumsum(rates * np.diff(ahead))
-            carried = float(load[-1])
-            receding = (rise < -TURNING * self.table.end) & (load > FAINT * self.table.load)
-            if receding.any():
-                return panel.lo + float(ahead[1:][receding][-1])
-        return 0.0
 
 
 def _flat_pressure(at: Nodes) -> Array:

@@ -1,7 +1,8 @@
 """Partial slip of dissimilar bodies as Goodman approximated it: β q is left out of equation (1).
 
-The pressure is that without friction. While the normal load grows the shear follows by
-superposition (`shear`), at both ends in slip outwards, q = ± f p. Under Q at constant P it
+The pressure is that without friction, under a profile that is symmetric about an axis: the stick
+zone then grows with the contact. While the normal load grows the shear follows by superposition
+(`shear`), at both ends in slip outwards, q = ± f p. Under Q at constant P it
 changes by Δq, which leaves the slip gradient in stick as it is: HΔq = 0 on the stick zone, and
 beside it Δq = d, what the shear lacks of f p (for Q > 0)
 
@@ -23,8 +24,10 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from sie.contact.edges import Search
 from sie.errors import ContactError
 from sie.friction.coupled.half_potential import Panels
+from sie.friction.coupled.normal import symmetry_axis
 from sie.friction.coupled.profile import NEAREST
 from sie.friction.coupled.traction import resolved_panels
 from sie.friction.coupled.two_sided import TwoSidedTraction
@@ -32,11 +35,11 @@ from sie.friction.slip_state import GrownSlip, Step
 from sie.friction.slip_zones import Drive, SlipZones, edge_frame, slip_zones
 from sie.numerics.gauss_jacobi import gauss_jacobi
 from sie.numerics.interval import EPS, Interval
-from sie.problem.load_limit import remaining
+from sie.problem.load_limit import refuse_corner, refuse_sliding, remaining
 
 from .frame import DeficitFrame
-from .functions import GoodmanFlat
-from .growth import ContactTable, Search
+from .functions import GoodmanFlat, goodman_flat
+from .growth import ContactTable
 from .shear import GoodmanGrowth
 
 Array = NDArray[np.float64]
@@ -51,7 +54,13 @@ KIND_UNDER_Q = "outwards under P, then along Q, β q neglected (Goodman)"
 
 @dataclass(frozen=True, eq=False)
 class GoodmanSlip(GrownSlip):
-    """The state after the normal load, and Q at constant P."""
+    """The state after the normal load, and Q at constant P.
+
+    step     the contact and its loads
+    flat     functions of the flat punch
+    table    the contacts that it grew through
+    zones    the zones under Q, None before
+    """
 
     step: Step
     flat: GoodmanFlat
@@ -80,21 +89,18 @@ class GoodmanSlip(GrownSlip):
         return math.copysign(1.0, self.sign * self.step.Q)
 
     @property
-    def symmetric(self) -> bool:
-        return self.table.search.axis is not None and self.zones is None
+    def axis(self) -> float:
+        return self.table.axis
 
     @cached_property
-    def sides(self) -> tuple[GoodmanGrowth, GoodmanGrowth]:
-        """Growth on the left and on the right of where the profile touched."""
-        left, right = (GoodmanGrowth(self.flat, self.table, mirrored) for mirrored in (True, False))
-        return left, right
+    def growth(self) -> GoodmanGrowth:
+        return GoodmanGrowth(self.flat, self.table)
 
     @cached_property
     def normal_stick(self) -> tuple[float, float]:
         """The stick zone before Q."""
-        m, r = self.contact.m, self.contact.r
-        left, right = (side.stick_end(r) for side in self.sides)
-        return m - left, m + right
+        c = self.flat.k * self.contact.r
+        return self.axis - c, self.axis + c
 
     @property
     def stick(self) -> tuple[tuple[float, float], ...]:  # type: ignore[override]
@@ -125,7 +131,7 @@ class GoodmanSlip(GrownSlip):
         step = self.step
         found = step.contact_under(LIGHTER * step.normal_load, step.normal.edges.tilt)
         before = replace(step, normal=found, pressure=step.pressure_on(found), Q=0.0)
-        return GoodmanSlip(before, self.flat, contact_table(before, self.table.search, self.flat))
+        return GoodmanSlip(before, self.flat, contact_table(before, self.table.search, self.axis))
 
     @property
     def before_Q(self) -> GoodmanSlip | None:  # type: ignore[override]
@@ -137,14 +143,12 @@ class GoodmanSlip(GrownSlip):
     @cached_property
     def marks(self) -> tuple[float, ...]:  # type: ignore[override]
         """Places where q is not smooth, with the edges."""
-        (x1, x2), m, k = self.step.pressure.interval, self.contact.m, self.flat.k
-        places = {*self.stick[0], *self.normal_stick}
-        for r in self.table.ends:
-            for side, sign in zip(self.sides, (-1.0, 1.0), strict=True):
-                end = side.stick_end(r)
-                places |= {m + sign * end, m + sign * (end + (1.0 - k) * r)}
+        (x1, x2), m, k = self.step.pressure.interval, self.axis, self.flat.k
+        distances = {part * r for r in self.table.ends for part in (k, 1.0)}
+        places = {*self.stick[0], *self.normal_stick, *(m - d for d in distances)}
+        places |= {m + d for d in distances}
         if not self.table.start:
-            places.add(self.table.first_centre)
+            places.add(m)
         apart, marks = SMALL * self.contact.r, [x1]
         for x in sorted(places):
             if marks[-1] + apart < x < x2 - apart:
@@ -157,7 +161,7 @@ class GoodmanSlip(GrownSlip):
     def shear(self) -> TwoSidedTraction:
         contact = self.contact
         return TwoSidedTraction(
-            self.traction, self._halves, contact.m, self.step.Q, self.marks, contact
+            self.traction, self._halves, self.axis, self.step.Q, self.marks, contact
         )
 
     def _halves(self) -> tuple[Panels, Panels]:
@@ -167,36 +171,29 @@ class GoodmanSlip(GrownSlip):
 
         def half(side: float) -> Panels:
             inner = [0.0]
-            for y in sorted(side * (x - contact.m) for x in self.marks):
+            for y in sorted(side * (x - self.axis) for x in self.marks):
                 if inner[-1] + SMALL * contact.r < y < (1.0 - SMALL) * contact.r:
                     inner.append(y)
 
             def row(y: Array, _: Array) -> Array:
-                return self.traction(np.clip(contact.m + side * y, x1, x2))[None]
+                return self.traction(np.clip(self.axis + side * y, x1, x2))[None]
 
             return resolved_panels(row, (*inner[1:], contact.r), power)[0]
 
         right = half(1.0)
-        return right, right._replace(series=-right.series) if self.symmetric else half(-1.0)
+        return right, right._replace(series=-right.series) if self.zones is None else half(-1.0)
 
     def normal_shear(self, x: Array) -> Array:
         """q before Q, for β > 0, at x on the contact."""
-        y = x - self.contact.m
-        touch = self.table.first_centre - self.contact.m
-        c1, c2 = self.normal_stick
-        f_p = self.friction * self.step.pressure(x)
-        q = np.where(x > c2, f_p, np.where(x < c1, -f_p, 0.0))
-        for side, growth, sign in (
-            (y >= touch, self.sides[1], 1.0),
-            (y < touch, self.sides[0], -1.0),
-        ):
-            at = side & (x >= c1) & (x <= c2)
-            q[at] = sign * growth.shear(sign * y[at])
-            if self.table.corner_load:
-                q[at] += sign * self._of_corner(sign * y[at])
-        if self.table.search.axis is not None:
-            q[y == 0.0] = 0.0
-        return q
+        y = np.abs(x - self.axis)
+        q = self.friction * self.step.pressure(x)
+        stuck = y <= 0.5 * (self.normal_stick[1] - self.normal_stick[0])
+        q[stuck] = self.growth.shear(y[stuck])
+        if self.table.corner_load:
+            q[stuck] += self._of_corner(y[stuck])
+        odd: Array = np.sign(x - self.axis) * q
+        odd[y == 0.0] = 0.0
+        return odd
 
     def _of_corner(self, y: Array) -> Array:
         """The shear of a flat punch as wide as the contact under the load of its corners."""
@@ -244,7 +241,7 @@ class GoodmanSlip(GrownSlip):
 
     def _tabulated_shear(self, x: Array) -> Array:
         """`normal_shear` from its series: the zones are sought in many steps."""
-        y = x - self.contact.m
+        y = x - self.axis
         right, left = self.shear.halves
         return self.sign * np.where(y < 0.0, left.traction(np.abs(y)), right.traction(np.abs(y)))
 
@@ -292,17 +289,14 @@ class GoodmanSlip(GrownSlip):
 
     def slip(self, x: Array) -> Array:
         self._refuse_slip()
-        m, touch = self.contact.m, self.table.first_centre
         x1, x2 = self.step.pressure.interval
-        g = np.zeros(x.shape)
-        for growth, sign in ((self.sides[1], 1.0), (self.sides[0], -1.0)):
-            at = (sign * (x - touch) > 0.0) & (x >= x1) & (x <= x2)
-            y = sign * (x[at] - m)
-            values = growth.slip(y)
-            if self.table.corner_load:
-                t = y / self.contact.r
-                values = values + self.table.corner_load * self.flat.slip(t, 1.0 - t)
-            g[at] = sign * values
+        g, inside = np.zeros(x.shape), (x >= x1) & (x <= x2)
+        y = np.abs(x[inside] - self.axis)
+        values = self.growth.slip(y)
+        if self.table.corner_load:
+            t = y / self.contact.r
+            values = values + self.table.corner_load * self.flat.slip(t, 1.0 - t)
+        g[inside] = np.sign(x[inside] - self.axis) * values
         return np.asarray(self.sign / self.table.search.half_modulus * g)
 
     def _refuse_slip(self) -> None:
@@ -316,11 +310,6 @@ class GoodmanSlip(GrownSlip):
     @property
     def shift(self) -> float:
         self._refuse_slip()
-        if self.table.search.axis is None:
-            raise ContactError(
-                "the shift of the indenter under an unsymmetric normal load is not computed in "
-                "Goodman's approximation; the slip is"
-            )
         return 0.0
 
     @cached_property
@@ -329,21 +318,48 @@ class GoodmanSlip(GrownSlip):
         self._refuse_slip()
         x, _, w = gauss_jacobi(ENERGY_NODES, 0.0, 0.0)
         total = 0.0
-        for growth in self.sides:
-            for panel in self.table.panels:
-                ahead = panel.length * x * x
-                lost = growth.dissipation(panel.lo + ahead)
-                total += 2.0 * panel.length * float((w * x * panel.load_rate(ahead)) @ lost)
-            if self.table.corner_load:
-                b, P = self.contact.r, self.table.corner_load
-                total += P * float(growth.dissipation(np.array([b]))[0])
-                t, e, dt = self.flat.slip_places
-                own = dt / (math.pi * np.sqrt(e * (1.0 + t))) @ self.flat.slip(t, e)
-                total += 0.5 * self.friction * P * P * float(own)
+        for panel in self.table.panels:
+            ahead = panel.length * x * x
+            lost = self.growth.dissipation(panel.lo + ahead)
+            total += 4.0 * panel.length * float((w * x * panel.load_rate(ahead)) @ lost)
+        if self.table.corner_load:
+            b, P = self.contact.r, self.table.corner_load
+            total += 2.0 * P * float(self.growth.dissipation(np.array([b]))[0])
+            t, e, dt = self.flat.slip_places
+            own = dt / (math.pi * np.sqrt(e * (1.0 + t))) @ self.flat.slip(t, e)
+            total += self.friction * P * P * float(own)
         return total / self.table.search.half_modulus
 
 
-def contact_table(step: Step, search: Search, flat: GoodmanFlat) -> ContactTable:
+def goodman_slip(step: Step, search: Search) -> GoodmanSlip:
+    """The state of a scene's contact after P and Q; ContactError where it is not solved.
+
+    `search` finds contacts of the same slope up to this one.
+    """
+    scene, edges = step.scene, step.normal.edges
+    if step.Q:
+        refuse_sliding(scene.friction, step.normal_load, step.Q)
+        refuse_corner(edges.sharp, step.Q)
+    upright = replace(scene, profile=scene.profile.tilted(edges.tilt), tilt=0.0, moment=None)
+    axis = symmetry_axis(upright, edges)
+    if axis is None:
+        raise _not_symmetric(step.Q)
+    flat = goodman_flat(abs(scene.beta), scene.friction)
+    state = GoodmanSlip(step, flat, contact_table(step, search, axis))
+    _ = state.table.panels  # which refuse a contact that does not grow steadily
+    return state.under_tangential_load() if step.Q else state
+
+
+def contact_table(step: Step, search: Search, axis: float) -> ContactTable:
     """The contacts up to that of a step."""
-    breaks = step.slope.breaks.tolist()
-    return ContactTable(search, step.normal.edges, breaks, step.scene.profile.power_law, flat.k)
+    law = step.scene.profile.power_law if step.normal.edges.tilt == 0.0 else None
+    return ContactTable(search, axis, step.normal.edges, step.slope.breaks, law)
+
+
+def _not_symmetric(Q: float) -> ContactError:
+    coupled = "" if Q else "leave coupling out, or "
+    return ContactError(
+        "coupling = 'goodman' on a contact that is not symmetric: its stick zone may recede as the "
+        f"load grows, which Goodman's approximation does not follow; {coupled}give dundurs = 0 to "
+        "neglect β"
+    )
