@@ -48,6 +48,3 @@ def test_a_mesh_comes_near_the_exact_contact_with_friction(tmp_path):
     assert at_nodes.differences["p"].l2 < 0.06
     assert at_nodes.differences["q"].l2 < 0.12
     assert abs(at_nodes.differences["q"].resultant) < 0.05
-    printed = compare(sie.solve(scene), read_mesh(results.with_suffix(".dat")), 1e-2)
-    for name, difference in printed.differences.items():
-        assert difference.l2 < 0.15, name
