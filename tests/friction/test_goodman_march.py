@@ -99,7 +99,7 @@ def test_certificate_fails_where_the_receding_end_is_wrong():
     moved = last.receding + 1e-5 * np.array([1.0, 1.0, *np.zeros(len(last.receding) - 2)])
     spells.append(receding(last.course, last.zones, last.side, moved))
     wrong = replace(state, before=replace(state.before, spells=tuple(spells)))
-    shear = goodman_certificate(wrong, "", 1e-13)
+    shear = goodman_certificate(wrong, 1e-13)
     assert not shear.ok
     assert max(shear.residual, shear.equilibrium) > 1e-6
 
