@@ -9,7 +9,6 @@ from numpy.typing import NDArray
 
 from sie.contact.small_strains import notes
 from sie.errors import ContactError
-from sie.history import PathSolution
 from sie.problem.request import NEED_SHEAR, UNASKED, energy_costs
 from sie.solution import Solution
 
@@ -46,7 +45,7 @@ def yield_notes(solution: Solution, file: SceneFile) -> tuple[str, ...]:
     strength = file.fatigue.yield_stress
     if not strength:
         return ()
-    path = solution.history if isinstance(solution, PathSolution) else (solution,)
+    path = getattr(solution, "history", (solution,))  # of a path, the solutions at its points
     mises = max(map(_mises, path))
     if mises <= strength:
         return ()
