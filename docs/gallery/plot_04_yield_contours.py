@@ -3,8 +3,8 @@ Where a sliding punch stresses the body
 =======================================
 
 Fig. 4 of Ciavarella, Hills & Monno (1998): contours of b√J₂/P without friction and in full sliding.
-From a/b = 0.3 to 0.8 the peak (the cross) rises and moves to the ends of the flat; friction raises
-it further and brings it to the surface.
+From a/b = 0.3 to 0.8 the peak (the cross) rises; friction raises it further and brings it to the
+surface.
 """
 
 import matplotlib.pyplot as plt
