@@ -4,7 +4,8 @@
         [--want WHAT ...] [--plot FILE] [--csv FILE] [--json [FILE]]
         [--field FILE] [--grid NXxNY] [--points N] [--tol T] [--quiet] [--log LEVEL]
     sie compare scene.toml fem.csv  a mesh result against the exact one: error norms, shift
-        [--deck FILE] [--surface Y] [--body SIDE] [--tol T] [--plot FILE] [--json [FILE]]
+        [--nodes FILE] [--columns NAMES] [--surface Y] [--body SIDE] [--tol T]
+        [--plot FILE] [--json [FILE]]
     sie plan scene.toml             what would be computed, what would be skipped, and why
         [--want WHAT ...]
     sie live [scene.toml]           a page with sliders, served on this machine
@@ -159,7 +160,13 @@ def _compare(arguments: argparse.Namespace) -> int:
     file = scene_of(arguments)
     refuse_overwriting(arguments, outputs, file)
     with _progress(arguments):
-        mesh = read_mesh(arguments.mesh, arguments.deck, arguments.surface, arguments.body or "")
+        mesh = read_mesh(
+            arguments.mesh,
+            arguments.nodes,
+            arguments.surface,
+            arguments.body or "",
+            arguments.columns,
+        )
         solution = _solution(file, TOL)
         comparison = compare(solution, mesh, arguments.tol)
         contents = {

@@ -5,10 +5,12 @@ from __future__ import annotations
 import argparse
 import math
 import os
+import re
 from collections.abc import Mapping, Sequence
 from typing import Any, NoReturn
 
 from . import __version__
+from .io.mesh_files.names import QUANTITIES
 from .io.mesh_result import BODIES
 from .messages import nearest
 from .problem.request import GRID, POINTS, UNASKED, WANTS
@@ -35,7 +37,7 @@ FILES = {
 NAMED = {
     "scene": "the scene file",
     "mesh": "the mesh result",
-    "deck": "the input deck",
+    "nodes": "the file of nodes",
     "folder": "the directory",
     **{name: f"the file after --{name}" for name in ("plot", "csv", "json", "field")},
 }
@@ -50,6 +52,7 @@ EXIT_CODES = """exit codes:
   141  nobody reads the output any more; the files are written"""
 STANDARD = "-"
 MOST_POINTS, MOST_PORTS = 10**6, 65535
+COLUMNS = ("x", "y", *QUANTITIES)
 TOL, MESH_TOL = 1e-13, 1e-2
 
 
@@ -186,9 +189,13 @@ def _add_mesh_and_outputs(parser: argparse.ArgumentParser) -> None:
     def add(option: str, metavar: str, about: str, **given: Any) -> None:
         parser.add_argument(option, metavar=metavar, help=about, **given)
 
-    formats = "CalculiX .frd and .dat, Abaqus .rpt, what meshio reads, or a table of text"
+    formats = "CalculiX .frd, Ansys PRNSOL, Abaqus .rpt, what meshio reads, or a table of text"
     add("mesh", "fem.csv", f"a mesh result: {formats} with x and p, q, sxx, ...", nargs="?")
-    add("--deck", "FILE", "the input deck (.inp) with the coordinates that a .dat or .rpt lacks")
+    add(
+        "--nodes", "FILE", "coordinates of nodes that the result lacks: NLIST of Ansys, a deck, CSV"
+    )
+    about = "which columns hold what, by name or by number from 0: x=distance,p=load"
+    add("--columns", "NAMES", about, type=_columns)
     add("--surface", "Y", "the height of the surface in the file (found)", type=_height)
     about = "the body that is compared, below or above it (below)"
     add("--body", "SIDE", about, type=_side)
@@ -207,6 +214,19 @@ def _height(text: str) -> float:
     if not math.isfinite(height):
         raise argparse.ArgumentTypeError(f"{text} is not a height: give y of the surface")
     return height
+
+
+def _columns(text: str) -> dict[str, str]:
+    """Names of columns by what they hold; a name may contain commas."""
+    pairs = re.split(rf",(?=\s*(?:{'|'.join(COLUMNS)})\s*=)", text)
+    columns = {
+        key.strip(): name.strip() for key, _, name in (pair.partition("=") for pair in pairs)
+    }
+    if not set(columns) <= set(COLUMNS) or not all(columns.values()):
+        raise argparse.ArgumentTypeError(
+            f"{text} names no columns: give {', '.join(COLUMNS)}, like x=distance,p=load"
+        )
+    return columns
 
 
 def _side(text: str) -> str:

@@ -93,8 +93,8 @@ def refuse_overwriting(
     read: dict[int | pathlib.Path, str] = {scene: "the scene file"}
     if getattr(arguments, "mesh", None) is not None:
         read[pathlib.Path(arguments.mesh)] = "the mesh result"
-        deck = arguments.deck or pathlib.Path(arguments.mesh).with_suffix(".inp")
-        read[pathlib.Path(deck)] = "the input deck"
+        if arguments.nodes is not None:
+            read[pathlib.Path(arguments.nodes)] = "the file of nodes"
     read |= dict.fromkeys(file.reads, "a trace that the scene reads")
     written = {f"--{kind} {path}": _place(path) for kind, path in outputs.items()} | {
         "standard output": 1

@@ -19,7 +19,7 @@ from .patches.answer import SeveralPatches, asks_for_patches, light_patches, sev
 from .patches.full import FullContact
 from .problem.request import ECONOMY
 from .problem.scene import Scene
-from .profiles.placed_traces import explained
+from .profiles.placed_traces import explained, smoothing_remedy
 from .profiles.slope import Slope
 from .stages import stage as cached_property  # its first reading is logged
 from .traction.of_slope import SlopeDensity
@@ -109,15 +109,12 @@ class Frictionless:
             return found
         number, period = len(found.patches), self.scene.profile.period
         where = f"in {number} patches" if number > 1 else "in one patch, merged from several"
+        remedy = smoothing_remedy(self.scene.profile) or "give a convex profile"
         if np.isfinite(period):
-            where, remedy = f"that repeats every {period:.6g}", "without its period"
-        else:
-            remedy = "that is convex"
+            where, remedy = f"that repeats every {period:.6g}", "give the profile without period"
         raise ContactError(
-            f"contact {where}: what is asked for depends on how the contact grew with the load, "
-            "which is solved where it was one patch from the first touch on; give a profile "
-            f"{remedy}, or ask for what does not depend on that: with friction = 0, or of similar "
-            "bodies (dundurs = 0)"
+            f"contact {where}: what is asked for is solved in one patch that grows from the first "
+            f"touch on; {remedy}, set friction = 0, or give dundurs = 0 to neglect β"
         )
 
     @cached_property

@@ -10,7 +10,7 @@ from .io.scene_file import example_names
 from .messages import suggestion
 from .problem.request import WANTS
 
-FILES = ("scene", "mesh", "deck", "plot", "csv", "json", "field")
+FILES = ("scene", "mesh", "nodes", "plot", "csv", "json", "field")
 
 
 def script(shell: str) -> str:

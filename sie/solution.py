@@ -347,7 +347,7 @@ class Solution(Frictionless, StressAnswers):
     @property
     def _shear_certificate(self) -> ShearCertificate:
         if isinstance(self.tangential, GoodmanSlip):
-            return goodman_certificate(self.tangential, self.slip_notes[0], self.tol)
+            return goodman_certificate(self.tangential, self.tol)
         return shear_certificate(
             self.tangential, self.slope_density, self._loads, self._slope, self.tol
         )
@@ -554,24 +554,29 @@ class Solution(Frictionless, StressAnswers):
         Returns
         -------
         tuple of str
-            `strain_notes` and `slip_notes`; () where small strains and growing slip zones are
-            given.
+            `strain_notes`, `coupling_notes` and `slip_notes`; () where small strains, a full
+            coupling and growing slip zones are given.
         """
-        return *self.strain_notes, *self.slip_notes
+        return *self.strain_notes, *self.coupling_notes, *self.slip_notes
 
     @property
     def slip_notes(self) -> tuple[str, ...]:
         """A sentence on what is approximated in the slip, or ()."""
-        if self.scene.neglects_beta:
-            return (self.approximation,)
-        if not self.sheared or self.tangential.advancing:
+        if self.scene.neglects_beta or not self.sheared or self.tangential.advancing:
             return ()
         return (f"note: slip is found in total displacements: {RETREAT}",)
 
     @cached_property
-    def approximation(self) -> str:
-        """A sentence on what neglecting β q changes; "" where it is not neglected."""
-        return departure(self.scene, self.tol) if self.scene.neglects_beta else ""
+    def coupling_notes(self) -> tuple[str, ...]:
+        """A sentence on what is neglected where β, or β q, is left out, or ()."""
+        if self.scene.neglects_beta:
+            return (departure(self.scene, self.tol),)
+        beta = self.scene.neglected_beta
+        if not beta:
+            return ()
+        return (
+            f"note: β = {beta:.4g} is neglected (dundurs = 0): p and q are those of similar bodies",
+        )
 
     @property
     def strain_notes(self) -> tuple[str, ...]:
@@ -587,7 +592,8 @@ class Solution(Frictionless, StressAnswers):
         Returns
         -------
         Certificate or PatchCertificate
-            Measured at points that were not used to find the answer; `.ok` sums it up.
+            Measured at points that were not used to find the answer; `.ok` sums it up. Its notes
+            say what the equations neglect.
 
         Examples
         --------
@@ -596,7 +602,8 @@ class Solution(Frictionless, StressAnswers):
         >>> sie.solve(scene).check().ok
         True
         """
-        return self.certificate
+        found = self.certificate
+        return replace(found, notes=(*found.notes, *self.coupling_notes))
 
     def trace_reports(self) -> tuple[TraceReport, ...]:
         """The measured traces in the profile, with their treatment and what their noise implies.

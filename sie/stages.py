@@ -26,7 +26,7 @@ NORMAL = frozenset(
 )
 TANGENTIAL = ("friction", "tangential_load", "sliding", "bulk_stress")
 SHEAR = NORMAL | {*TANGENTIAL, "dundurs", "coupling"}
-OF_SHEAR = ("bonded", "coupled", "tangential", "dissipated", "certificate", "approximation")
+OF_SHEAR = ("bonded", "coupled", "tangential", "dissipated", "certificate", "coupling_notes")
 PRESSED = (NORMAL - {"coupled"}) | {"friction", "dundurs", "coupling"}
 STAGES = {
     **dict.fromkeys(

@@ -5,11 +5,14 @@ import re
 import runpy
 import shutil
 import tomllib
+from functools import cache
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import sie
+from sie import charts
 from sie.cli import main
 
 ROOT = Path(__file__).parent.parent
@@ -94,20 +97,52 @@ def test_the_picture_of_the_architecture_is_that_of_the_imports():
     assert drawn == script["picture"](), "run python docs/draw_architecture.py"
 
 
-@pytest.mark.parametrize("script", GALLERY, ids=lambda path: path.stem)
-def test_every_script_of_the_gallery_draws_a_labelled_picture(script, monkeypatch):
+@cache
+def drawn(script):
+    """The names of a script and the axes that it draws."""
     matplotlib = pytest.importorskip("matplotlib")
     matplotlib.use("Agg")
     from matplotlib import pyplot as plt  # noqa: PLC0415 -- after the choice of Agg
 
-    monkeypatch.setattr(plt, "show", lambda: None)
     plt.close("all")
-    described = runpy.run_path(str(script))
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(plt, "show", lambda: None)
+        names = runpy.run_path(str(script))
     axes = [ax for number in plt.get_fignums() for ax in plt.figure(number).axes]
-    axes = [ax for ax in axes if ax.get_label() != "<colorbar>"]
     plt.close("all")
-    assert described["__doc__"].strip()
+    return names, [ax for ax in axes if ax.get_label() != "<colorbar>"]
+
+
+@pytest.mark.parametrize("script", GALLERY, ids=lambda path: path.stem)
+def test_every_script_of_the_gallery_draws_a_labelled_picture(script):
+    names, axes = drawn(script)
+    assert names["__doc__"].strip()
     assert axes and all(ax.get_xlabel() and ax.get_ylabel() for ax in axes)
+
+
+# N mm of a slice of 1 mm are N = mJ/mm, and N/mm times µm is µJ/mm.
+IN_NEWTON = {"mJ per mm": 1.0, "µJ per mm": 1e-3, "N in the cycle": 1.0}
+ENERGY = re.compile(rf"([\d.e-]+) ({'|'.join(IN_NEWTON)})")
+
+
+def energies(text):
+    """The energies per length in a text, in N."""
+    return [float(number) * IN_NEWTON[unit] for number, unit in ENERGY.findall(text)]
+
+
+def test_the_fretting_loop_encloses_the_energy_in_its_title():
+    _, (_, loop) = drawn(ROOT / "docs" / "gallery" / "plot_fretting_loop.py")
+    assert (loop.get_xlabel()[-2:], loop.get_ylabel()[-4:]) == ("µm", "N/mm")
+    shift, force = loop.lines[0].get_data()
+    area = abs(np.trapezoid(force[9:], shift[9:]))
+    assert energies(loop.get_title()) == pytest.approx([1e-3 * area], rel=0.02)
+
+
+def test_a_rounded_punch_is_stronger_than_hertz_up_to_the_ratio_that_the_gallery_gives():
+    text = (ROOT / "docs" / "gallery" / "plot_05_elastic_limit.py").read_text(encoding="utf-8")
+    ratio = float(re.findall(r"Up to a/b = ([\d.]+)", text)[0])
+    loads = charts.elastic_limits((0.0, ratio - 0.005, ratio + 0.005), (0.0,)).limit[:, 0]
+    assert loads[1] > loads[0] > loads[2]
 
 
 def test_the_class_sheet_runs_and_answers_its_third_question():
@@ -154,6 +189,9 @@ def test_the_snippets_and_commands_of_a_guide_run_in_order(guide, tmp_path, monk
         else:
             for line in block.splitlines():
                 assert main(line.split()[1:]) == 0, capsys.readouterr().err
+    told = energies(capsys.readouterr().out)
+    assert bool(told) == (guide.stem == "dovetail-cycle")
+    assert all(energy == pytest.approx(told[0], rel=0.01) for energy in told)
 
 
 def test_every_refusal_of_a_path_that_is_listed_is_one_that_is_raised():

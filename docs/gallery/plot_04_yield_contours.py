@@ -3,8 +3,8 @@ Where a sliding punch stresses the body
 =======================================
 
 Fig. 4 of Ciavarella, Hills & Monno (1998): contours of b√J₂/P without friction and in full sliding.
-The flatter the punch, the more even is the stress below it; friction brings the peak (the cross) to
-the surface.
+From a/b = 0.3 to 0.8 the peak (the cross) rises; friction raises it further and brings it to the
+surface.
 """
 
 import matplotlib.pyplot as plt

@@ -3,7 +3,7 @@ The load at first yield
 =======================
 
 Fig. 5 of Ciavarella, Hills & Monno (1998): the load P/(bk) at which a body of the shear yield
-stress k yields, and how deep. Up to a/b = 0.55 a rounded punch is stronger than a Hertzian contact.
+stress k yields, and how deep. Up to a/b = 0.54 a rounded punch is stronger than a Hertzian contact.
 """
 
 import matplotlib.pyplot as plt

@@ -30,5 +30,5 @@ left.legend(fontsize=8)
 right.plot([1e3 * point.shift for point in path], turns)
 right.set(xlabel="shift of the punch by slip, µm", ylabel="Q, N/mm")
 lost = path[-1].energy_lost - path[9].energy_lost
-right.set_title(f"{1e3 * lost:.2f} mJ per mm and cycle", fontsize=9)
+right.set_title(f"{1e3 * lost:.2f} µJ per mm and cycle", fontsize=9)
 plt.show()

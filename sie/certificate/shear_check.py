@@ -237,8 +237,8 @@ AT_EDGE, INSIDE = 17, 9
 P_ROUNDING = 16.0 * EPS  # of p, which q is balanced with in (12)
 
 
-def goodman_certificate(state: GrownSlip, kind: str, tol: float) -> ShearCertificate:
-    """Measured on a state and on those before; `kind` says what is neglected."""
+def goodman_certificate(state: GrownSlip, tol: float) -> ShearCertificate:
+    """Measured on a state and on those before."""
     pressure, (term,) = state.step.pressure, _terms(state)
     x, weight = term.rule.x, term.rule.weight
     p, q = finite(state.friction * pressure(x)), finite(term.density(x))
@@ -257,7 +257,7 @@ def goodman_certificate(state: GrownSlip, kind: str, tol: float) -> ShearCertifi
         abscissae=max(of_force / size, of_gamma / peak),
         condition=1.0,
         advancing=True,
-        kind=f"{state.kind}; {kind}",
+        kind=state.kind,
         tol=max(tol, OF_SHEAR),
     )
 

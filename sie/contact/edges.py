@@ -339,9 +339,8 @@ class Search:
             raise LoadError(
                 "no single patch of contact was found that carries the load "
                 f"{target * self.half_modulus:.6g}: the search ended at [{seen.x1:.6g}, "
-                f"{seen.x2:.6g}] with {carried * self.half_modulus:.6g}; the profile has several "
-                "bumps, or doubles there do not resolve so narrow a contact: raise the load, lower "
-                "it, or smooth the profile",
+                f"{seen.x2:.6g}] with {carried * self.half_modulus:.6g}, between bumps or in too "
+                "narrow a contact; change the load, or smooth the profile",
                 load=carried * self.half_modulus,
             )
         return Found(contact, (left_sharp, False), k)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -23,16 +25,44 @@ def wanted(file: SceneFile) -> tuple[str, ...]:
 
 
 def notes_of(solution: Solution, file: SceneFile) -> tuple[str, ...]:
-    """The notes on strains that are not small, and on slip where a wanted quantity depends on it.
+    """The notes on what is neglected, and on slip where a wanted quantity depends on it.
 
     If only the edges are wanted, the pressure is not computed, and its mean stands for it.
     """
-    if NEED_SHEAR & set(wanted(file)):
-        return solution.notes
-    if set(wanted(file)) != {"edges"} or solution.scene.bonded:
-        return solution.strain_notes
+    asked = set(wanted(file))
+    beyond = (*solution.coupling_notes, *yield_notes(solution, file))
+    if NEED_SHEAR & asked:
+        return *solution.strain_notes, *beyond, *solution.slip_notes
+    if asked != {"edges"} or solution.scene.bonded:
+        return *solution.strain_notes, *beyond
     slopes = solution.scene.profile.slope(np.linspace(*solution.edges, LOOKED_AT)) + solution.tilt
-    return notes(slopes, solution.normal_load / (2.0 * solution.half_width) / solution.scene.Estar)
+    mean = solution.normal_load / (2.0 * solution.half_width)
+    return *notes(slopes, mean / solution.scene.Estar), *beyond
+
+
+def yield_notes(solution: Solution, file: SceneFile) -> tuple[str, ...]:
+    """A sentence where the yield stress of the file is exceeded, at any point of a path."""
+    strength = file.fatigue.yield_stress
+    if not strength:
+        return ()
+    path = getattr(solution, "history", (solution,))  # of a path, the solutions at its points
+    mises = max(map(_mises, path))
+    if mises <= strength:
+        return ()
+    unit = file.units.stress
+    reaches = f"reaches {mises:.4g} {unit}" if math.isfinite(mises) else "is infinite at an edge"
+    return (
+        f"note: the Mises stress {reaches}, above yield_stress = {strength:g} {unit}; "
+        "beyond it elasticity is outside its range",
+    )
+
+
+def _mises(solution: Solution) -> float:
+    """The largest Mises stress in the body; 0 where it is not known."""
+    try:
+        return math.sqrt(3.0) * solution.elastic_limit().stress
+    except (ContactError, ValueError):
+        return 0.0
 
 
 def slip_of(solution: Solution, x: Array) -> dict[str, Array]:

@@ -14,6 +14,7 @@ two sides of an extruded mesh, are averaged.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import NamedTuple
@@ -23,7 +24,7 @@ from numpy.typing import NDArray
 
 from sie.io.mesh_files import formats
 from sie.io.mesh_files.names import QUANTITIES, STRESSES, TRACTIONS
-from sie.io.mesh_files.raw import Group, Raw, means
+from sie.io.mesh_files.raw import Group, Raw, row_means
 
 Array = NDArray[np.float64]
 
@@ -87,16 +88,18 @@ class Mesh:
 
 def read_mesh(
     path: str | Path,
-    deck: str | Path | None = None,
+    nodes: str | Path | None = None,
     surface: float | None = None,
     body: str = "",
+    columns: Mapping[str, str] | None = None,
 ) -> Mesh:
     """The quantities of a file of a finite-element code.
 
-    `deck` is the input deck with the coordinates, `surface` the height of the surface, and `body`
-    "below" or "above" it. ValueError where the file cannot be compared.
+    `nodes` is the file with the coordinates of the nodes, `surface` the height of the surface,
+    `body` "below" or "above" it, and `columns` has names of columns by x, y, p, q, sxx, ....
+    ValueError where the file cannot be compared.
     """
-    return _placed(formats.read(path, deck), surface, body)
+    return _placed(formats.read(path, nodes, columns), surface, body)
 
 
 def _placed(raw: Raw, surface: float | None, body: str) -> Mesh:
@@ -274,7 +277,7 @@ def _averaged(group: Group, notes: list[str]) -> tuple[Group, list[str]]:
         return group, notes
     names = list(group.columns)
     table = np.stack([group.columns[name] for name in names], axis=1)
-    _, mean = means(place.tolist(), table)
+    _, mean = row_means(place.tolist(), table)
     _, inverse = np.unique(place, return_inverse=True)
     quantities = [k for k, name in enumerate(names) if name in QUANTITIES]
     spread = np.abs(table - mean[inverse]).max(axis=0)[quantities]
@@ -288,7 +291,7 @@ def _averaged(group: Group, notes: list[str]) -> tuple[Group, list[str]]:
     ]
     widths = group.widths
     if isinstance(widths, np.ndarray):
-        widths = means(place.tolist(), widths[:, None])[1][:, 0]
+        widths = row_means(place.tolist(), widths[:, None])[1][:, 0]
     return Group(dict(zip(names, mean.T, strict=True)), widths), notes
 
 

@@ -53,8 +53,8 @@ def summary(
     parts = [section(solution, file.units) for name, section in sections.items() if name in names]
     if cycle:
         parts.append(cycle_summary(cycle, file))
-    # The certificate contains the notes.
-    notes = "" if "check" in wanted(file) else "\n".join(notes_of(solution, file))
+    printed = solution.check().notes if "check" in wanted(file) else ()
+    notes = "\n".join(note for note in notes_of(solution, file) if note not in printed)
     head = f"{file.title}\n{scene}" if file.title else scene
     return "\n\n".join([head, *parts, *filter(None, [notes])])
 

@@ -103,6 +103,15 @@ ELSEWHERE = {
     "of": 'it belongs to kind "row"',
     "period": "it belongs in [profile], and repeats the whole of it",
 }
+# Keys that users write for others.
+SYNONYMS = {
+    **dict.fromkeys(("file", "filename", "csv"), "path"),
+    **dict.fromkeys(("mu", "cof"), "friction"),
+    **dict.fromkeys(("force", "load"), "normal_load"),
+    **dict.fromkeys(("e", "youngs_modulus"), "young"),
+    **dict.fromkeys(("nu", "poisson_ratio"), "poisson"),
+    "profile": "kind",
+}
 # Modifiers of a trace, applied in this order before the others.
 TREATMENTS: dict[str, Reader] = {"without_outliers": flag, "levelled": flag_or_pair}
 
@@ -137,8 +146,13 @@ def remedy(key: str, known: Iterable[str], here: str) -> str:
     belongs to another kind of profile.
     """
     known, of_profile = tuple(known), here.startswith(("[profile]", "[[profile"))
-    if here == f"[{key}]" or (of_profile and key == "profile"):
-        return suggestion({"load": "normal_load", "profile": "kind"}.get(key, key), known)
+    meant = SYNONYMS.get(key.lower(), "")
+    if here == f"[{key}]" and not meant:
+        return suggestion(key, known)
+    of_trace = meant == "path" and "smoothing" in known
+    if meant in known or of_trace or (of_profile and meant == "kind"):
+        return f'did you mean "{meant}"?'
+    key = meant if meant and key not in TOP else key
     if here and (elsewhere := _elsewhere(key)):
         return elsewhere
     if not nearest(key, known):

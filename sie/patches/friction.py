@@ -105,9 +105,8 @@ class PatchSlip(Slip):
         if left_over(reduced.patches, wider) or (p_star > 2.0 * p + WITHIN * p.max()).any():
             raise ContactError(
                 f"{self._stretch} makes patches slip to either side under tangential_load = "
-                f"{self.Q:g}, and zones of stick between slip in opposite directions are solved on "
-                "one patch only; lower the bulk stress, or what the tilt changes by, or raise the "
-                "tangential load"
+                f"{self.Q:g}, which is solved on one patch only; lower the bulk stress or the "
+                "change of tilt, or raise the tangential load"
             )
 
     @cached_property
@@ -218,9 +217,9 @@ def refuse_stretch(period: float) -> None:
     """Refuse a bulk stress in a contact that repeats: the bodies fit in one period alone."""
     if math.isfinite(period):
         raise ContactError(
-            f"a bulk stress stretches one of two bodies that meet every {period:.6g}, so that they "
-            "fit in no other period and there is no periodic answer: leave it out, or add it as a "
-            "stress afterwards where it strains both bodies alike"
+            f"a bulk stress stretches one of two bodies that meet every {period:.6g}, so that no "
+            "periodic answer exists: leave it out, or add it to the stress afterwards if it "
+            "strains both alike"
         )
 
 

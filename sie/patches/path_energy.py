@@ -150,9 +150,8 @@ def _refuse_births(step: ChangingContact, on_the_way: Callable[[float], Slip]) -
     if len(set(numbers)) > 1:
         raise ContactError(
             f"step {step.index} of the path, to {step.end}: the number of stick zones changes on "
-            f"the way, from {numbers[0]} to {numbers[-1]}, while P, bulk stress or tilt changes "
-            "too: the energy lost then is not solved, but the state at the end of the step is; "
-            "change bulk stress and tilt at another time than P",
+            f"the way, from {numbers[0]} to {numbers[-1]}, and of it the state at the end "
+            "is solved, not the energy; change bulk stress and tilt at another time than P",
             step=step.index,
         )
 

@@ -86,8 +86,8 @@ def contact(problem: Problem) -> Found:
         moment = problem.given.moment is not None
         raise LoadError(
             "the patches of contact do not settle within the most steps of a search at normal_load "
-            f"over E*/2 = {problem.given.load:.6g}: change the load{' or the moment' * moment}, or "
-            "take a profile with fewer waves, as a trace that is smoothed or a part of it"
+            f"= {problem.given.load:.6g} E*/2: change the load{' or the moment' * moment}, or "
+            "smooth the profile"
         ) from None
 
 

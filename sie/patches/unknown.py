@@ -68,10 +68,9 @@ def _unknown_depth(
 ) -> LoadError:
     x1, x2 = sorted(places)
     return LoadError(
-        f"which of the valleys at x = {x1:.6g} and {x2:.6g} touch, and how they share the load, is "
-        f"decided by a difference of their depths of {decides:.2g} at normal_load over E*/2 = "
-        f"{given.load:.6g}, and doubles of h tell {known:.2g}: raise the load, or give a profile "
-        "of which only one valley is as deep"
+        f"how the valleys at x = {x1:.6g} and {x2:.6g} share normal_load = {given.load:.6g} E*/2 "
+        f"is decided by a difference of depths of {decides:.2g}, and doubles of h tell "
+        f"{known:.2g}: raise the load, or make one valley deeper"
     )
 
 
@@ -80,7 +79,7 @@ def unsettled(problem: Problem, patches: int, reached: float = 0.0) -> LoadError
     load, other = problem.given.load, problem.given.moment is not None
     so_far = f" (they do at {reached:.6g})" if 0.0 < reached < load else ""
     return LoadError(
-        f"the patches of contact do not settle at normal_load over E*/2 = {load:.6g}{so_far}: two "
+        f"the patches of contact do not settle at normal_load = {load:.6g} E*/2{so_far}: two "
         "of them are about to merge, or one to appear; change the load"
         f"{' or the moment' * other} a little",
         patches=patches,

@@ -11,16 +11,14 @@ import math
 from typing import NoReturn
 
 from sie.errors import ContactError
+from sie.numerics.interval import EPS
 
 from .load_limit import refuse_sliding
 from .scene import Scene, refuse_no_scene
 
 # The nearest contact of dissimilar bodies that is covered: E*, the bodies' shares of it and their
 # constants stay.
-NEGLECTED = (
-    "give dundurs = 0 (in a scene file, under [pair]) to neglect β alone, which changes tractions "
-    "by a part of about β"
-)
+NEGLECTED = "give dundurs = 0 to neglect β"
 
 
 class LargerLoad(ContactError):
@@ -43,17 +41,15 @@ def _refuse_dissimilar(scene: Scene) -> None:
     pair = f"dissimilar bodies (β = {scene.beta:.4g}) with friction = {scene.friction:g}"
     if scene.bulk_stress:
         raise ContactError(
-            f"{pair} under bulk_stress = {scene.bulk_stress:g}: how the strain of the body moves "
-            "both ends of the stick zone, where p and q change together, is not solved; set "
-            f"bulk_stress = 0, set friction = 0, or {NEGLECTED}"
+            f"{pair}: bulk_stress = {scene.bulk_stress:g} is not solved for them; "
+            f"set bulk_stress = 0, set friction = 0, or {NEGLECTED}"
         )
     if scene.moment:
         raise held_moment(scene)
     if scene.tangential_load and scene.half_width is not None:
         raise ContactError(
-            f"{pair} under tangential_load = {scene.tangential_load:g} with half_width = "
-            f"{scene.half_width:g}: Q changes the width of their contact, and the load of a width "
-            "under Q is not solved; give normal_load"
+            f"{pair}: the load of half_width = {scene.half_width:g} under tangential_load = "
+            f"{scene.tangential_load:g} is not solved; give normal_load"
         )
     if scene.tangential_load and scene.profile.pieces.is_flat_punch:
         refuse_corners(scene)
@@ -62,20 +58,18 @@ def _refuse_dissimilar(scene: Scene) -> None:
 def held_moment(scene: Scene) -> ContactError:
     """The ContactError: a moment that turns the indenter while P grows."""
     return ContactError(
-        f"dissimilar bodies (β = {scene.beta:.4g}) with friction = {scene.friction:g} pressed with "
-        f"moment = {scene.moment:g}: a moment that is held turns the indenter while the load "
-        "grows, and the slip that this leaves between them is not solved; give a tilt, which is "
-        f"held while the load grows, in place of the moment, set friction = 0, or {NEGLECTED}"
+        f"dissimilar bodies (β = {scene.beta:.4g}) with friction = {scene.friction:g}: a moment "
+        f"that is held, here {scene.moment:g}, is not solved; give a tilt in its place, set "
+        f"friction = 0, or {NEGLECTED}"
     )
 
 
 def uneven_under_shear(scene: Scene) -> ContactError:
     """The ContactError: Q after P under a profile that is not symmetric."""
     return ContactError(
-        f"dissimilar bodies (β = {scene.beta:.4g}) with friction = {scene.friction:g} under "
-        f"tangential_load = {scene.tangential_load:g}: the profile is not symmetric, and how the "
-        "stick zone moves under Q is solved for symmetric profiles; set tangential_load = 0, set "
-        f"friction = 0, or {NEGLECTED}"
+        f"dissimilar bodies (β = {scene.beta:.4g}) with friction = {scene.friction:g}: "
+        f"tangential_load = {scene.tangential_load:g} is solved under symmetric profiles alone; "
+        f"set tangential_load = 0, set friction = 0, or {NEGLECTED}"
     )
 
 
@@ -142,10 +136,8 @@ def refused_slip(kappa: float, part: float) -> ContactError:
     """The ContactError: under Q, a part of f P, an end of the stick zone passes a corner."""
     return ContactError(
         f"dissimilar bodies with β f = {kappa:.3g} under |Q| = {part:.3g} f P: an edge of contact "
-        "or of the stick zone passes a corner of the profile, where pressure is infinite. The "
-        "corner still sticks while what is beside it slips, and two stick zones are not solved; "
-        "give a |Q| nearer to f P, or a small one, round the corner, or give dundurs = 0 to "
-        "neglect β"
+        "or stick passes a corner of the profile, which is not solved; give another |Q|, or "
+        "dundurs = 0 to neglect β"
     )
 
 
@@ -167,10 +159,9 @@ def old_slip_width(beta: float, friction: float) -> float:
 def refuse_corners(scene: Scene) -> NoReturn:
     """Raises ContactError: under Q the contact would end at a corner of the indenter."""
     width = old_slip_width(scene.beta, scene.friction)
+    size = f" in about {width:.1g} half-widths" if width > EPS else ""
     raise ContactError(
-        f"dissimilar bodies (β = {scene.beta:.4g}) with friction = {scene.friction:g} under "
-        f"tangential_load = {scene.tangential_load:g}: the contact reaches a corner of the "
-        f"indenter, where a zone of about {width:.1g} half-widths keeps the slip of the normal "
-        "load and narrows while Q grows; how it does is not solved. Round the edges of the "
-        "indenter, let the bodies slide (sliding = ±1), or give dundurs = 0 to neglect β"
+        f"dissimilar bodies (β = {scene.beta:.4g}) with friction = {scene.friction:g}: under "
+        f"tangential_load = {scene.tangential_load:g} a corner of the indenter keeps old slip"
+        f"{size}, which is not solved; round it, set sliding = ±1, or give dundurs = 0"
     )

@@ -13,8 +13,7 @@ from typing import Literal
 
 from sie import arguments
 
-# Bodies whose |β| is below this differ by rounding of their constants: what β would change of any
-# traction, a fraction of about β, is below the accuracy of the answers.
+# Bodies whose |β| is below this differ by rounding of their constants.
 SIMILAR = 1e-12
 
 NO_POISSON = (

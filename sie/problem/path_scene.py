@@ -55,11 +55,8 @@ def refuse_uncovered(scene: Scene) -> None:
     if scene.beta and scene.friction and not scene.sliding:
         raise ContactError(
             f"a path of dissimilar bodies (β = {scene.beta:.4g}) with friction is solved where P "
-            "grows and then Q at constant P, or both in proportion on a path that begins with "
-            "(0, 0, 0): what sticks under another Q/P, or again after unloading of P or a reversal "
-            "of Q, keeps a slip gradient that depends on the states before: as P falls slip goes "
-            "on beside a zone that sticks again, and as Q turns the contact gains what sticks at "
-            "first. Let P grow first and then Q, or give dundurs = 0 to neglect β"
+            "grows and then Q alone, or both in proportion from zero; give such a path, or "
+            "dundurs = 0 to neglect β"
         )
 
 

@@ -349,6 +349,12 @@ class Scene:
         return bool(self.beta and self.friction) and self.coupling == "goodman"
 
     @property
+    def neglected_beta(self) -> float:
+        """β of the bodies where dundurs = 0 leaves it out of a contact with friction, else 0."""
+        given = self.body is not None and self.dundurs is not None and self.friction != 0.0
+        return dundurs(*self._pair) if given else 0.0
+
+    @property
     def _slips_in_part(self) -> bool:
         return bool(self.beta and self.friction) and not (self.slides or self.bonded)
 

@@ -65,6 +65,15 @@ def traces_in(profile: Profile) -> Iterator[PlacedTrace]:
             yield PlacedTrace(part, sign, -sign * shift, tilt)
 
 
+def smoothing_remedy(profile: Profile) -> str:
+    """What to try so that a trace in the profile touches in one patch, "" without a trace."""
+    trace = next((placed.trace for placed in traces_in(profile)), None)
+    if trace is None:
+        return ""
+    least = "give the trace the smoothing of sie.least_smoothing(scene)"
+    return least if trace.smoothing else 'give the trace smoothing = "gcv"'
+
+
 def explained(error: ContactError, profile: Profile) -> ContactError:
     """The refusal of a contact, with the reason and the remedy if the profile has a trace."""
     trace = next((placed.trace for placed in traces_in(profile)), None)

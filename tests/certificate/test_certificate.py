@@ -405,3 +405,41 @@ def test_a_function_resolved_to_a_coarse_tolerance_is_answered_to_it(tol):
     x = np.linspace(-0.49, 0.49, 101)
     assert not coarse.normal.seen
     assert np.abs(coarse.pressure(x) - fine.pressure(x)).max() <= tol * fine.pressure(x).max()
+
+
+PAIR = {
+    "profile": sie.Parabola(50.0),
+    "body": sie.Elastic(115e3, 0.32),
+    "indenter": sie.Elastic(210e3, 0.3),
+    "normal_load": 100.0,
+}
+
+
+@pytest.mark.parametrize(
+    "given",
+    [
+        {"dundurs": 0, "friction": 0.5, "tangential_load": 10.0},
+        {"dundurs": 0, "friction": 0.5},
+        {"dundurs": 0, "friction": 0.5, "sliding": 1},
+        {"coupling": "goodman", "friction": 0.5},
+        {"coupling": "goodman", "friction": 0.5, "sliding": 1},
+    ],
+)
+def test_what_is_neglected_of_dissimilar_bodies_is_a_note(given):
+    solution = sie.solve(sie.Scene(**PAIR, **given))
+    (note,) = solution.notes
+    assert "is neglected" in note or "is left out" in note
+    assert note in solution.check().notes and note in str(solution.check())
+
+
+@pytest.mark.parametrize(
+    "given",
+    [
+        {"dundurs": 0, "indenter": PAIR["body"], "friction": 0.5, "tangential_load": 10.0},
+        {"dundurs": 0},
+        {"coupling": "goodman"},
+        {"friction": 0.5},
+    ],
+)
+def test_nothing_is_noted_where_nothing_is_neglected(given):
+    assert sie.solve(sie.Scene(**PAIR | given)).notes == ()

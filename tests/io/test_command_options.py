@@ -185,7 +185,7 @@ def test_bash_completes_commands_options_names_and_files(folder, capsys):
     assert completed("sie.bash", ["sie", "solve", "--want", "e"]) == ["edges", "energy"]
     assert completed("sie.bash", ["sie", "example", "rou"]) == ["rounded-flat"]
     assert "scene.toml" in completed("sie.bash", ["sie", "solve", "sc"])
-    assert "fem.csv" in completed("sie.bash", ["sie", "compare", "--deck", "fe"])
+    assert "fem.csv" in completed("sie.bash", ["sie", "compare", "--nodes", "fe"])
 
 
 @pytest.mark.parametrize("shell", ["zsh", "tcsh"])

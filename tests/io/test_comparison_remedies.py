@@ -37,7 +37,7 @@ ONE_SIDE = written(np.tile(X, 2), np.tile(P, 2), "x,y,p", y=HALVES[: 2 * len(X)]
 # What is refused, what the refusal offers, and the file in which that was done.
 REFUSED = {
     "a header without a quantity": (
-        written(header="x,result"), "name one x and one p", written()
+        written(header="x,result"), "say which hold x and p or q", written()
     ),
     "a header that nearly has one": (
         written(header="x,presure"), 'is "presure" meant as "pressure"?',

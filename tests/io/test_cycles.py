@@ -12,7 +12,8 @@ import pytest
 import sie
 from sie.cli import main
 from sie.io import scene_file
-from sie.io.report import table
+from sie.io.export import as_dict
+from sie.io.report import summary, table
 
 CYCLE = """
 [profile]
@@ -54,6 +55,22 @@ def solve(tmp_path, monkeypatch, capsys):
 def cycle():
     file = scene_file.parse(CYCLE)
     return sie.Cycle(sie.follow(file.scene, file.load_path)[1:])
+
+
+@pytest.mark.parametrize("want", ["edges", "shear", "check"])
+def test_an_exceeded_yield_stress_is_a_note_of_the_report_and_of_json(want):
+    """The largest Mises stress over the path is found on a grid, too."""
+    scene = f'want = ["{want}"]\n{CYCLE}[fatigue]\nfatemi_socie_k = 0.5\nyield_stress = '
+    file = scene_file.parse(scene + "1.0")
+    path = sie.follow(file.scene, file.load_path)
+    x, y = np.meshgrid(np.linspace(-1.0, 1.0, 201), np.linspace(0.0, 1.0, 51))
+    largest = max(float(np.nanmax(point.stress(x, y).mises)) for point in path)
+    for strength, exceeded in ((0.98 * largest, True), (1.02 * largest, False)):
+        file = scene_file.parse(scene + repr(strength))
+        said = " ".join(summary(path[-1], file).split())
+        assert ("above yield_stress" in said) == exceeded
+        notes = as_dict(path[-1], file)["notes"]
+        assert any("above yield_stress" in note for note in notes) == exceeded
 
 
 def test_json_has_slip_energy_stresses_and_parameters_of_the_last_cycle(solve, cycle):

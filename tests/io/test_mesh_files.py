@@ -8,17 +8,17 @@ import numpy as np
 import pytest
 from mesh_cases import (
     ABAQUS_FIELD,
-    AT,
     DECK,
     ELEMENTS,
+    NLIST,
     NODES,
+    PRNSOL,
     SOLUTION,
     WRITTEN,
     P,
     Q,
     X,
     compared,
-    dat,
     frd,
     frd_values,
     rows,
@@ -81,6 +81,12 @@ FENICSX = "# x y p\n" + rows("{1:.18e} 0.000000000000000000e+00 {2:.18e}", X, P)
 MOOSE = "contact_pressure,id,tangential_lm,x,y,z\n" + rows("{2},{0},{3},{1},0,0", X, P, Q)
 UNITS = "x_mm,p_MPa,q [MPa]\n" + rows("{1},{2},{3}", X, P, Q)
 UNITS_BELOW = "x,p\nmm,MPa\n" + rows("{1},{2}", X, P)
+GERMAN = "x-Koordinate [mm];Kontaktdruck p [MPa];Schubspannung [MPa]\n" + rows(
+    "{1:.9f};{2:.9f};{3:.9f}", X, P, Q
+).replace(".", ",")
+GERMAN_ANSYS = "Knotennummer\tX-Position (mm)\tY-Position (mm)\tDruck (MPa)\n" + rows(
+    "{}\t{:.6e}\t0.\t{:.5e}", X, P
+)
 EXPORTS = {
     "abaqus field.rpt": ABAQUS_FIELD,
     "abaqus xy.rpt": ABAQUS_XY,
@@ -93,6 +99,8 @@ EXPORTS = {
     "moose.csv": MOOSE,
     "units.csv": UNITS,
     "units below.csv": UNITS_BELOW,
+    "german.csv": GERMAN,
+    "german ansys.txt": GERMAN_ANSYS,
 }
 
 
@@ -140,11 +148,8 @@ def test_coordinates_that_a_report_lacks_come_from_the_deck(tmp_path):
     lines = "\n".join(f"{n:16d}{p:16.6E}" for n, p in pressures)
     head = "Field Output Report\n\n  Node  CPRESS\n  Label  @Loc 1\n" + 30 * "-"
     text = f"{head}\n{lines}\n\n"
-    comparison = compared(text, tmp_path, "job.rpt", deck=tmp_path / "job.inp")
+    comparison = compared(text, tmp_path, "job.rpt", nodes=tmp_path / "job.inp")
     assert comparison.differences["p"].l2 < WRITTEN
-
-
-CENTRES = 0.5 * (AT[1:] + AT[:-1])
 
 
 @pytest.mark.parametrize("label", [10, 5], ids=["long", "short"])
@@ -167,36 +172,57 @@ def test_contact_at_nodes_that_a_frd_file_does_not_list_is_noted(tmp_path):
     assert any("OUTPUT=3D" in note for note in comparison.mesh.notes)
 
 
-def test_contact_stress_of_element_faces_finds_its_places_in_the_deck(tmp_path):
-    (tmp_path / "run.inp").write_text(DECK)
-    p, q = SOLUTION.pressure(CENTRES), SOLUTION.shear(CENTRES)
-    points = [(f"{e:10d}{5:11d}", (p[e - 1], -q[e - 1], 0.0)) for e in (1, 2, 3, 4)]
-    text = dat("slave element+face,press,tang1,tang2", points)
-    mesh = read_mesh(written(tmp_path / "run.dat", text))
-    assert mesh.fields["p"].x == pytest.approx(CENTRES)
-    assert mesh.fields["p"].values == pytest.approx(p, abs=1e-6)
-    assert mesh.weights("p") == pytest.approx(np.diff(AT))
-    assert compare(SOLUTION, mesh, 1e-2).differences["q"].l2 < WRITTEN
-
-
-def test_contact_stress_of_nodes_finds_its_places_in_a_deck_that_is_given(tmp_path):
-    written(tmp_path / "other.inp", DECK)
-    p = SOLUTION.pressure(AT)
-    points = [(f"{n:10d}", (p[n - 6], 0.0, 0.0)) for n in range(6, 11)]
-    text = dat("slave node,press,tang1,tang2", points)
-    mesh = read_mesh(written(tmp_path / "run.dat", text), tmp_path / "other.inp")
-    assert mesh.fields["p"].values == pytest.approx(p, abs=1e-6)
-
-
-def test_stress_at_integration_points_is_averaged_over_elements(tmp_path):
-    written(tmp_path / "run.inp", DECK)
-    exact = SOLUTION.stress(CENTRES, 0.2)
-    fields = zip(exact.xx, exact.yy, exact.zz, -exact.xy, strict=True)
-    points = [(f"{e:10d}   1", (*map(float, f), 0, 0)) for e, f in enumerate(fields, 1)]
-    text = dat("elem, integ.pnt.,sxx,syy,szz,sxy,sxz,syz", points, "stresses", "set SKIN")
-    comparison = compared(text, tmp_path, "run.dat")
+def test_values_by_node_find_their_places_in_a_list_of_another_file(tmp_path):
+    listed = written(tmp_path / "nlist.lis", NLIST)
+    comparison = compared(PRNSOL, tmp_path, "prnsol.lis", nodes=listed)
+    assert set(comparison.differences) == {"p", "q"}
     assert max(d.l2 for d in comparison.differences.values()) < WRITTEN
-    assert "averaged over 4 elements" in " ".join(comparison.mesh.notes)
+    assert comparison.differences["p"].points == 21
+
+
+@pytest.mark.parametrize("order", [1, -1])
+def test_values_by_node_find_their_places_in_the_same_file(order, tmp_path):
+    comparison = compared("".join([NLIST, PRNSOL][::order]), tmp_path, "both.txt")
+    assert comparison.differences["q"].l2 < WRITTEN
+
+
+def test_nodes_of_a_deck_and_of_a_table_are_read(tmp_path):
+    values = "Knoten;Druck [MPa]\n" + "\n".join(
+        f"{n};{float(SOLUTION.pressure(x)):.6f}".replace(".", ",")
+        for n, (x, _) in NODES.items()
+        if 6 <= n <= 10
+    )
+    table = "node,x,y\n" + "\n".join(f"{n},{x:.9f},{y}" for n, (x, y) in NODES.items())
+    for name, text in (("job.inp", DECK), ("nodes.csv", table)):
+        nodes = written(tmp_path / name, text)
+        comparison = compared(values, tmp_path, "p.csv", nodes=nodes)
+        assert comparison.differences["p"].points == 5
+        assert comparison.differences["p"].l2 < WRITTEN
+
+
+def test_of_lists_that_repeat_a_node_the_last_one_is_read(tmp_path):
+    comparison = compared(NLIST + PRNSOL.replace("E-", "E-0") + PRNSOL, tmp_path, "both.txt")
+    assert comparison.differences["p"].l2 < WRITTEN
+    assert any("last values" in note for note in comparison.mesh.notes)
+
+
+@pytest.mark.parametrize(
+    ("header", "columns"),
+    [
+        ("Ort [mm]\tNormalenlast [MPa]\tQuerlast", {"x": "Ort", "p": "Normalenlast"}),
+        ("x\tp\tCPRESS", {"x": "0", "p": "1"}),
+        ("s\tp\tCPRESS", {"x": "s [mm]"}),
+    ],
+)
+def test_columns_are_named_by_the_user(header, columns, tmp_path):
+    text = header + "\n" + rows("{1:.9e}\t{2:.9e}\t{3:.9e}", X, P, Q)
+    comparison = compared(text, tmp_path, columns=columns)
+    assert set(comparison.differences) == {"p"} and comparison.differences["p"].l2 < 1e-8
+
+
+def test_a_column_that_is_not_there_is_refused(tmp_path):
+    with pytest.raises(ValueError, match='no column "Querlast" for q'):
+        compared(COMSOL, tmp_path, columns={"q": "Querlast"})
 
 
 def test_a_mesh_that_meshio_reads_is_compared(tmp_path):

@@ -58,6 +58,16 @@ def test_two_letters_swapped_in_any_key_of_an_example_suggest_the_key(kind):
             '[load] has no key "load": did you mean "normal_load"?',
         ),
         (
+            BODY + LOAD + '[profile]\nkind = "sampled"\nfile = "x.csv"\n',
+            'of kind "sampled" has no key "file": did you mean "path"?',
+        ),
+        (BODY + PARABOLA + '[load]\nfile = "x.csv"\n', 'no key "file": did you mean "path"?'),
+        (BODY + PARABOLA + LOAD + "mu = 0.3\n", 'no key "mu": did you mean "friction"?'),
+        (
+            BODY + LOAD + '[profile]\nkind = "wedge"\nfile = "x.csv"\nslope = 0.1\n',
+            'it belongs to kind "sampled"',
+        ),
+        (
             BODY + LOAD + '[profile]\nprofile = "parabola"\nkind = "parabola"\nradius = 1\n',
             'has no key "profile": did you mean "kind"?',
         ),

@@ -89,12 +89,17 @@ DECK = "\n".join(
 )  # fmt: skip
 
 
-def frd(times: tuple[float, ...] = (1.0,), label: int = 10) -> str:
-    """A .frd file with stress at all nodes, and the contact stress at the surface nodes 6 to 10."""
+def frd(times: tuple[float, ...] = (1.0,), label: int = 10, bend: float = 0.0) -> str:
+    """A .frd file with stress at all nodes, and the contact stress at the surface nodes 6 to 10.
+
+    `bend` is the curvature of the surface.
+    """
     kind = 1 if label == 10 else 0
     lines = ["    1C", "    1UPGM               CalculiX"]
     lines += [f"    2C{20:30d}{kind:38d}"]
-    lines += [f" -1{n:{label}d}{x:12.5E}{y:12.5E}{0:12.5E}" for n, (x, y) in NODES.items()]
+    lines += [
+        f" -1{n:{label}d}{x:12.5E}{y + bend * x * x:12.5E}{0:12.5E}" for n, (x, y) in NODES.items()
+    ]
     lines += [" -3", f"    3C{8:30d}{kind:38d}"]
     for e, nodes in ELEMENTS.items():
         lines += [
@@ -128,21 +133,31 @@ def frd_values(name: str, n: int, x: float, depth: float, time: float) -> Any:
     return (time * float(s.xx), time * float(s.yy), time * float(s.zz), -time * float(s.xy), 0, 0)
 
 
-def dat(
-    columns: str,
-    points: Any,
-    title: str = "contact stress",
-    entity: str = "all contact elements",
-) -> str:
-    """A .dat file: two times, the first of them half loaded, two integration points each."""
-    text = ""
-    for time in (0.5, 1.0):
-        text += f"\n {title} ({columns}) for {entity} and time  {time:.7E}\n\n"
-        for where, values in points:
-            for k in (0.9, 1.1):
-                scaled = "".join(f"{time * k * v:14.6E}" for v in values)
-                text += f"{where}{scaled}\n"
-    return text
+PRINTED = """
+ contact stress (slave node,press,tang1,tang2) for all contact elements and time  0.1000000E+01
+
+         6  1.000000E+00  0.000000E+00  0.000000E+00
+"""
+# Pages of a few lines, as Ansys prints them; numbers may stand without a blank between them.
+NODE_PAGE = "\n   NODE        X             Y             Z           THXY     THYZ\n"
+NLIST = "\n LIST ALL SELECTED NODES.   DSYS=      0\n SORT TABLE ON  NODE  NODE  NODE\n"
+VALUE_PAGE = """
+ PRINT CONT NODAL SOLUTION PER NODE
+
+  ***** POST1 NODAL CONTACT LISTING *****
+
+  LOAD STEP=     2  SUBSTEP=     1
+   TIME=    2.0000      LOAD CASE=   0
+
+    NODE    STAT        PENE        PRES        SFRIC
+"""
+PRNSOL = ""
+for k in range(21):
+    NLIST += "" if k % 8 else NODE_PAGE
+    NLIST += f"{k + 1:9d}{X[k]:16.9f}        0.0000        0.0000          0.00     0.00\n"
+    PRNSOL += "" if k % 12 else VALUE_PAGE
+    PRNSOL += f"{k + 1:8d}    3.0000   0.000   {P[k]:.6E}{-Q[k]:+.6E}\n"
+PRNSOL += "\n MAXIMUM ABSOLUTE VALUES\n NODE          1         11\n VALUE   3.0000     0.5\n"
 
 
 def written(path: Path, text: str) -> Path:

@@ -8,8 +8,8 @@ the rows up to a blank line; after that Minimum, Maximum and Total, which are pa
     ----------------------------------------------------------------
                    1     269.383E+00    -130.326E-03              0.
 
-Without COORD the coordinates come from the input deck. A row for each integration point is averaged
-over the element. XY reports are tables of text (`text_table`).
+Without COORD the coordinates of nodes come from another file, such as the input deck. A row for
+each integration point is averaged over the element. XY reports are tables of text (`text_table`).
 """
 
 from __future__ import annotations
@@ -22,20 +22,20 @@ from numpy.typing import NDArray
 
 from sie.profiles.trace_files import MESH, text_lines
 
-from .names import QUANTITIES, meaning
-from .raw import Group, MeshGeometry, Raw, means
+from .names import QUANTITIES, Meaning
+from .raw import Group, MeshGeometry, Raw, row_means
 
 Array = NDArray[np.float64]
 TITLE = "Field Output Report"
 
 
-def read(path: Path, mesh: MeshGeometry | None) -> Raw:
+def read(path: Path, mesh: MeshGeometry | None, means: Meaning) -> Raw:
     """The tables of all parts, each as a body of its own. ValueError without x and a quantity."""
     groups: list[Group] = []
     others: dict[str, None] = {}
     notes: dict[str, None] = {}
     for names, rows in _tables(path):
-        group = _group(path.name, mesh, names, rows)
+        group = _group(path.name, mesh, means, (names, rows))
         if group is None:
             continue
         groups.append(group)
@@ -53,7 +53,7 @@ def read(path: Path, mesh: MeshGeometry | None) -> Raw:
             "part instance",
         )
         others |= dict.fromkeys(
-            name for name in names if not meaning(name) and name.lower() not in labels
+            name for name in names if not means(name) and name.lower() not in labels
         )
     if not groups:
         raise ValueError(
@@ -82,32 +82,29 @@ def _by_node(names: list[str]) -> bool:
 
 
 def _group(
-    file: str, mesh: MeshGeometry | None, names: list[str], rows: list[list[str]]
+    file: str, mesh: MeshGeometry | None, means: Meaning, table: tuple[list[str], list[list[str]]]
 ) -> Group | None:
     """The table as columns; None where it has no quantity."""
-    known = {meaning(name): k for k, name in reversed(list(enumerate(names))) if meaning(name)}
+    names, rows = table
+    known = {means(name): k for k, name in reversed(list(enumerate(names))) if means(name)}
     if not set(known) & set(QUANTITIES):
         return None
     labelled = next((k for k, n in enumerate(names) if re.match("node|element", n.lower())), None)
     values = np.array([[float(row[k]) for k in known.values()] for row in rows])
     keys = [int(row[labelled]) if labelled is not None else k for k, row in enumerate(rows)]
     if not _by_node(names):
-        labels, values = means(keys, values)
+        labels, values = row_means(keys, values)
         keys = labels.tolist()
     columns = dict(zip(known, values.T, strict=True))
     if "x" in columns:
         return Group(columns)
-    if mesh is None or labelled is None:
+    if mesh is None or labelled is None or not _by_node(names):
         raise ValueError(
             f"{file} has no coordinates: write COORD into the report, "
-            "or give the input deck, --deck job.inp"
+            "or, of values at nodes, give the input deck, --nodes job.inp"
         )
-    places = (
-        mesh.points(keys)
-        if _by_node(names)
-        else np.array([mesh.points(mesh.corners(key)).mean(axis=0) for key in keys])
-    )
-    return Group({"x": places[:, 0], "y": places[:, 1], **columns})
+    x, y = mesh.points(keys).T
+    return Group({"x": x, "y": y, **columns})
 
 
 def _tables(path: Path) -> list[tuple[list[str], list[list[str]]]]:

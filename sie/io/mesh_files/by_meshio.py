@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from sie import files
 from sie.profiles.trace_files import MESH
 
-from .names import QUANTITIES, TRACTIONS, meaning
+from .names import QUANTITIES, TRACTIONS, Meaning
 from .raw import Group, MeshGeometry, Raw
 
 Array = NDArray[np.float64]
@@ -34,7 +34,7 @@ _CONTACT = ("copen", "cslip1", "cslip2", "cpress", "cshear1", "cshear2")
 _TENSORS = ("s", "stress", "sigma", "sig", "cauchy_stress")
 
 
-def read(path: Path) -> Raw:
+def read(path: Path, means: Meaning) -> Raw:
     """All fields whose names are known. ValueError without one, or without meshio."""
     files.content(path, MESH.size)  # refuses what is no file, or too large
     try:
@@ -56,12 +56,12 @@ def read(path: Path) -> Raw:
     bodies = geometry.bodies()
     part = np.array([bodies.get(k, 0) for k in range(len(points))], dtype=np.int64)
     groups = []
-    fields = _fields(mesh.point_data)
+    fields = _fields(mesh.point_data, means)
     for names in ([n for n in fields if n in TRACTIONS], [n for n in fields if n not in TRACTIONS]):
         if names:
             columns = {"x": points[:, 0], "y": points[:, 1], **{n: fields[n] for n in names}}
             groups.append(Group(columns, bodies=part if bodies else ()))
-    groups += _of_cells(mesh, points, part)
+    groups += _of_cells(mesh, points, part, means)
     if not groups:
         found = ", ".join([*mesh.point_data, *mesh.cell_data]) or "no field"
         raise ValueError(
@@ -77,10 +77,10 @@ def _geometry(file: str, mesh: Any) -> MeshGeometry:
     return MeshGeometry(file, nodes, dict(enumerate(cells)))
 
 
-def _of_cells(mesh: Any, points: Array, part: NDArray[np.int64]) -> Iterator[Group]:
+def _of_cells(mesh: Any, points: Array, part: NDArray[np.int64], means: Meaning) -> Iterator[Group]:
     """A group for each block of cells that has a known field."""
     for k, block in enumerate(mesh.cells):
-        fields = _fields({name: data[k] for name, data in mesh.cell_data.items()})
+        fields = _fields({name: data[k] for name, data in mesh.cell_data.items()}, means)
         if fields:
             corners = points[np.asarray(block.data)]
             x, y = corners[..., 0].mean(axis=1), corners[..., 1].mean(axis=1)
@@ -89,15 +89,15 @@ def _of_cells(mesh: Any, points: Array, part: NDArray[np.int64]) -> Iterator[Gro
             yield Group({"x": x, "y": y, **fields}, widths, part[np.asarray(block.data)[:, 0]])
 
 
-def _fields(data: dict[str, Any]) -> dict[str, Array]:
+def _fields(data: dict[str, Any], means: Meaning) -> dict[str, Array]:
     """The quantities in arrays of one component, and in the components of others."""
     fields: dict[str, Array] = {}
     for name, given in data.items():
         values = np.asarray(given, dtype=float)
         values = values.reshape(len(values), -1)
         for component, column in zip(_components(name, values.shape[1]), values.T, strict=False):
-            if meaning(component) in QUANTITIES:
-                fields.setdefault(meaning(component), column)
+            if means(component) in QUANTITIES:
+                fields.setdefault(means(component), column)
     return fields
 
 

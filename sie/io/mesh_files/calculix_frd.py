@@ -18,7 +18,7 @@ import numpy as np
 
 from sie.profiles.trace_files import MESH, text_lines
 
-from .names import QUANTITIES, meaning
+from .names import QUANTITIES, Meaning
 from .raw import Group, MeshGeometry, Raw
 
 VALUE = 12  # columns of a number
@@ -34,11 +34,11 @@ class _Block:
     values: dict[int, list[float]] = field(default_factory=dict)
 
 
-def read(path: Path) -> Raw:
+def read(path: Path, means: Meaning) -> Raw:
     """Stress and contact at the nodes, of the last step. ValueError without either."""
     mesh, blocks = _blocks(path)
     bodies = mesh.bodies()
-    last = [block for block in _last(blocks) if any(map(meaning, block.components))]
+    last = [block for block in _last(blocks) if any(map(means, block.components))]
     listed = [block for block in last if not mesh.nodes.keys().isdisjoint(block.values)]
     notes = [
         f"{block.name} is at nodes that {path.name} does not list: have them written, OUTPUT=3D"
@@ -47,7 +47,7 @@ def read(path: Path) -> Raw:
     ]
     if notes and not listed:
         raise ValueError(notes[0])
-    groups = [_group(mesh, bodies, block) for block in listed]
+    groups = [_group(mesh, bodies, block, means) for block in listed]
     groups = [group for group in groups if set(group.columns) & set(QUANTITIES)]
     if not groups:
         found = ", ".join(sorted({block.name for block in blocks})) or "no result"
@@ -67,14 +67,14 @@ def _last(blocks: list[_Block]) -> list[_Block]:
     return list({block.name: block for block in blocks if block.time == latest}.values())
 
 
-def _group(mesh: MeshGeometry, bodies: dict[int, int], block: _Block) -> Group:
+def _group(mesh: MeshGeometry, bodies: dict[int, int], block: _Block, means: Meaning) -> Group:
     labels = [label for label in block.values if label in mesh.nodes]
     x, y = mesh.points(labels).T
     values = np.array([block.values[label] for label in labels], dtype=float).T
     columns = {
-        meaning(component): column
+        means(component): column
         for component, column in zip(block.components, values, strict=False)
-        if meaning(component) in QUANTITIES
+        if means(component) in QUANTITIES
     }
     part = np.array([bodies.get(label, 0) for label in labels], dtype=np.int64)
     return Group({"x": x, "y": y, **columns}, bodies=part if bodies else ())

@@ -50,12 +50,11 @@ class Raw:
 
 @dataclass(frozen=True, eq=False)
 class MeshGeometry:
-    """The nodes of a mesh, its elements as labels of nodes, and which of them are plane."""
+    """The nodes of a mesh, and its elements as labels of nodes."""
 
     file: str
     nodes: dict[int, tuple[float, float]]
     elements: dict[int, tuple[int, ...]]
-    plane: frozenset[int] = frozenset()
 
     def points(self, labels: Iterable[int]) -> Array:
         """Coordinates (n, 2) of nodes. ValueError for a label without coordinates."""
@@ -63,18 +62,8 @@ class MeshGeometry:
             return np.array([self.nodes[label] for label in labels], dtype=float).reshape(-1, 2)
         except KeyError as missing:
             raise ValueError(
-                f"{self.file} has no node {missing.args[0]}: give the input deck of the same run, "
-                "or, as CalculiX adds nodes to plane elements, a .frd written with OUTPUT=3D"
+                f"{self.file} has no node {missing.args[0]}: list the nodes of the same mesh"
             ) from None
-
-    def corners(self, element: int) -> tuple[int, ...]:
-        """Labels of the nodes of an element. ValueError for an element that is not there."""
-        if element not in self.elements:
-            raise ValueError(
-                f"{self.file} has no element {element}: give the input deck of the same run, "
-                "with its *ELEMENT lines"
-            )
-        return self.elements[element]
 
     def bodies(self) -> dict[int, int]:
         """The number of the connected part that each node belongs to, 0 for the lowest part."""
@@ -107,7 +96,7 @@ class MeshGeometry:
         return tuple(highest)
 
 
-def means(labels: Sequence[int], values: Array) -> tuple[Labels, Array]:
+def row_means(labels: Sequence[int], values: Array) -> tuple[Labels, Array]:
     """The labels in ascending order, once each, and the means of the rows that each has."""
     unique, inverse = np.unique(np.asarray(labels, dtype=np.int64), return_inverse=True)
     total = np.zeros((len(unique), values.shape[1]))

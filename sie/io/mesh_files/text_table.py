@@ -16,20 +16,20 @@ from numpy.typing import NDArray
 from sie.messages import nearest, shortened
 from sie.profiles.trace_files import MESH, Table, read_table
 
-from .names import QUANTITIES, WORDS, meaning, negative_in_compression, spelling
+from .names import QUANTITIES, WORDS, Meaning, meaning, negative_in_compression, spelling
 from .raw import Group, Raw
 
 Array = NDArray[np.float64]
 LARGEST = 1e100  # of a column: no length or stress, and its square is finite
 
 
-def read(path: Path) -> Raw:
+def read(path: Path, means: Meaning) -> Raw:
     """The columns whose names are known; x and p without a header."""
     table = read_table(path, MESH)
-    header = _header(table)
+    header = _header(table, means)
     names = header or ["x", "p"]
     names += map(str, range(len(names), table.width))  # of columns without a name
-    indices = _indices(table.file, names, bool(header))
+    indices = _indices(table.file, names, bool(header), means)
     columns = dict(zip(indices, table.columns(tuple(indices.values())), strict=True))
     for name, values in columns.items():
         largest = float(np.abs(values).max())
@@ -48,12 +48,15 @@ def read(path: Path) -> Raw:
     return Raw(table.file, (Group(columns),), others, tuple(notes))
 
 
-def _indices(file: str, names: list[str], named: bool) -> dict[str, int]:
-    """The first column of each meaning. ValueError unless there are x and a quantity."""
+def _indices(file: str, names: list[str], named: bool, means: Meaning) -> dict[str, int]:
+    """The first column of each meaning, found by its name or its number.
+
+    ValueError unless there are x and a quantity.
+    """
     indices: dict[str, int] = {}
     for k, name in enumerate(names):
-        if meaning(name):
-            indices.setdefault(meaning(name), k)
+        if means(name) or means(str(k)):
+            indices.setdefault(means(name) or means(str(k)), k)
     if "x" in indices and set(indices) & set(QUANTITIES):
         return indices
     wanted = {"x"} if "x" not in indices else set(QUANTITIES)
@@ -63,11 +66,11 @@ def _indices(file: str, names: list[str], named: bool) -> dict[str, int]:
     hint = f' (is "{near}" meant as "{nearest(spelling(near), words)}"?)' if near else ""
     raise ValueError(
         f"{file} has the columns {', '.join(names)}{hint}: "
-        f"name one x and one {' or '.join(QUANTITIES)}, on the first line"
+        f"say which hold x and {' or '.join(QUANTITIES)}, like --columns x=distance,p=load"
     )
 
 
-def _header(table: Table) -> list[str]:
+def _header(table: Table, means: Meaning) -> list[str]:
     """The names of the columns, none where no line above them is a header.
 
     ValueError for a header whose number of names is another.
@@ -76,10 +79,10 @@ def _header(table: Table) -> list[str]:
     readings = [(line, _readings(line, table.separator)) for line in lines]
     for _, splits in readings:
         for names in splits:
-            if len(names) == table.width and any(map(meaning, names)):
+            if len(names) == table.width and any(map(means, names)):
                 return [_shown(name) for name in names]
     for line, splits in readings:
-        known = any(meaning(name) for names in splits for name in names)
+        known = any(means(name) for names in splits for name in names)
         if not known and line.lstrip().startswith(("#", "%")):
             continue
         if len(splits[0]) == table.width:
