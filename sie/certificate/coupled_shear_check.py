@@ -1,14 +1,13 @@
 """The certificate of dissimilar bodies: equations (1) and (12) where the halves are unlike.
 
-The loads are P, then Q; both in proportion; or P under a profile that is not symmetric.
+The loads are P, then Q; or P under a profile that is not symmetric.
 
 They are measured on p and q alone, as in `coupled_check`.
 
     residual   max |1/π PV∫p/(x - t) dt - β q - E*/2 h'| / peak   in the whole contact
     of (12)    max |γ - γ'| / largest |q|,   γ = 1/π PV∫q/(x - t) dt + β p   in stick
 
-γ' is the same under P alone: what sticks keeps it. Where P and Q grew in proportion under a power
-law it is a constant times a power of x on either side. The integrals are Gauss rules on panels that
+γ' is the same under P alone: what sticks keeps it. The integrals are Gauss rules on panels that
 shrink towards every place where a traction is not smooth, with the value at x subtracted.
 """
 
@@ -23,7 +22,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie.contact.small_strains import notes
-from sie.friction.coupled.proportional import ProportionalContact
 from sie.friction.coupled.sheared import ShearedContact
 from sie.friction.coupled.uneven_contact import UnevenContact
 from sie.numerics.gauss_jacobi import with_weight
@@ -35,7 +33,7 @@ from .coupled_check import OUTSIDE, gradient_of_slip, kind_of_slip
 from .result import Certificate, ShearCertificate
 
 Array = NDArray[np.float64]
-State = ShearedContact | ProportionalContact | UnevenContact
+State = ShearedContact | UnevenContact
 
 PROMISED, OF_SHEAR = 1e-10, 1e-9  # of the largest pressure, and of the largest shear in (12)
 NODES, RATIO = 14, 4.0
@@ -113,8 +111,6 @@ def _one_ulp(
 
 def _kept_gradient(state: State, x: Array, beta: float) -> Array:
     """What the slip gradient was when x stuck, times E*/2."""
-    if isinstance(state, ProportionalContact):
-        return state.kept_gradient(x)
     if isinstance(state, UnevenContact):
         p, q = state.lighter.pressure_and_shear(x)
         values = _values(state.lighter)
@@ -149,8 +145,6 @@ def _of_shear(
         kind = kind_of_slip(state.full_stick, scene.beta)
     else:
         way = f"towards {'+' if Q > 0.0 else '-'}x"
-        if isinstance(state, ProportionalContact):
-            way = f"{'outwards' if scene.beta > 0.0 else 'inwards'} on both sides"
         kind = f"{way} beside the stick zone; β couples p and q"
     excess = float((size - scene.friction * values.p).max()) / (scene.friction * peak)
     return ShearCertificate(

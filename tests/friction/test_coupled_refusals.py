@@ -293,7 +293,7 @@ def test_a_tangential_load_under_a_profile_that_is_not_symmetric_is_refused():
 
 def test_paths_are_refused_with_what_is_missing():
     path = sie.Path([(1.0, 0.1), (1.0, 0.0)])
-    with pytest.raises(sie.ContactError, match="unloading of P or a reversal of Q"):
+    with pytest.raises(sie.ContactError, match="load P first, then Q"):
         sie.follow(scene(part=0.0), path)
 
 
