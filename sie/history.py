@@ -363,3 +363,7 @@ class SceneSolution(PathSolution):
     def __init__(self, history: History, index: int) -> None:
         super().__init__(history, index)
         self.__dict__.update(history.scene_states[index].__dict__)
+
+    def __getstate__(self) -> dict[str, Any]:
+        """The question alone: the stages hold functions, which no pickle takes."""
+        return {name: vars(self)[name] for name in ("history", "index", "tol", "economy")}
