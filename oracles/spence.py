@@ -10,8 +10,8 @@ equations, integrated once from the axis, are for β > 0
 The contact grows cell by cell. In each step a cell either sticks, and g stays as it was, or slips
 outwards with q = f p; an active set finds which. The error is of the first order in the cells.
 
-Under P and Q in proportion, or under a profile that is not symmetric, the contact is not symmetric.
-Both of its edges are given then while it grows, and P and Q are found: p is 0 in the cells beside.
+Under a profile that is not symmetric the contact is not symmetric either. Both of its edges are
+given then while it grows, and P and Q are found: p is 0 in the cells beside.
 """
 
 from collections.abc import Callable
@@ -138,7 +138,7 @@ def growing_contact(rise: Array, n: int, beta: float, friction: float, first: in
     return GridContact(grid.x[:n], p, q, sticks, 2.0 * grid.h * float(p.sum()))
 
 
-class ObliqueContact(NamedTuple):
+class UnevenContact(NamedTuple):
     """The state under P and Q: midpoints, p and q there, which cells stick, and both loads."""
 
     x: Array
@@ -148,25 +148,9 @@ class ObliqueContact(NamedTuple):
     loads: tuple[float, float]
 
 
-def oblique_contact(
-    rise: Callable[[Array], Array],
-    edges: tuple[float, float],
-    n: int,
-    material: tuple[float, float],
-) -> ObliqueContact:
-    """A profile pressed and sheared from x = 0 until its contact ends at these edges.
-
-    rise        E*/2 h
-    n           cells on either side of 0; as many steps
-    material    β and f
-    """
-    part = np.linspace(0.0, 1.0 + 1.0 / n, n + 2)
-    return followed_contact(rise, np.append(edges[0] * part[:0:-1], edges[1] * part), material)
-
-
 def followed_contact(
     rise: Callable[[Array], Array], ends: Array, material: tuple[float, float]
-) -> ObliqueContact:
+) -> UnevenContact:
     """A profile pressed until its contact has all but the outermost of 2 n + 2 cells.
 
     In each of n steps it gains one on either side.
@@ -212,4 +196,4 @@ def followed_contact(
         else:
             raise AssertionError("the active set does not settle")
         slip = now
-    return ObliqueContact(x[c], p, q, signs[c] == 0.0, (float(width[c] @ p), float(width[c] @ q)))
+    return UnevenContact(x[c], p, q, signs[c] == 0.0, (float(width[c] @ p), float(width[c] @ q)))

@@ -16,8 +16,7 @@ point to the next all loads change in proportion to time. What is exact, and cov
                                        that travels; several stick zones, all of which recede
     from P = 0, P, Q, σ and    the same, from soon after the first contact on
     tilt in proportion
-    dissimilar bodies                  P that grows and then Q; under a power law P and Q in
-                                       proportion from zero (`friction.coupled.proportional`)
+    dissimilar bodies                  P that grows and then Q
 
 `path_contacts` has the contacts under the loads of the path. `friction.memory` computes the layers
 that a step changes, `friction.partial_slip` the slip of a single step, `load_history.path_slip` the
@@ -40,9 +39,8 @@ from numpy.typing import NDArray
 
 from .certificate.result import ShearCertificate
 from .certificate.shear_check import marched_certificate
-from .contact.known_contact import Edges, Normal
+from .contact.known_contact import Normal
 from .errors import ContactError
-from .friction.coupled.proportional import ProportionalContact, proportional_contact
 from .friction.load_history.load_steps import Followable, points_of_loads, turning_points
 from .friction.load_history.marching import march
 from .friction.load_history.path_slip import MarchedSlip, PathSlip, held, step_shift, touched
@@ -55,7 +53,7 @@ from .patches.path_energy import PathEnergy
 from .path_contacts import PathContacts
 from .plan import Plan, Step
 from .problem.load_path import Path
-from .problem.path_scene import in_proportion, one_after_the_other, unsheared
+from .problem.path_scene import one_after_the_other, unsheared
 from .problem.request import ECONOMY
 from .problem.scene import Scene
 from .progress_bar import counted
@@ -152,10 +150,9 @@ class History(PathContacts, Sequence[Solution]):
         self._kind, self.scene_states = PathSolution, list[Solution]()
         if steps is turning_points and one_after_the_other(scene, path):
             self._kind, self.scene_states = SceneSolution, self._solved_by_scenes()
-        elif steps is turning_points and in_proportion(scene, path):
-            self._kind = ProportionalSolution
-        layered = self._kind is PathSolution
-        self.turning_points = steps(scene, path, self) if layered else points_of_loads(path)
+            self.turning_points = points_of_loads(path)
+        else:
+            self.turning_points = steps(scene, path, self)
 
     def __len__(self) -> int:
         return len(self.turning_points)
@@ -355,47 +352,19 @@ class PathSolution(Solution):
         return f"sie.follow({self.history.scene!r}, {self.history.path!r})[{self.index}]"
 
 
-class DissimilarSolution(PathSolution):
-    """The solution of dissimilar bodies at a point of a path, which depends on its loads alone."""
+class SceneSolution(PathSolution):
+    """The solution of dissimilar bodies at a point of a path where P grows, or Q after it."""
+
+    route = "the state of a scene, that of its loads"
 
     normal, pressure = Solution.normal, Solution.pressure  # type: ignore[assignment]
     sheared, tangential = Solution.sheared, Solution.tangential
     stick, energy_lost = Solution.stick, Solution.energy_lost
 
-
-class SceneSolution(DissimilarSolution):
-    """The same where P grows, or Q after it."""
-
-    route = "the state of a scene, that of its loads"
-
     def __init__(self, history: History, index: int) -> None:
         super().__init__(history, index)
         self.__dict__.update(history.scene_states[index].__dict__)
 
-
-class ProportionalSolution(DissimilarSolution):
-    """The same where P and Q grow in proportion from zero."""
-
-    route = "P and Q in proportion"
-
     def __getstate__(self) -> dict[str, Any]:
         """The question alone: the stages hold functions, which no pickle takes."""
         return {name: vars(self)[name] for name in ("history", "index", "tol", "economy")}
-
-    @cached_property
-    def coupled(self) -> tuple[Edges, ProportionalContact]:  # type: ignore[override]
-        """The edges and the state."""
-        return proportional_contact(self.scene)
-
-    @property
-    def energy_lost(self) -> float:
-        """Energy that friction dissipated since the beginning of the path."""
-        return self.coupled[1].energy
-
-    @property
-    def shift(self) -> float:
-        """Raises ContactError: the shift without slip is not known."""
-        raise ContactError(
-            "the shift that slip adds under P and Q in proportion is not solved for dissimilar "
-            "bodies: it is counted from a bonded contact under the same loads, which is not solved"
-        )

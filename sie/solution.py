@@ -33,17 +33,10 @@ from .errors import ContactError, InequalityError, LoadError
 from .friction.contact_growth import ContactGrowth
 from .friction.coupled.contact import CoupledContact
 from .friction.coupled.energy import tangential_energy
+from .friction.coupled.load_path import found_state, sheared_contact
 from .friction.coupled.normal import coupled_contact
-from .friction.coupled.opened_contact import OpenedContact, opened_contact
 from .friction.coupled.sheared import ShearedContact
-from .friction.coupled.sheared_contact import either, found_state, sheared_contact
 from .friction.coupled.shift import tangential_shift
-from .friction.coupled.spreading_contact import (
-    SpreadingContact,
-    spreading_march,
-    spreading_state,
-)
-from .friction.coupled.spreading_energy import spreading_energy
 from .friction.coupled.tangential import TangentialSearch, tangential_search
 from .friction.coupled.traction import OnHalves
 from .friction.coupled.uneven_contact import UnevenContact
@@ -59,12 +52,7 @@ from .patches.answer import SeveralPatches
 from .patches.friction import PatchesUnder, PatchSlip
 from .patches.full import FullContact
 from .patches.result import PatchCertificate, worst_of
-from .problem.coverage import (
-    held_moment,
-    refuse_uncovered,
-    refused_energy,
-    uneven_under_shear,
-)
+from .problem.coverage import held_moment, refuse_uncovered, uneven_under_shear
 from .problem.request import ECONOMY, sheared
 from .problem.scene import Scene
 from .stages import changed_scene, kept_stages
@@ -129,11 +117,7 @@ class Solution(Frictionless, StressAnswers):
     def coupled(self) -> tuple[Edges, CoupledContact | UnevenContact | ShearedContact]:
         """The edges and the state of dissimilar bodies in partial slip."""
         if self.scene.tangential_load:
-            march = spreading_march(self.tangential_search)
-            below = either(
-                partial(spreading_state, march=march), partial(opened_contact, march=march)
-            )
-            edges, state = sheared_contact(self._upright, self.tangential_search, below)
+            edges, state = sheared_contact(self._upright, self.tangential_search)
             return replace(edges, tilt=self.scene.tilt), state
         return self.pressed
 
@@ -309,10 +293,6 @@ class Solution(Frictionless, StressAnswers):
         state, pressed = self.coupled[1], self.pressed[1].energy
         if not isinstance(state, ShearedContact):
             return pressed
-        if isinstance(state, SpreadingContact):
-            return pressed + spreading_energy(state.march, state.s)
-        if isinstance(state, OpenedContact):
-            raise refused_energy(state.Q)
         search = self.tangential_search
         return pressed + tangential_energy(state, partial(found_state, search))
 
@@ -448,8 +428,7 @@ class Solution(Frictionless, StressAnswers):
         In full sliding it is the slip at incipient sliding, when the last stick zone vanishes.
         Where dissimilar bodies are pressed together it is counted from when a point came into
         contact: what slipped first sticks later, and keeps its slip. Where their contact spreads
-        under a tangential load, it is counted from when that load began, or from when a point is
-        touched if the load is so small that all that is gained sticks.
+        under a tangential load, it is counted from when that load began.
 
         Examples
         --------

@@ -1,14 +1,13 @@
 """The certificate of dissimilar bodies: equations (1) and (12) where the halves are unlike.
 
-The loads are P, then Q; both in proportion; or P under a profile that is not symmetric.
+The loads are P, then Q; or P under a profile that is not symmetric.
 
 They are measured on p and q alone, as in `coupled_check`.
 
     residual   max |1/π PV∫p/(x - t) dt - β q - E*/2 h'| / peak   in the whole contact
     of (12)    max |γ - γ'| / largest |q|,   γ = 1/π PV∫q/(x - t) dt + β p   in stick
 
-γ' is the same under P alone: what sticks keeps it. Where P and Q grew in proportion under a power
-law it is a constant times a power of x on either side. The integrals are Gauss rules on panels that
+γ' is the same under P alone: what sticks keeps it. The integrals are Gauss rules on panels that
 shrink towards every place where a traction is not smooth, with the value at x subtracted.
 """
 
@@ -23,7 +22,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie.contact.small_strains import notes
-from sie.friction.coupled.proportional import ProportionalContact
 from sie.friction.coupled.sheared import ShearedContact
 from sie.friction.coupled.uneven_contact import UnevenContact
 from sie.numerics.gauss_jacobi import with_weight
@@ -35,10 +33,9 @@ from .coupled_check import OUTSIDE, gradient_of_slip, kind_of_slip
 from .result import Certificate, ShearCertificate
 
 Array = NDArray[np.float64]
-State = ShearedContact | ProportionalContact | UnevenContact
+State = ShearedContact | UnevenContact
 
 PROMISED, OF_SHEAR = 1e-10, 1e-9  # of the largest pressure, and of the largest shear in (12)
-MARCHED = 1e-6  # of either, where γ is known from a march over smaller loads alone
 NODES, RATIO = 14, 4.0
 NEAREST = 1e-10  # panels next to a mark: the first, in parts of the way to the next
 DISTINCT = 1e3  # roundings of x: the first of these panels at least
@@ -79,9 +76,6 @@ def sheared_certificate(state: State, scene: Scene, tol: float) -> Certificate:
     rounded += _one_ulp(q, values.q, values, x[stuck]) / of_shear
     m, r = state.contact.m, state.contact.r
     apart = np.diff(marks) / r
-    if isinstance(state, ShearedContact) and state.spreads:
-        # p rises like the root of the distance over the strip at an edge
-        apart[[0, -1]] **= 0.5
     rounding = EPS / float(apart.min())
     gaps = _gaps(state, scene)
     return Certificate(
@@ -92,17 +86,10 @@ def sheared_certificate(state: State, scene: Scene, tol: float) -> Certificate:
         lowest_pressure=min(float(values.p.min()) / peak, 0.0),
         lowest_gap=float(gaps.min(initial=0.0)) / float(np.abs(gaps).max(initial=EPS)),
         abscissae=min(rounding, EPS / NARROW, _one_ulp(p, values.p, values, x) / peak),
-        tol=max(tol, _promised(state, missed, PROMISED)),
+        tol=max(tol, PROMISED),
         shear=_of_shear(state, scene, values, (drift, rounded), tol),
         notes=notes(H, peak / scene.Estar),
     )
-
-
-def _promised(state: State, missed: float, promise: float) -> float:
-    """The promise, unless it is missed where γ is known from a march alone."""
-    marched = isinstance(state, ShearedContact) and state.spreads
-    doubt = float(getattr(state, "doubt", 0.0))
-    return MARCHED if marched and max(missed - promise, doubt) > 0.0 else promise
 
 
 def _one_ulp(
@@ -124,18 +111,12 @@ def _one_ulp(
 
 def _kept_gradient(state: State, x: Array, beta: float) -> Array:
     """What the slip gradient was when x stuck, times E*/2."""
-    if isinstance(state, ProportionalContact):
-        return state.kept_gradient(x)
     if isinstance(state, UnevenContact):
         p, q = state.lighter.pressure_and_shear(x)
         values = _values(state.lighter)
         gradient: Array = _principal(values, values.q, x, q) + beta * p
         return gradient
-    y = np.abs(x - state.axis)
-    old, kept = y < state.unchanged, np.zeros(len(x))
-    kept[old] = gradient_of_slip(state.search.normal, y[old], beta)
-    kept[~old] = state.kept_gradient(x[~old])
-    return kept
+    return gradient_of_slip(state.search.normal, np.abs(x - state.axis), beta)
 
 
 def _values(state: State) -> Values:
@@ -164,14 +145,10 @@ def _of_shear(
         kind = kind_of_slip(state.full_stick, scene.beta)
     else:
         way = f"towards {'+' if Q > 0.0 else '-'}x"
-        if isinstance(state, ProportionalContact):
-            way = f"{'outwards' if scene.beta > 0.0 else 'inwards'} on both sides"
         kind = f"{way} beside the stick zone; β couples p and q"
     excess = float((size - scene.friction * values.p).max()) / (scene.friction * peak)
-    doubt = getattr(state, "doubt", 0.0)
-    missed = max(measured[0], doubt)
     return ShearCertificate(
-        residual=missed,
+        residual=measured[0],
         equilibrium=abs(float(values.weight @ values.q) - Q) / float(values.weight @ size),
         excess=max(excess, 0.0),
         opposing=min(state.least_slip, 0.0),
@@ -179,7 +156,7 @@ def _of_shear(
         condition=1.0,
         advancing=True,
         kind=kind,
-        tol=max(tol, _promised(state, missed, OF_SHEAR)),
+        tol=max(tol, OF_SHEAR),
     )
 
 

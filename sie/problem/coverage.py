@@ -1,8 +1,8 @@
 """Refusals of loads with friction that no contact carries, or that are not covered.
 
 Of dissimilar bodies, a normal load that grows, and a tangential load that grows after it, leave
-states that depend on the loads alone, as zones of stick and slip move in one direction. Other loads
-do not: what sticks again keeps a slip gradient that depends on every state before.
+states that depend on the loads alone, as long as zones of stick and slip move in one direction.
+Other loads do not: what sticks again keeps a slip gradient that depends on every state before.
 """
 
 from __future__ import annotations
@@ -19,10 +19,6 @@ from .scene import Scene, refuse_no_scene
 # The nearest contact of dissimilar bodies that is covered: E*, the bodies' shares of it and their
 # constants stay.
 NEGLECTED = "give dundurs = 0 to neglect β"
-
-
-class LargerLoad(ContactError):
-    """The load is larger than those under which all that the contact gains sticks."""
 
 
 def refuse_uncovered(scene: Scene) -> None:
@@ -73,77 +69,32 @@ def uneven_under_shear(scene: Scene) -> ContactError:
     )
 
 
-def refused_load(kappa: float, loads: tuple[float, float, float], spreads: bool) -> ContactError:
+def refused_load(kappa: float, loads: tuple[float, float, float]) -> ContactError:
     """The ContactError: under Q there are no zones that depend on Q alone, or none were found.
 
-    `loads` are |Q|, the least one that such zones were followed to, and f P; `spreads` tells that
-    below it slip would oppose Q.
+    `loads` are |Q|, the least one under which there are (f P for none, inf if unknown), and f P.
     """
     Q, least, limit = loads
-    if spreads:
-        why = (
-            "the contact spreads so fast that surfaces stick or slip back which came into contact "
-            f"under Q, as far as |Q| = {least:.6g} = {_part(least / limit)} f P. The slip gradient "
-            "that they keep from when they were touched depends on every state before and is not "
-            "solved; "
-        ) + ("give a larger |Q| up to f P" if least < limit else "let the bodies slide")
-    elif Q < least < math.inf:
-        why = (
-            "the zones of stick and slip that larger loads leave were followed down to |Q| = "
-            f"{least:.6g} = {_part(least / limit)} f P, where they end; what is below it is not "
-            "solved; give a larger |Q| up to f P"
-        )
+    asked = f"dissimilar bodies (β f = {kappa:.3g}) under |Q| = {Q:.6g} ({Q / limit:.3g} f P)"
+    why = "what the contact gains sticks, with slip that depends on the path"
+    digit = 10.0 ** (math.floor(math.log10(limit)) - 7)
+    if Q < least < limit - digit:
+        least = math.ceil(least / digit) * digit
+        return ContactError(f"{asked}: {why}; give |Q| from {least:.8g} up to f P, or dundurs = 0")
+    if limit - digit <= least < math.inf:
+        why += "; let them slide (sliding = 1 or -1)"
     else:
-        why = "no zones of stick and slip were found; change Q"
-    return ContactError(
-        f"dissimilar bodies with β f = {kappa:.3g} under |Q| = {Q:.6g} = {Q / limit:.3g} f P: "
-        f"{why}, lower the friction, or give dundurs = 0 to neglect β"
-    )
-
-
-def refused_spread(kappa: float, loads: tuple[float, float], why: str) -> ContactError:
-    """The ContactError: under |Q|, of f P, all that is gained sticks, and this is not solved."""
-    Q, limit = loads
-    return ContactError(
-        f"dissimilar bodies with β f = {kappa:.3g} under |Q| = {Q:.6g} = {Q / limit:.3g} f P: "
-        f"what the contact gains under so small a load sticks as it is touched, and {why}; give a "
-        "larger |Q| up to f P or tangential_load = 0, lower the friction, or give dundurs = 0 to "
-        "neglect β"
-    )
-
-
-def refused_opened(kappa: float, loads: tuple[float, float], why: str) -> ContactError:
-    """The ContactError: under |Q|, of f P, a slip zone is open, or was, and this is not solved."""
-    Q, limit = loads
-    return ContactError(
-        f"dissimilar bodies with β f = {kappa:.3g} under |Q| = {Q:.6g} = {Q / limit:.3g} f P: "
-        "the contact spreads so fast that surfaces stick which came into contact under Q, until a "
-        f"slip zone opens at the old edge, and {why}; give a |Q| nearer to f P, or a small one, "
-        "lower the friction, or give dundurs = 0 to neglect β"
-    )
-
-
-def refused_energy(Q: float) -> ContactError:
-    """The ContactError: the energy under a load whose states depend on those before."""
-    return ContactError(
-        f"the energy that dissimilar bodies dissipate under |Q| = {Q:.6g}, where a slip zone is "
-        "open inside the stick zone, is a sum over all smaller loads that is not taken; set "
-        "tangential_load = 0 for the energy under the normal load"
-    )
+        why = "no zones of stick and slip were found; change |Q|"
+    return ContactError(f"{asked}: {why}, lower friction, or give dundurs = 0")
 
 
 def refused_slip(kappa: float, part: float) -> ContactError:
     """The ContactError: under Q, a part of f P, an end of the stick zone passes a corner."""
     return ContactError(
-        f"dissimilar bodies with β f = {kappa:.3g} under |Q| = {part:.3g} f P: an edge of contact "
-        "or stick passes a corner of the profile, which is not solved; give another |Q|, or "
-        "dundurs = 0 to neglect β"
+        f"dissimilar bodies (β f = {kappa:.3g}) under |Q| = {part:.3g} f P: a corner of the "
+        "profile sticks while what is beside it slips; give a |Q| nearer to f P, round the corner, "
+        "or give dundurs = 0"
     )
-
-
-def _part(part: float) -> str:
-    """A part of f P in words that tell it from 1."""
-    return f"{part:.4g}" if part < 0.99 or part == 1.0 else f"(1 - {1.0 - part:.3g})"
 
 
 def old_slip_width(beta: float, friction: float) -> float:

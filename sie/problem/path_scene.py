@@ -6,42 +6,20 @@ from dataclasses import replace
 from itertools import pairwise
 
 from sie.errors import ContactError
-from sie.numerics.interval import EPS
 
 from .load_path import Path
 from .scene import Scene, refuse_no_scene
 
 
-def in_proportion(scene: Scene, path: Path) -> bool:
-    """Whether P and Q of dissimilar bodies in partial slip grow in proportion from zero."""
-    if not _dissimilar(scene) or scene.tilt or scene.moment or not _by_loads_alone(path):
-        return False
-    start, *points = path.points
-    if not points:
-        return False
-    last, Q, _ = points[-1]
-    growing = all(a[0] < b[0] for a, b in zip(path.points, points, strict=False))
-    in_line = all(abs(q * last - Q * p) <= 8.0 * EPS * abs(Q) * p for p, q, _ in points)
-    return not any(start) and growing and in_line
-
-
 def one_after_the_other(scene: Scene, path: Path) -> bool:
     """Whether P of dissimilar bodies grows, and then Q: each state is that of its loads."""
-    if not _dissimilar(scene) or not _by_loads_alone(path):
+    if not (scene.beta and scene.friction) or scene.bonded or scene.sliding:
+        return False
+    if scene.coupling != "full" or any(path.turns) or any(sigma for _, _, sigma in path.points):
         return False
     one_way = len({Q > 0.0 for _, Q, _ in path.points if Q}) <= 1
     pairs = pairwise([(P, abs(Q)) for P, Q, _ in path.points])
     return one_way and all(p >= P and q >= Q and (p == P or not q) for (P, Q), (p, q) in pairs)
-
-
-def _dissimilar(scene: Scene) -> bool:
-    if not (scene.beta and scene.friction) or scene.bonded or scene.sliding:
-        return False
-    return scene.coupling == "full"
-
-
-def _by_loads_alone(path: Path) -> bool:
-    return not any(path.turns) and not any(sigma for _, _, sigma in path.points)
 
 
 def refuse_uncovered(scene: Scene) -> None:
@@ -55,8 +33,8 @@ def refuse_uncovered(scene: Scene) -> None:
     if scene.beta and scene.friction and not scene.sliding:
         raise ContactError(
             f"a path of dissimilar bodies (β = {scene.beta:.4g}) with friction is solved where P "
-            "grows and then Q alone, or both in proportion from zero; give such a path, or "
-            "dundurs = 0 to neglect β"
+            "grows and then Q: otherwise what sticks keeps slip from earlier loads; load P first, "
+            "then Q, or give dundurs = 0"
         )
 
 
@@ -67,7 +45,7 @@ def unsheared(scene: Scene, path: Path) -> Scene:
     of them turns the indenter by tilt and the other by moment.
     """
     given = isinstance(path, Path) and isinstance(scene, Scene)
-    if not (given and (in_proportion(scene, path) or one_after_the_other(scene, path))):
+    if not (given and one_after_the_other(scene, path)):
         refuse_uncovered(scene)
     if not isinstance(path, Path):
         raise ValueError(f"{path!r} is not a path: give sie.Path([(P, Q, σ), ...])")

@@ -12,9 +12,10 @@ from sheared_cases import scene, solved, trials_of, zones
 
 import sie
 from sie.certificate.coupled_shear_check import sheared_certificate
-from sie.friction.coupled import tangential
+from sie.friction.coupled import load_path
+from sie.friction.coupled.iteration import next_to
+from sie.friction.coupled.load_path import keeps_friction_law
 from sie.friction.coupled.sheared import ShearedContact
-from sie.friction.coupled.sheared_contact import keeps_friction_law
 
 # -- with other loads ------------------------------------------------------------------------------
 
@@ -67,14 +68,6 @@ def refused(*args):
     return str(caught.value)
 
 
-def refused_zones(*args):
-    """Why no zones depend on Q alone; what the contact gained may stick as it was touched."""
-    solution = solved(*args)
-    with pytest.raises(sie.ContactError) as caught:
-        solution.tangential_search.found(abs(solution.scene.tangential_load))
-    return str(caught.value)
-
-
 def test_width_of_the_zone_that_is_missing_is_that_of_a_grid():
     # The printed equations on a mesh graded to the corner, as a quadratic program, Q = 0.4 f P
     named = re.search(r"about (\S+) half-widths", refused(sie.Flat(1.0), 0.45, 0.3, 0.4))
@@ -84,11 +77,6 @@ def test_width_of_the_zone_that_is_missing_is_that_of_a_grid():
 def test_the_width_of_a_zone_below_rounding_is_not_named():
     assert "half-widths" not in refused(sie.Flat(1.0), 0.057, 0.3, 0.4)
     assert "half-widths" not in refused(sie.Flat(1.0), 1e-3, 0.3, 0.4)
-
-
-def test_stick_of_what_came_into_contact_under_the_load_is_refused():
-    with pytest.raises(sie.ContactError, match="came into contact under Q"):
-        _ = solved(sie.Wedge(0.1), 0.3, 8.0, 0.5).edges
 
 
 @pytest.mark.parametrize(
@@ -105,12 +93,13 @@ def test_stick_of_what_came_into_contact_under_the_load_is_refused():
     ],
 )
 def test_refusal_of_a_small_load_names_the_least_that_is_certified(profile, beta, friction):
-    message, words = refused_zones(profile, beta, friction, 1e-5), "came into contact under Q"
-    least = float(re.search(r"as far as \|Q\| = (\S+) = ", message)[1]) / friction
-    beside = 0.01 * min(least, 30.0 * (1.0 - least))
-    assert words in message
-    assert solved(profile, beta, friction, least + beside).check().ok
-    assert words in refused_zones(profile, beta, friction, least - beside)
+    message = refused(profile, beta, friction, 1e-5)
+    assert "what the contact gains sticks" in message and len(message.split()) <= 40
+    least = float(re.search(r"give \|Q\| from (\S+) up to f P", message)[1])
+    followed = sie.solve(replace(scene(profile, beta, friction), tangential_load=least))
+    assert followed.check().ok
+    below = least - 0.01 * min(least, 30.0 * (friction - least))
+    assert "what the contact gains sticks" in refused(profile, beta, friction, below / friction)
 
 
 @pytest.mark.parametrize(
@@ -119,17 +108,21 @@ def test_refusal_of_a_small_load_names_the_least_that_is_certified(profile, beta
         (None, 0.3, 2.0),
         (None, 0.2, 4.0),
         (None, 0.243, 3.77),
+        (sie.Wedge(0.1), 0.3, 8.0),
         (sie.Polynomial((0, 0, 0.5, 0, 0.0211)), 0.276, 3.856),
     ],
 )
-def test_loads_of_any_size_are_refused_where_zones_of_one_state_begin_late(profile, beta, friction):
+def test_sliding_is_advised_where_zones_of_one_state_begin_late(profile, beta, friction):
     for part in (1e-5, 0.3, 0.75, 0.99):
-        assert "let the bodies slide" in refused_zones(profile, beta, friction, part)
+        message = refused(profile, beta, friction, part)
+        assert "let them slide (sliding = 1 or -1)" in message and len(message.split()) <= 40
+    slides = replace(scene(profile, beta, friction), tangential_load=0.0, sliding=1)
+    assert sie.solve(slides).check().ok
 
 
 def test_certificate_is_not_ok_where_slip_would_oppose_the_load():
     search, Q = solved(None, 0.3, 2.0, 0.9).tangential_search, 1.0
-    state = ShearedContact(search, search._newton(search.start(Q), Q), Q, 1.0, 1.0)
+    state = ShearedContact(search, next_to(search, search.start(Q), Q).trial, Q, 1.0, 1.0)
     assert search.least_slip(state.trial) < 0.0
     assert not sheared_certificate(state, scene(None, 0.3, 2.0, 0.5), 1e-13).ok
 
@@ -142,10 +135,6 @@ def test_certificate_is_not_ok_with_an_edge_moved(edge, part):
     edges[edge] += 1e-6
     wrong = replace(right.coupled[1], trial=search.trial(edges, right.tangential_load))
     assert not sheared_certificate(wrong, right.scene, 1e-13).ok
-
-
-def test_sliding_is_advised_where_surfaces_beside_the_first_contact_are_the_last_to_slip():
-    assert "let the bodies slide" in refused_zones(None, 0.43, 9.0, 0.9)
 
 
 @pytest.mark.parametrize(
@@ -200,13 +189,11 @@ def test_certificate_holds_next_to_corners_and_kinks(profile, beta, friction, pa
 @pytest.mark.parametrize(
     ("beta", "friction", "part", "load"),
     [
-        # The stick zone is to end next to a corner, which larger loads have passed
-        (0.06213, 0.2169, 0.668, 0.2881),
-        # The last place to stick in sliding is far from a corner next to which slip turns
         (0.4872, 0.1839, -0.99, 0.1985),
+        (0.06213, 0.2169, 0.86, 0.2881),
     ],
 )
-def test_zones_are_found_on_both_sides_of_the_loads_under_which_an_edge_passes_a_corner(
+def test_zones_are_found_above_the_loads_under_which_an_edge_passes_a_corner(
     beta, friction, part, load
 ):
     solution = solved(CORNERS, beta, friction, part, load)
@@ -214,22 +201,30 @@ def test_zones_are_found_on_both_sides_of_the_loads_under_which_an_edge_passes_a
     assert keeps_friction_law(solution.coupled[1])
 
 
-def test_a_corner_that_sticks_while_slip_begins_beside_it_is_refused():
-    assert "passes a corner" in refused(CORNERS, 0.06213, 0.2169, 0.845, 0.2881)
+@pytest.mark.parametrize("part", [0.668, 0.845])
+def test_a_corner_that_sticks_while_slip_begins_beside_it_is_refused(part):
+    message = refused(CORNERS, 0.06213, 0.2169, part, 0.2881)
+    assert "a corner of the profile sticks" in message and len(message.split()) <= 40
+    assert "give a |Q| nearer to f P" in message
+    assert solved(CORNERS, 0.06213, 0.2169, 0.95, 0.2881).check().ok
+
+
+def test_sliding_is_advised_where_surfaces_beside_the_first_contact_are_the_last_to_slip():
+    assert "let them slide" in refused(None, 0.43, 9.0, 0.9)
 
 
 def test_zones_that_pass_a_corner_under_a_falling_load_exceed_friction_beside_it():
     right = solved(CORNERS, 0.06213, 0.2169, 0.86, 0.2881)
     search, Q = right.tangential_search, 0.865 * right.tangential_load / 0.86
     # Four edges that meet the same conditions as those of the load, with e1 beside the corner
-    other = search.next_to(0.4 * np.array([-1.020514, -0.9945276, 0.1317205, 1.0177226]), Q)
+    other = next_to(search, 0.4 * np.array([-1.020514, -0.9945276, 0.1317205, 1.0177226]), Q)
     assert not keeps_friction_law(ShearedContact(search, other.trial, Q, 1.0, 1.0))
 
 
 @pytest.mark.parametrize(("beta", "friction"), [(0.36, 0.57), (0.3, 0.3)])
 def test_a_small_load_is_refused_in_few_trials(monkeypatch, beta, friction):
     found = trials_of(monkeypatch, lambda: solved(None, beta, friction, 0.5).coupled)
-    assert trials_of(monkeypatch, lambda: refused_zones(None, beta, friction, 1e-5)) < 20 * found
+    assert trials_of(monkeypatch, lambda: refused(None, beta, friction, 1e-5)) < 20 * found
 
 
 def almost_flat(beta, friction, part, round_part, half_flat=1.0):
@@ -251,7 +246,7 @@ def test_slip_gradient_beside_an_almost_flat_base_is_not_cut_down_to_rounding():
 
 
 def test_zones_beside_an_almost_flat_base_are_found_from_incipient_sliding(monkeypatch):
-    monkeypatch.setattr(tangential, "unless_late", lambda search, now, Q: now)
+    monkeypatch.setattr(load_path, "_unless_late", lambda search, now, Q: now)
     # The stick zone at 0.99 f P is seven times as wide as the rounded part of the contact.
     solution = almost_flat(0.27, 0.85, part=0.99, round_part=2.5e-4)
     certificate = solution.check()
@@ -263,9 +258,8 @@ def test_zones_beside_an_almost_flat_base_are_found_from_incipient_sliding(monke
 @pytest.mark.parametrize("part", [0.3, 0.99])
 def test_a_load_beside_an_almost_flat_base_is_refused_where_zones_begin_late(part):
     """Slip opposes Q up to 0.97 f P."""
-    search = almost_flat(0.27, 0.85, part=part, round_part=2.5e-4).tangential_search
-    with pytest.raises(sie.ContactError, match="let the bodies slide"):
-        search.found(part * search.limit)
+    with pytest.raises(sie.ContactError, match="let them slide"):
+        _ = almost_flat(0.27, 0.85, part=part, round_part=2.5e-4).edges
 
 
 @pytest.mark.parametrize("part", [1e-6, 1e-3, 0.5])
@@ -335,7 +329,7 @@ def test_a_tangential_load_under_a_profile_that_is_not_symmetric_is_refused():
 
 def test_paths_are_refused_with_what_is_missing():
     path = sie.Path([(1.0, 0.1), (1.0, 0.0)])
-    with pytest.raises(sie.ContactError, match="P grows and then Q alone"):
+    with pytest.raises(sie.ContactError, match="load P first, then Q"):
         sie.follow(scene(part=0.0), path)
 
 

@@ -14,7 +14,7 @@ from sheared_cases import PROFILES, solved, trials_of, zones
 import sie
 from sie.friction.coupled import energy
 from sie.friction.coupled.energy import CERTIFIED, START, Growth, _integral, _power
-from sie.friction.coupled.sheared_contact import found_state
+from sie.friction.coupled.load_path import found_state
 from sie.friction.coupled.slip_rate import SlipRate
 
 # -- the state -------------------------------------------------------------------------------------
@@ -122,18 +122,6 @@ def test_energy_is_refused_where_states_below_the_least_load_count(monkeypatch):
 
 def growth(solution):
     return Growth(solution.coupled[1], partial(found_state, solution.tangential_search))
-
-
-def test_energy_asks_for_no_state_whose_contact_spreads_over_stick(monkeypatch):
-    """Each takes a march of its own, and its zones have no power here."""
-
-    def spreading(search, Q):
-        pytest.fail(f"a march up to Q = {Q:.3g}")
-
-    monkeypatch.setattr("sie.solution.spreading_state", spreading)
-    solution = solved(beta=0.25, friction=2.0, part=0.6)
-    with pytest.raises(sie.ContactError, match="sum over the states under smaller loads"):
-        _ = solution.energy_lost
 
 
 def test_energy_finds_each_state_from_those_next_to_it(monkeypatch):

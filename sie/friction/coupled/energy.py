@@ -34,6 +34,7 @@ from sie.problem.coverage import refused_slip
 from sie.progress_bar import reported, step_done
 
 from .integral import RATIO, integral, towards_ends
+from .iteration import next_to
 from .sheared import ShearedContact
 from .slip_rate import LEVELS, SlipRate
 from .tangential import Trial
@@ -96,7 +97,7 @@ class Growth:
             for few in (len(near), 1):
                 edges = np.array([self._known[v][0] for v in near[:few]])
                 guess = _interpolation(np.array(near[:few]), u) @ edges
-                root = root or self.search.next_to(guess, Q, slopes, SETTLED)
+                root = root or next_to(self.search, guess, Q, slopes, SETTLED)
             if root and root.slopes is not None:
                 step = np.linalg.solve(root.slopes, root.trial.missed)
                 # Next to a corner of the profile derivatives may belong to other edges

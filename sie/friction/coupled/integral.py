@@ -48,9 +48,9 @@ def integral(function: Callable[[Array], Array], cuts: Array) -> Integral:
     return Integral(cuts, series, np.append(0.0, np.cumsum(series.sum(axis=1))[:-1]))
 
 
-def towards_ends(lo: float, hi: float, inner: Array, nearest: float = NEAREST) -> Array:
+def towards_ends(lo: float, hi: float, inner: Array) -> Array:
     """Cuts of [lo, hi] that shrink towards both ends, with those inside."""
-    levels = math.ceil(math.log(1.0 / nearest) / math.log(RATIO))
+    levels = math.ceil(math.log(1.0 / NEAREST) / math.log(RATIO))
     near = 0.5 * (hi - lo) * RATIO ** -np.arange(levels, -0.5, -1.0)
     cuts = np.concatenate(([lo], lo + near, hi - near, [hi], inner[(inner > lo) & (inner < hi)]))
     return np.unique(cuts)

@@ -1,30 +1,37 @@
-"""States under other loads, from that under one: steps of ln tan φ, Q = f P sin²φ.
+"""The state under a tangential load, whose zones may be found from those under other loads.
 
-Next to Q = 0 the edges leave those of the normal load like powers of tan φ, and next to f P like
-powers of cot φ those of sliding, so that the change of each is continued as a power. Where slip
-begins to oppose Q on the way down, no state follows: the load is found, to be named.
+Other loads are followed in steps of ln tan φ, Q = f P sin²φ. Next to Q = 0 the edges leave those of
+the normal load like powers of tan φ, and next to f P like powers of cot φ those of sliding, so that
+the change of each is continued as a power. Where slip begins to oppose Q on the way down, no state
+follows that depends on Q alone: the load is found, to be named.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sized
-from typing import Generic, Protocol, TypeVar
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
+from sie.contact.inequalities import TOLERATED
+from sie.contact.known_contact import Edges
 from sie.numerics.root_finding import false_position
-from sie.problem.coverage import refused_load
+from sie.problem.coverage import refused_load, refused_slip
+from sie.problem.scene import Scene
+from sie.progress_bar import reported
 
-from .iteration import SETTLED, Missing, Root
+from .iteration import SETTLED, next_to
+from .sheared import ShearedContact
+from .tangential import TangentialSearch, Trial
 
 Array = NDArray[np.float64]
 
 # Steps: the first one, the shortest and the longest one, and how much longer the next one is
 STRIDE, SHORTEST, LONGEST, LONGER = 0.7, 1e-2, 2.0, 1.5
 ROUGHLY = 1e-6  # of the conditions, on the way
-NAMED = 3e-3  # of ln tan φ, or of the slip: the error of the least load that is named
+NAMED = 3e-3  # of ln tan φ: the error of the least load that is named
+AT_EDGE = 1e-4  # half-widths: nearer to the edge under P alone, e1 has ended there
 
 # Of f P: where slip along Q in both zones begins above it, the zones depend on Q alone only above
 # some larger load. On the grid of `oracles/sheared_grid.py` they do so from that load on in 16
@@ -32,51 +39,78 @@ NAMED = 3e-3  # of ln tan φ, or of the slip: the error of the least load that i
 # 1.00 to 1.09 times that load in 10 of 11 in which it is 0.51 to 0.86 f P
 LATE = 0.4
 
-T = TypeVar("T", bound=Missing)
+
+def sheared_contact(scene: Scene, search: TangentialSearch) -> tuple[Edges, ShearedContact]:
+    """The edges and the state under the scene's Q.
+
+    Raises ContactError where none is found, or slip since P would oppose Q.
+    """
+    sign = math.copysign(1.0, scene.beta)
+    flip = math.copysign(1.0, sign * scene.tangential_load)
+    state = replace(found_state(search, abs(scene.tangential_load)), sign=sign, flip=flip)
+    P = search.normal.load
+    moment = state.axis * P + flip * state.moment
+    edges = Edges(state.contact, P, moment, 0.0, (False, False), 0.0, 0.0, 0.0, 0)
+    return edges, state
 
 
-class Search(Protocol[T]):
-    """What finds a state next to given edges."""
+def found_state(search: TangentialSearch, Q: float) -> ShearedContact:
+    """The state under Q > 0 with β > 0.
 
-    @property
-    def beta(self) -> float:
-        """Dundurs' β."""
-
-    @property
-    def friction(self) -> float:
-        """The coefficient f."""
-
-    @property
-    def limit(self) -> float:
-        """f P."""
-
-    @property
-    def corners(self) -> Sized:
-        """The corners of the profile in the contact."""
-
-    @property
-    def first_edges(self) -> Array:
-        """The edges as Q tends to 0."""
-
-    def start(self, Q: float) -> Array:
-        """Edges next to those under Q."""
-
-    def next_to(
-        self, edges: Array, Q: float, slopes: Array | None = None, settled: float = SETTLED
-    ) -> Root[T] | None:
-        """The state under Q next to these edges; None where it is not found."""
-
-    def least_slip(self, trial: T) -> float:
-        """The least slip that Q + dQ adds along Q."""
+    At a corner of the profile pressure is infinite, so that it sticks longer than what is beside
+    it: while a slip zone is open between it and the rest of the stick zone, the four edges of
+    `tangential` miss what slips.
+    """
+    state = ShearedContact(search, state_under(search, Q), Q, 1.0, 1.0)
+    if search.corners and not keeps_friction_law(state):
+        raise refused_slip(search.beta * search.friction, Q / search.limit)
+    return state
 
 
-class LoadPath(Generic[T]):
+def keeps_friction_law(state: ShearedContact) -> bool:
+    """Whether slip since P goes along Q, and q is at most f p in the stick zone."""
+    return state.least_slip >= -TOLERATED and state.least_deficit >= -TOLERATED
+
+
+@reported("zones of stick and slip")
+def state_under(search: TangentialSearch, Q: float) -> Trial:
+    """The state under Q.
+
+    Raises ContactError where none has these zones, or slip would oppose Q in them.
+    """
+    root = next_to(search, search.start(Q), Q)
+    if root is not None and search.least_slip(root.trial) >= 0.0:
+        return _unless_late(search, root.trial, Q)
+    least, opposed = math.inf, search.spreads
+    for load in () if opposed else search.first_loads:
+        if Q < least <= load:  # from there one arrives where one has been
+            continue
+        first = next_to(search, search.start(load), load, settled=ROUGHLY)
+        if first is not None and search.least_slip(first.trial) >= 0.0:
+            now, end, opposed = LoadPath(search).followed(first.trial, load, Q)
+            if end == Q:
+                return _unless_late(search, now, Q)
+            least = min(least, end)
+            # Where e1 ends at the edge of the contact of P alone, what it reached sticks below
+            opposed = opposed or now.zones.e1 + search.normal.b < AT_EDGE * search.normal.b
+            if opposed:
+                break
+        elif first is not None:
+            opposed = True
+    if opposed:
+        least = least if least <= LATE * search.limit else search.limit
+    elif search.corners:
+        raise refused_slip(search.beta * search.friction, Q / search.limit)
+    raise refused_load(search.beta * search.friction, (Q, least, search.limit))
+
+
+class LoadPath:
     """The states that a search finds one from the other."""
 
-    def __init__(self, search: Search[T]) -> None:
+    def __init__(self, search: TangentialSearch) -> None:
         self.search = search
 
-    def followed(self, now: T, load: float, Q: float) -> tuple[T, float, bool]:
+    def followed(self, now: Trial, load: float, Q: float) -> tuple[Trial, float, bool]:
         """The state under Q, in steps from that under another load.
 
         If a step finds none, it is the last one that was found, with the least load that has one,
@@ -90,7 +124,7 @@ class LoadPath(Generic[T]):
             to = end if last else place + stride
             aim = Q if last else self._load(to)
             guess = self._continued(before, (place, now), to)
-            root = self.search.next_to(guess, aim, settled=SETTLED if last else ROUGHLY)
+            root = next_to(self.search, guess, aim, settled=SETTLED if last else ROUGHLY)
             if root is None:
                 stride = 0.5 * (to - place)
                 continue
@@ -111,7 +145,7 @@ class LoadPath(Generic[T]):
         return self.search.limit / (1.0 + math.exp(-2.0 * place))
 
     def _continued(
-        self, before: tuple[float, T] | None, now: tuple[float, T], place: float
+        self, before: tuple[float, Trial] | None, now: tuple[float, Trial], place: float
     ) -> Array:
         """Edges at a place, whose changes since Q = 0 go on as powers, as between two states."""
         first = self.search.first_edges
@@ -124,8 +158,8 @@ class LoadPath(Generic[T]):
         continued: Array = first + here * np.where(growth > 0.0, np.abs(growth), 1.0) ** part
         return continued
 
-    def _least_load(self, opposing: tuple[float, T], along: tuple[float, T]) -> float:
-        """The load under which the least slip passes zero, between those of two states."""
+    def _least_load(self, opposing: tuple[float, Trial], along: tuple[float, Trial]) -> float:
+        """The least load that was found whose slip is along Q, between those of two states."""
         (a, one), (b, other) = opposing, along
         ends = self.search.least_slip(one), self.search.least_slip(other)
         slopes: Array | None = None
@@ -133,7 +167,7 @@ class LoadPath(Generic[T]):
         def least(place: float) -> float:
             nonlocal slopes, opposing, along
             guess = self._continued(opposing, along, place)
-            root = self.search.next_to(guess, self._load(place), slopes, ROUGHLY)
+            root = next_to(self.search, guess, self._load(place), slopes, ROUGHLY)
             if root is None:
                 return -1.0
             slip, slopes = self.search.least_slip(root.trial), root.slopes
@@ -143,13 +177,11 @@ class LoadPath(Generic[T]):
                 along = place, root.trial
             return slip
 
-        def settled(a: float, b: float, missed: float) -> bool:
-            return b - a < NAMED or abs(missed) < NAMED
-
-        return self._load(false_position(least, a, b, ends, settled))
+        false_position(least, a, b, ends, lambda a, b, _: b - a < NAMED)
+        return self._load(along[0])
 
 
-def unless_late(search: Search[T], now: T, Q: float) -> T:
+def _unless_late(search: TangentialSearch, now: Trial, Q: float) -> Trial:
     """The state under Q; ContactError where slip would oppose Q under LATE f P.
 
     The same holds where the zones, followed down from Q, end above LATE f P. At corners of the
@@ -158,12 +190,12 @@ def unless_late(search: Search[T], now: T, Q: float) -> T:
     late = LATE * search.limit
     if late >= Q:
         return now
-    root = search.next_to(search.start(late), late, settled=ROUGHLY)
+    root = next_to(search, search.start(late), late, settled=ROUGHLY)
     if root is not None:
         opposed = search.least_slip(root.trial) < 0.0
     else:
         _, end, opposed = LoadPath(search).followed(now, Q, late)
         opposed = opposed or (end > late and not search.corners)
     if opposed:
-        raise refused_load(search.beta * search.friction, (Q, search.limit, search.limit), True)
+        raise refused_load(search.beta * search.friction, (Q, search.limit, search.limit))
     return now

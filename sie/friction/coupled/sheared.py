@@ -64,11 +64,6 @@ class ShearedContact:
     # -- zones and loads ---------------------------------------------------------------------------
 
     @property
-    def spreads(self) -> bool:
-        """Whether the slip of the normal load goes on in a strip at an edge that spreads."""
-        return False
-
-    @property
     def axis(self) -> float:
         return self.search.normal.axis
 
@@ -308,15 +303,6 @@ class ShearedContact:
             return self.turn * g
 
         return on_line(value, x)
-
-    @property
-    def unchanged(self) -> float:
-        """The distance from the axis up to which what sticks kept γ of P alone."""
-        return self.search.normal.b
-
-    def kept_gradient(self, x: Array) -> Array:
-        """E*/2 g' with which places stick that the contact gained: with these zones none does."""
-        return np.zeros(len(x))
 
     # -- beside the contact ------------------------------------------------------------------------
 

@@ -30,21 +30,17 @@ from numpy.typing import NDArray
 
 from sie.contact.edge_integrals import edge_integrals
 from sie.contact.known_contact import Edges
-from sie.errors import ContactError
 from sie.numerics.interval import EPS, Interval
-from sie.problem.coverage import refuse_corners, refused_load
+from sie.problem.coverage import refuse_corners
 from sie.problem.scene import Scene
 from sie.profiles.resolution import refined
 from sie.profiles.slope import Slope
-from sie.progress_bar import reported
 from sie.traction.on_panels import SlidingDensity
 from sie.traction.panels import Panels
 from sie.traction.piece_quadrature import SlidingGeometry
 
 from .contact import CoupledContact
 from .gradient import SlipGradient, Tabulated, tabulated
-from .iteration import SETTLED, Root, iterated
-from .load_path import LATE, ROUGHLY, LoadPath, unless_late
 from .slip_rate import SlipRate
 from .zones import Rule, StickProblem, Zones, stick_rule
 
@@ -57,7 +53,7 @@ DEEP, FEW, APART, DEEPEST, RATIO = 1e-12, 8, 1e-9, 1e-17, 3.0
 NOWHERE = np.zeros(0)
 WINDOW = 1.02  # times the widest contact: where the slope is resolved
 FIRST = (0.5, 0.99, 0.9, 0.1)  # parts of f P from which the load is followed
-AT_EDGE, ROUNDED = 1e-4, 0.15  # half-widths; of the places looked at, those beside a flat base
+ROUNDED = 0.15  # of the places looked at, those beside a flat base
 # Of the room about the last point to stick: zones that fit in it, the short ones beside flat bases
 FITTING = (0.3, 0.1, 0.03)
 # Half-widths: nearer edges pass a corner of the profile; others keep such a part of the distance
@@ -96,7 +92,7 @@ class Trial(NamedTuple):
 class TangentialSearch:
     """The search for the four edges, on the profile with its axis at 0.
 
-    `iterated` moves them as far as `room` and `ahead` allow.
+    `iteration` moves them as far as `room` and `ahead` allow.
 
     normal          the state under P alone
     slope           h' on the profile
@@ -223,35 +219,6 @@ class TangentialSearch:
 
     # -- the search --------------------------------------------------------------------------------
 
-    @reported("zones of stick and slip")
-    def found(self, Q: float, *, arrived: bool = False) -> Trial:
-        """The state under Q; `arrived` tells that a march over smaller loads has led to its zones.
-
-        Raises ContactError where none has these zones, or slip would oppose Q in them.
-        """
-        answer = self._newton(self.start(Q), Q)
-        if answer is not None and self.least_slip(answer) >= 0.0:
-            return answer if arrived else unless_late(self, answer, Q)
-        least, opposed = math.inf, self._spreads
-        for load in () if opposed else self._first_loads:
-            if Q < least <= load:  # from there one arrives where one has been
-                continue
-            first = self._newton(self.start(load), load, ROUGHLY)
-            if first is not None and self.least_slip(first) >= 0.0:
-                now, end, opposed = LoadPath(self).followed(first, load, Q)
-                if end == Q:
-                    return now if arrived else unless_late(self, now, Q)
-                least = min(least, end)
-                # Where e1 ends at the edge of the contact of P alone, what it reached sticks below
-                opposed = opposed or now.zones.e1 - self._bounds[0] < AT_EDGE * self.normal.b
-                if opposed:
-                    break
-            elif first is not None:
-                opposed = True
-        if opposed:
-            least = least if least <= LATE * self.limit else self.limit
-        raise refused_load(self.beta * self.friction, (Q, least, self.limit), opposed)
-
     def least_slip(self, trial: Trial) -> float:
         """The least slip that Q + dQ adds along Q in a slip zone, over the largest."""
         return SlipRate(trial.zones, self.beta, self.friction).least
@@ -277,12 +244,12 @@ class TangentialSearch:
         return x
 
     @property
-    def _spreads(self) -> bool:
+    def spreads(self) -> bool:
         """Whether surfaces beside the contact of P alone are the last to slip."""
         return bool(self._last_stick[0] == self._looked_at[0])
 
     @property
-    def _first_loads(self) -> tuple[float, ...]:
+    def first_loads(self) -> tuple[float, ...]:
         """Loads to follow; the stick zones of the last ones are far from both of their bounds."""
         (lo, hi), (x0, half) = self._bounds, self._last_stick
         room = min(x0 - lo, hi - x0, half) / half
@@ -324,21 +291,6 @@ class TangentialSearch:
             min(e2, hi - near * (1.0 - hi / b) - EPS * b, x2 - near),
         )
         return np.array([x1, e1, e2, x2])
-
-    def _newton(self, edges: Array, Q: float, settled: float = SETTLED) -> Trial | None:
-        root = self.next_to(edges, Q, settled=settled)
-        return root.trial if root else None
-
-    def next_to(
-        self, edges: Array, Q: float, slopes: Array | None = None, settled: float = SETTLED
-    ) -> Root[Trial] | None:
-        """The state under Q next to these edges, as `iterated` finds it; None where it does not."""
-        try:
-            # Edges that are tried may lie so near to each other that nothing is finite
-            with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
-                return iterated(lambda at: self.trial(at, Q), edges, self, slopes, settled)
-        except (ArithmeticError, np.linalg.LinAlgError, ContactError):
-            return None
 
     def ahead(self, edges: Array, step: Array) -> Array:
         """The edges after a step; the stick zone moves in the logarithm of the room to its bounds.

@@ -55,10 +55,6 @@ class Zones(NamedTuple):
     x2: float
 
     @property
-    def ascending(self) -> bool:
-        return self.x1 < self.e1 < self.e2 < self.x2
-
-    @property
     def stuck(self) -> float:
         """The length of the stick zone."""
         return self.e2 - self.e1
