@@ -15,7 +15,7 @@ from sie.inheritance import override
 from . import fitting
 from .base import Profile, of_any_x
 from .slope import Slope
-from .splines import cross_validated, explains, interpolating_spline, smoothing_spline
+from .splines import Spline, cross_validated, explains, interpolating_spline, smoothing_spline
 from .trace_files import Column, read_trace
 from .trace_values import Mended, Smoothing, checked, scaled, smoothing_of
 
@@ -57,7 +57,8 @@ class Sampled(Profile):
     -----
     The smoothing spline minimises Σ(h - f(x))² + λ ∫f''² dx. h' is a quadratic polynomial on each
     piece. Nothing is known beyond the ends of the trace: a contact that would reach an end raises
-    `ContactError`, as the end of a trace is no corner of the indenter.
+    `ContactError`, as the end of a trace is no corner of the indenter. `Periodic` repeats a trace:
+    where its ends meet, by a periodic spline.
 
     References
     ----------
@@ -188,8 +189,7 @@ class Sampled(Profile):
         return float(self.smoothing)
 
     @cached_property
-    def _spline(self) -> tuple[Array, Array]:
-        """(breaks, coefficients of h about the left end of each piece, low order first)."""
+    def _spline(self) -> Spline:
         if self.lam:
             return smoothing_spline(self.points, self.heights, self.lam)
         return interpolating_spline(self.points, self.heights)
@@ -197,17 +197,12 @@ class Sampled(Profile):
     @cached_property
     def pieces(self) -> Slope:
         """H of the spline, a parabola between neighbouring points."""
-        breaks, c = self._spline
-        return Slope(breaks, breaks[:-1], c[:, 1:] * np.arange(1.0, 4.0), np.full(len(c), 2))
+        return self._spline.slope
 
     @of_any_x
     @override
     def height(self, x: Array) -> Array:
-        breaks, c = self._spline
-        k = np.clip(np.searchsorted(breaks, x, side="right") - 1, 0, len(c) - 1)
-        u = x - breaks[k]
-        h = c[k, 0] + u * (c[k, 1] + u * (c[k, 2] + u * c[k, 3]))
-        return np.where((x < breaks[0]) | (x > breaks[-1]), INF, h)
+        return self._spline(x)
 
     @property
     @override

@@ -16,6 +16,81 @@ from sie.contact import normal
 from sie.io import scene_file
 from sie.io.mesh_result import read_mesh
 
+# -- repeated --------------------------------------------------------------------------------------
+
+
+def cosine(x):
+    return 0.01 * np.cos(2.0 * np.pi * x) + 0.002 * np.sin(6.0 * np.pi * x)
+
+
+@pytest.mark.parametrize("last", [1.0, 0.995], ids=["ends in the same place", "ends a step before"])
+@pytest.mark.parametrize(
+    "made",
+    [
+        lambda x: sie.Sampled(x, cosine(x)),
+        lambda x: sie.Sampled(-x[::-1], cosine(x[::-1])).mirrored(),
+        lambda x: sie.Sampled(x, cosine(x) - 0.02 * x).tilted(0.02),
+    ],
+    ids=["trace", "mirrored", "tilted"],
+)
+def test_a_repeated_trace_presses_as_its_function_over_the_seam(made, last):
+    """The seam, at 0.41, lies inside a patch."""
+    x = 0.41 + np.linspace(0.0, last, round(200 * last) + 1)
+    traced, exact = (
+        sie.solve(sie.Scene(profile=sie.Periodic(one, 1.0), modulus=1.0, normal_load=0.01))
+        for one in (made(x), sie.FromFunction("-0.02*pi*sin(2*pi*x) + 0.012*pi*cos(6*pi*x)"))
+    )
+    assert not any("do not meet" in note for note in traced.notes)
+    places = np.linspace(0.0, 1.0, 301)
+    assert traced.check().ok
+    assert traced.pressure(places) == pytest.approx(exact.pressure(places), abs=3e-5)
+
+
+@pytest.mark.parametrize(
+    ("smoothing", "apart"),
+    [(0.0, 1e-15), (1e-8, 1e-15), (1e-4, 1e-13), (1e-1, 1e-8)],  # the last with a knot in 4 points
+)
+def test_a_repeated_trace_does_not_depend_on_where_its_period_begins(smoothing, apart):
+    x = np.linspace(0.0, 1.0, 101)[:-1]
+    h = cosine(x) + 1e-4 * np.random.default_rng(4).standard_normal(100)
+    one = sie.Periodic(sie.Sampled(x, h, smoothing), 1.0)
+    other = sie.Periodic(
+        sie.Sampled(np.append(x[37:], x[:37] + 1.0), np.append(h[37:], h[:37]), smoothing), 1.0
+    )
+    assert not one.joint and not other.joint
+    places = np.linspace(-0.2, 0.3, 97)
+    assert one.height(places) == pytest.approx(other.height(places), abs=apart)
+    assert one.slope(places) == pytest.approx(other.slope(places), abs=1e3 * apart)
+    left = 1.0 / (1.0 + 0.01 * smoothing * (2.0 * np.pi) ** 4)  # of the longest wave
+    waves = 2.0 * np.fft.rfft(one.height(x))[1].real / 100.0
+    assert waves == pytest.approx(0.01 * left, abs=5e-5)
+
+
+@pytest.mark.parametrize(
+    ("h", "period", "says"),
+    [
+        (lambda x: cosine(x) + 0.004 * x, 1.0, r"height by -0.0040. \(.* with a corner"),
+        (lambda x: (x - 0.5) ** 2, 1.0, r"height by .*, slope by -2 \(.* with a corner"),
+        (cosine, 1.2, "with 0.2 without indenter"),
+    ],
+)
+def test_a_repeated_trace_whose_ends_do_not_meet_says_by_how_much(h, period, says):
+    x = np.linspace(0.0, 1.0, 41)
+    profile = sie.Periodic(sie.Sampled(x, h(x)), period)
+    assert re.search(f"the ends of the trace do not meet at x = .*{says}", profile.joint)
+    assert (
+        profile.joint in sie.solve(sie.Scene(profile=profile, modulus=1.0, normal_load=2e-3)).notes
+    )
+
+
+@pytest.mark.parametrize("jump", [False, True])
+def test_the_slope_of_a_noisy_trace_meets_within_its_noise(jump):
+    x = np.linspace(0.0, 1.0, 401)
+    h = (x - 0.5) ** 2 if jump else cosine(x)
+    noisy = h + 1e-4 * np.random.default_rng(2).standard_normal(401)
+    assert bool(sie.Periodic(sie.Sampled(x, noisy, "gcv"), 1.0).joint) == jump
+
+
 # -- several patches -------------------------------------------------------------------------------
 
 
