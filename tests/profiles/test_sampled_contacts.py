@@ -91,6 +91,77 @@ def test_the_slope_of_a_noisy_trace_meets_within_its_noise(jump):
     assert bool(sie.Periodic(sie.Sampled(x, noisy, "gcv"), 1.0).joint) == jump
 
 
+# -- units and sides of a file ---------------------------------------------------------------------
+
+ROWS = [(0.5 * k, 2.0 + 0.1 * (k - 4) ** 2) for k in range(9)]
+STYLUS = "Stylus,Radius: 2.5 µm\r\nLocation,0.0 um, 0.0 um\r\n\r\nLateral um,Raw Micrometer,\r\n"
+HEADS = {
+    "stylus": (STYLUS, ",", ",,\r\n", "latin-1"),
+    "a line of units and a count": ("µm µm\n9\n", ",   ", "\n", "utf-8"),
+    "brackets": ("x [um]\tz (µm)\n", "\t", "\n", "utf-8"),
+    "comment": ("# x_um z_um\n", "   ", "\n", "utf-8"),
+}
+
+
+def scan(folder, head):
+    before, between, end, encoding = HEADS[head]
+    file = folder / "scan.csv"
+    text = before + "".join(f"{x:.3e}{between}{z:.3e}{end}" for x, z in ROWS)
+    file.write_bytes(text.encode(encoding))
+    return file
+
+
+@pytest.mark.parametrize("head", HEADS)
+def test_units_in_a_head_are_used_and_contradicted_in_a_sentence(head, tmp_path):
+    file, (x, z) = scan(tmp_path, head), np.transpose(ROWS)
+    read = sie.Sampled.read(file, length="mm")
+    assert read.points == pytest.approx(1e-3 * x, rel=1e-14)
+    assert read.heights == pytest.approx(1e-3 * z, rel=1e-14)
+    assert read == sie.Sampled.read(file, scale=1e-3, length="mm")
+    assert sie.Sampled.read(file, units=("mm", "nm"), length="m").heights.max() < 1e-8
+    with pytest.raises(ValueError, match=r"x in um and h in um.*scale = .* contradicts"):
+        sie.Sampled.read(file, scale=(1e-3, 1e-6))
+    with pytest.raises(ValueError, match=r"x in um and h in um.*scale = .* contradicts"):
+        sie.Sampled.read(file, scale=1e-6, length="mm")
+    with pytest.raises(ValueError, match='give length = "mm"'):
+        sie.Sampled.read(file)
+
+
+def test_heights_of_a_surface_are_turned_over_once(tmp_path):
+    file, (_, z) = scan(tmp_path, "comment"), np.transpose(ROWS)
+    surface = sie.Sampled.read(file, length="mm", heights="surface")
+    assert surface.heights == pytest.approx(1e-3 * (z.max() - z), rel=1e-14)
+    assert eval(repr(surface), {"Sampled": sie.Sampled}) == surface
+    with pytest.raises(ValueError, match="turns the heights over"):
+        sie.Sampled.read(file, scale=(1e-3, -1e-3), heights="surface")
+    with pytest.raises(ValueError, match='"gap" or "surface"'):
+        sie.Sampled.read(file, length="mm", heights="up")
+
+
+def test_a_scene_reads_the_units_of_its_trace_and_says_so(tmp_path, capsys):
+    scan(tmp_path, "stylus")
+    scene = tmp_path / "scene.toml"
+    text = '[profile]\nkind = "sampled"\npath = "scan.csv"\nheights = "gap"\n'
+    text += "[pair]\nmodulus = 1.0\n[load]\nnormal_load = 1e-5\n"
+    scene.write_text(text)
+    assert scene_file.read(scene).scene.profile.points[-1] == pytest.approx(4e-3, rel=1e-14)
+    assert main(["solve", str(scene), "--want", "edges"]) == 0
+    said = capsys.readouterr().out
+    assert "x in um and h in um, converted to mm; h is the gap" in " ".join(said.split())
+
+
+def test_a_scene_that_uses_units_asks_for_those_of_its_trace(tmp_path):
+    pytest.importorskip("pint")
+    np.savetxt(tmp_path / "scan.csv", ROWS, delimiter=",")
+    text = '[units]\nchecked = true\n[profile]\nkind = "sampled"\npath = "scan.csv"\n{}'
+    text += "[pair]\nmodulus = 1.0\n[load]\nnormal_load = 1e-5\n"
+    with pytest.raises(ValueError, match=r'states no units .* give units = "mm"'):
+        scene_file.parse(text.format(""), folder=tmp_path)
+    made = scene_file.parse(text.format('units = ["um", "nm"]\n'), folder=tmp_path).scene.profile
+    assert made.points[-1] == pytest.approx(4e-3, rel=1e-14)
+    assert made.heights.max() == pytest.approx(3.6e-6, rel=1e-14)
+
+
 # -- several patches -------------------------------------------------------------------------------
 
 
@@ -147,7 +218,7 @@ def test_a_rough_trace_costs_at_most_one_search_for_one_patch(load, monkeypatch)
 @pytest.mark.parametrize(
     ("h", "says"),
     [
-        (-H, r"arches upwards.*scale = \(1, -1\)"),
+        (-H, 'arches upwards.*heights = "surface"'),
         (0.0 * X + 3.0, "straight line"),
         (0.2 * X - 1e6, "straight line"),
         (H - 4.0 * X, "lowest at its end.*levelled"),
@@ -158,7 +229,7 @@ def test_a_rough_trace_costs_at_most_one_search_for_one_patch(load, monkeypatch)
 def test_a_contact_at_the_end_of_a_trace_is_refused_with_the_trace_s_own_reason(h, says):
     with pytest.raises(sie.ContactError, match=says) as refused:
         pressed(sie.Sampled(X, h), 1.0).edges  # noqa: B018 -- computes it
-    assert ("other sign" in str(refused.value)) == ("arches" in says)
+    assert ("hollow" in str(refused.value)) == ("arches" in says)
 
 
 @pytest.mark.parametrize("sign", [-1.0, 1.0])
