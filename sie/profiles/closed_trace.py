@@ -152,9 +152,9 @@ def seam(part: Placed, period: float) -> Seam:
     size = float(np.abs(h).max())
     rounding = ROUNDING * size, ROUNDING * size / float(np.diff(x).min())
     largest = np.abs(usual).max(axis=0, initial=0.0).tolist()
-    bars = tuple(map(max, largest, rounding))
+    bars = max(largest[0], rounding[0]), max(largest[1], rounding[1])
     left = float(end - x[-1]) if any(g.hi == end for g in gap) else 0.0
-    return Seam(float(end), *jump.tolist(), bars, left)
+    return Seam(float(end), float(jump[0]), float(jump[1]), bars, left)
 
 
 def _differences(x: Array, h: Array, steps: NDArray[np.int64], many: int) -> Array:

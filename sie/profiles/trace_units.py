@@ -136,7 +136,8 @@ def factors(file: str, units: tuple[str, str], length: str, scale: Any) -> Any:
     x, h = units
     if not x and not h:
         return 1.0 if scale is None else scale
-    length = length or ("mm" if x == h == "mm" else "")  # as scene files have it
+    if scale is None and x == h == "mm":
+        length = length or "mm"  # as scene files have it
     head = f"{file} has x in {x or 'no stated unit'} and h in {h or 'no stated unit'}"
     if scale is None and not (x and h):
         raise ValueError(f'{head}: state both, as units = ("{x or h}", "{x or h}")')
