@@ -5,7 +5,7 @@ from __future__ import annotations
 import pathlib
 from collections.abc import Callable, Mapping
 from functools import partial
-from typing import Any
+from typing import Any, NamedTuple
 
 from sie.messages import choices, nearest, suggestion
 from sie.profiles.base import Profile
@@ -26,7 +26,20 @@ from .scene_tables import (
 from .toml_values import number, refuse_unread, table_of, text
 
 
-def profile_of(value: Any, folder: pathlib.Path) -> Profile:
+class TraceFiles(NamedTuple):
+    """Where the files of traces are, and to what they are converted.
+
+    folder    where the scene file is
+    length    the scene's unit of length
+    ask       whether a file without units is refused, as the scene uses units
+    """
+
+    folder: pathlib.Path
+    length: str
+    ask: bool
+
+
+def profile_of(value: Any, files: TraceFiles) -> Profile:
     """The profile that a [profile] table describes. ValueError for a bad table."""
     first = dict(table_of("profile", value))
     plus = first.pop("plus", [])
@@ -36,10 +49,10 @@ def profile_of(value: Any, folder: pathlib.Path) -> Profile:
             "profile.plus is not a list of tables: "
             "write the header [[profile.plus]], in double brackets, before each term"
         )
-    total = _term("[profile]", first, folder)
+    total = _term("[profile]", first, files)
     for k, term in enumerate(plus, start=1):
         total = total + _term(
-            "[[profile.plus]]" if len(plus) == 1 else f"[[profile.plus]] number {k}", term, folder
+            "[[profile.plus]]" if len(plus) == 1 else f"[[profile.plus]] number {k}", term, files
         )
     if period is None:
         return total
@@ -47,12 +60,12 @@ def profile_of(value: Any, folder: pathlib.Path) -> Profile:
         return Periodic(total, number("period", period))
 
 
-def _term(where: str, table: dict[str, Any], folder: pathlib.Path) -> Profile:
+def _term(where: str, table: dict[str, Any], files: TraceFiles) -> Profile:
     """One term of the profile: its kind, then mirrored, tilted, shifted, raised."""
     if table.get("kind") == "row":
-        return _row(where, dict(table), folder)
+        return _row(where, dict(table), files)
     kind = _kind(where, table)
-    make, entries = _maker(kind, table, folder)
+    make, entries = _maker(kind, table, files)
     treatments = TREATMENTS if KINDS[kind] is Sampled else {}
     readers = {"kind": text, **entries.readers, **treatments, **MODIFIERS}
     values = read_values(where, table, readers, kind=f' of kind "{kind}"')
@@ -77,7 +90,7 @@ def _moved(profile: Profile, values: Mapping[str, Any]) -> Profile:
     return moved.raised(values.get("raised", 0.0))
 
 
-def _row(where: str, table: dict[str, Any], folder: pathlib.Path) -> Profile:
+def _row(where: str, table: dict[str, Any], files: TraceFiles) -> Profile:
     """Indenters on one holder, each a table under [[profile.of]]."""
     indenters = table.pop("of", [])
     tables = isinstance(indenters, list) and all(isinstance(one, dict) for one in indenters)
@@ -88,7 +101,7 @@ def _row(where: str, table: dict[str, Any], folder: pathlib.Path) -> Profile:
         )
     values = read_values(where, table, {"kind": text, **MODIFIERS}, kind=' of kind "row"')
     profiles = [
-        _term(f"[[profile.of]] number {k}", dict(one), folder)
+        _term(f"[[profile.of]] number {k}", dict(one), files)
         for k, one in enumerate(indenters, start=1)
     ]
     with Naming(where):
@@ -111,19 +124,25 @@ def _kind(where: str, table: dict[str, Any]) -> str:
 
 
 def _maker(
-    kind: str, table: dict[str, Any], folder: pathlib.Path
+    kind: str, table: dict[str, Any], files: TraceFiles
 ) -> tuple[Callable[..., Profile], Entries]:
     """The function that makes a profile of the kind, and its parameters; a trace may be a file."""
     make = KINDS[kind]
     entries, of_file = entries_of(make), entries_of_file()
     if make is Sampled and table.keys() & (of_file.readers.keys() - entries.readers.keys()):
-        return partial(_trace, folder), of_file
+        return partial(_trace, files), of_file
     return make, entries
 
 
-def _trace(folder: pathlib.Path, path: str, **options: Any) -> Sampled:
+def _trace(files: TraceFiles, path: str, **options: Any) -> Sampled:
     """A trace in a file, which is named from the scene file's folder."""
     try:
-        return Sampled.read(folder / path, **options)
+        trace = Sampled.read(files.folder / path, length=files.length, **options)
     except OSError as problem:
         refuse_unread(path, problem, "the trace's file")
+    if files.ask and not any(trace.reading.units) and "scale" not in options:
+        raise ValueError(
+            f'path = "{path}" states no units of its columns, in a scene that uses units: give '
+            f'units = "{files.length}" or another, or scale'
+        )
+    return trace

@@ -150,8 +150,10 @@ def _product(unit: str) -> str:
     return "*".join(_BETWEEN.sub(r"\1", unit).replace("·", "*").replace("⋅", "*").split())
 
 
-def in_units(top: Mapping[str, Any], labels: Mapping[str, str], checked: bool) -> dict[str, Any]:
-    """The tables of a scene file with numbers in place of quantities.
+def in_units(
+    top: Mapping[str, Any], labels: Mapping[str, str], checked: bool
+) -> tuple[dict[str, Any], bool]:
+    """The tables of a scene file with numbers in place of quantities, and whether it uses units.
 
     ValueError for a quantity of a wrong dimension, or if pint is needed and not installed.
     """
@@ -165,7 +167,7 @@ def in_units(top: Mapping[str, Any], labels: Mapping[str, str], checked: bool) -
     load = tables.get("load")
     if isinstance(load, dict) and isinstance(load.get("path"), list):
         tables["load"] = load | {"path": _rows(load["path"], load.get("columns"), convert)}
-    return tables
+    return tables, convert.registry is not None
 
 
 def _converted(where: str, value: Any, keys: Mapping[str, str], convert: Converter) -> Any:

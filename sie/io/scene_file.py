@@ -9,7 +9,9 @@
                         own, "500 N/mm" or "20 um", and is converted (`quantities`)
     [profile]           kind and its parameters; mirrored, tilted, shifted, raised, applied in this
                         order; period repeats it; of kind "sampled" x and h, or path, a file beside
-                        the scene file, and without_outliers = true, levelled = true | [lo, hi]
+                        the scene file, with units (those in its head are used without it) and
+                        heights = "gap" | "surface"; without_outliers = true,
+                        levelled = true | [lo, hi]
     [[profile.of]]      of kind "row": each indenter on the common holder, like [profile]
     [[profile.plus]]    further terms, each like [profile]: the heights add up, and modifiers act
                         on their own term
@@ -60,7 +62,7 @@ from sie.profiles.kinds import KINDS
 
 from .fatigue_table import Fatigue, fatigue_of
 from .path_table import path_of
-from .profile_tables import profile_of
+from .profile_tables import TraceFiles, profile_of
 from .quantities import in_units
 from .scene_tables import LOADS, TOP, Naming, remedy, require, values_of
 from .toml_values import text, texts
@@ -259,12 +261,13 @@ def from_tables(top: dict[str, Any], folder: pathlib.Path = HERE) -> SceneFile:
     units = values_of("units", top.get("units", {}))
     checked = units.pop("checked", False)
     labels = Units(**units)
-    top = in_units(top, vars(labels), checked)
+    top, uses_units = in_units(top, vars(labels), checked)
+    traces = TraceFiles(folder, labels.length, uses_units)
     loads = values_of("load", top["load"])
     named = loads.get("path")
     path = _path(loads, folder)
     return SceneFile(
-        scene=Scene(profile=profile_of(top["profile"], folder), **_bodies(top), **loads),
+        scene=Scene(profile=profile_of(top["profile"], traces), **_bodies(top), **loads),
         title=text("title", top.get("title", "")),
         units=labels,
         want=wants("want", texts("want", top.get("want", []))),

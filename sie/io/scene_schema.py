@@ -24,6 +24,7 @@ from sie.profiles.base import Parity, Profile
 from sie.profiles.kinds import KINDS
 from sie.profiles.row import Periodic
 from sie.profiles.sampled import Sampled
+from sie.profiles.trace_units import SIDES
 
 from . import quantities, toml_values
 from .fatigue_table import TOGETHER
@@ -56,6 +57,7 @@ SHAPES: Mapping[toml_values.Reader, Json] = {
     toml_values.rows: ROWS,
     toml_values.texts: {"type": "array", "items": TEXT},
     toml_values.rows_or_text: {"anyOf": [ROWS, TEXT]},
+    toml_values.text_or_pair: {"anyOf": [TEXT, {"type": "array", "items": TEXT}]},
     toml_values.number_or_text: {"type": ["number", "string"]},
     toml_values.number_or_pair: {"anyOf": [NUMBER, PAIR]},
     toml_values.flag_or_pair: {"anyOf": [FLAG, PAIR]},
@@ -71,6 +73,7 @@ LIMITED: Mapping[str, Json] = {
     "depth": {"anyOf": [NUMBER, NUMBERS]},
     "parity": {"enum": [*get_args(Parity)]},
     "coupling": {"enum": [*COUPLINGS]},
+    "heights": {"enum": [*SIDES]},
     "smoothing": {"anyOf": [NUMBER, {"enum": ["gcv"]}]},
     "sliding": {"enum": [-1, 0, 1]},
     "poisson": {"type": "number", "exclusiveMinimum": -1.0, "maximum": 0.5},

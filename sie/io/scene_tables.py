@@ -9,7 +9,7 @@ from __future__ import annotations
 import inspect
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any, Literal, NamedTuple
 
 from numpy.typing import ArrayLike
 
@@ -19,6 +19,7 @@ from sie.profiles.kinds import KINDS
 from sie.profiles.sampled import Sampled
 from sie.profiles.slope import Vectorised
 from sie.profiles.trace_files import Column
+from sie.profiles.trace_units import Side
 from sie.profiles.trace_values import Smoothing
 
 from .toml_values import (
@@ -34,6 +35,7 @@ from .toml_values import (
     rows_or_text,
     table_of,
     text,
+    text_or_pair,
     texts,
     whole,
 )
@@ -43,7 +45,10 @@ READERS: dict[Any, Reader] = {
     bool: flag,
     int: whole,
     float: number,
-    float | tuple[float, float]: number_or_pair,
+    str: text,
+    float | tuple[float, float] | None: number_or_pair,
+    str | tuple[str, str]: text_or_pair,
+    Side | Literal[""]: text,
     tuple[float, float]: numbers,
     tuple[float, ...]: numbers,
     Sequence[float]: numbers,
@@ -74,8 +79,9 @@ def entries_of(make: Callable[..., Any]) -> Entries:
 
 
 def entries_of_file() -> Entries:
-    """The keys of a trace in a file, which stand in place of x and h."""
-    return entries_of(Sampled.read)
+    """The keys of a trace in a file, which stand in place of x and h; [units] has its length."""
+    readers, required = entries_of(Sampled.read)
+    return Entries({key: read for key, read in readers.items() if key != "length"}, required)
 
 
 BODY: dict[str, Reader] = {"young": number, "poisson": number, "plane": text, "rigid": flag}

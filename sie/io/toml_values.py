@@ -78,6 +78,11 @@ def texts(where: str, value: Any) -> tuple[str, ...]:
     return tuple(text(f"{where}[{k}]", v) for k, v in enumerate(listed(where, value)))
 
 
+def text_or_pair(where: str, value: Any) -> str | tuple[str, ...]:
+    """A text, or a list of texts."""
+    return texts(where, value) if isinstance(value, list) else text(where, value)
+
+
 def number_or_text(where: str, value: Any) -> float | str:
     """A number or a text."""
     return value if isinstance(value, str) else number(where, value)

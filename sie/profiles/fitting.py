@@ -163,16 +163,21 @@ def line(x: Array, h: Array) -> tuple[float, float]:
     return float(h.mean()) - slope * m, slope
 
 
-def reason_at_an_end(x: Array, h: Array) -> str:
-    """A reason why contact may reach the end of the trace, and a remedy; "" if none is found."""
+def reason_at_an_end(x: Array, h: Array, side: str) -> str:
+    """A reason why contact may reach the end of the trace, and a remedy; "" if none is found.
+
+    The side that h was stated to be, "gap" or "surface", is none of the reasons.
+    """
     offset, slope = line(x, h)
     left = h - (offset + slope * x)
     if np.abs(left).max() <= STRAIGHT * np.abs(h).max():
         return "the trace is a straight line, to rounding: an indenter has to rise on both sides"
     if _arched(x, left):
         return (
-            "the trace arches upwards: heights of a surface have the other sign, "
-            "scale = (1, -1) turns them over; if h is the gap, the surface is hollow in the middle"
+            "the gap is largest in the middle of the trace: the surface is hollow there"
+            if side
+            else "the trace arches upwards, as the gap of a hollow surface; if h is the "
+            'height of a surface, read it by heights = "surface", or give -h'
         )
     if int(np.argmin(h)) in (0, len(h) - 1):
         return (
@@ -217,7 +222,7 @@ def rounded_flat(x: Array, h: Array) -> RoundedFlatFit:
     if curvature <= 0.0 or not (rises & (s < s0)).any() or not (rises & (s > s0)).any():
         raise ValueError(
             "no flat with rounded edges is near this trace: it must rise on both sides of a base; "
-            "a trace of surface heights has the other sign, scale = (1, -1) turns it over"
+            'a trace of surface heights is read by heights = "surface", or turned over as -h'
         )
     residuals = h - (scale * (model(s0, a) @ [c, t, curvature]) + h.mean())
     tilt = scale * t / r

@@ -80,7 +80,7 @@ def explained(error: ContactError, profile: Profile) -> ContactError:
     if trace is None or not error.reached:
         return error
     if "end" in error.reached:
-        advice = fitting.reason_at_an_end(trace.points, trace.heights)
+        advice = fitting.reason_at_an_end(trace.points, trace.heights, trace.reading.side)
     else:
         advice = "sie.least_smoothing(scene) finds how much smoothing makes it one patch"
     return type(error)(f"{error.args[0]}; {advice}", **error.reached) if advice else error

@@ -21,6 +21,7 @@ from sie import arguments
 from sie.inheritance import override
 
 from .base import Profile, of_any_x
+from .closed_trace import closed, open_seams
 from .derived import joined
 from .lowest_profile import finite_ends, lowest_of
 from .slope import FunctionTerm, Slope
@@ -230,7 +231,7 @@ class Periodic(Profile):
     @cached_property
     def start(self) -> float:
         """The beginning of the period of `profile` that is repeated."""
-        lo, hi = self.profile.domain
+        lo, hi = self._closed.domain
         if abs(lo) < INF:
             return lo
         if abs(hi) < INF:
@@ -238,19 +239,24 @@ class Periodic(Profile):
         return (self.profile.axis or 0.0) - 0.5 * self.repeats
 
     @cached_property
+    def _closed(self) -> Profile:
+        """The given profile, with periodic splines for its traces whose ends meet."""
+        return closed(self.profile, self.repeats)
+
+    @cached_property
     def repeated(self) -> Profile:
         """The profile that is repeated: the given one, or the lowest of it and its neighbours.
 
         The latter is taken where the ends of an unbounded one do not meet.
         """
-        if all(abs(end) < INF for end in self.profile.domain) or self._level(self.profile):
-            return self.profile
+        if all(abs(end) < INF for end in self._closed.domain) or self._level(self._closed):
+            return self._closed
         return Row([self.profile.shifted(turn * self.repeats) for turn in (-1, 0, 1)])
 
     def _level(self, profile: Profile) -> bool:
         """Whether both ends of a period are equally high."""
         x = self.start + self.repeats * np.linspace(0.0, 1.0, POINTS)
-        heights = profile.height(x)
+        heights = profile.height(np.clip(x, *profile.domain))  # the last x is rounded
         size = np.abs(heights[np.isfinite(heights)]).max(initial=0.0)
         return bool(abs(heights[-1] - heights[0]) <= LEVEL * size)
 
@@ -274,18 +280,17 @@ class Periodic(Profile):
 
     @property
     def joint(self) -> str:
-        """A sentence on a trace whose ends do not meet where it is repeated, or ""."""
-        lo, hi = self.pieces.domain
-        if not any(a == hi for a, _ in self.walls) or all(self.repeated.ends_are_corners):
+        """A sentence on the traces whose ends do not meet where they are repeated, or ""."""
+        seams = open_seams(self.profile, self.repeats)
+        if not seams:
             return ""
-        first, last = self.repeated.height(np.array([lo, hi])).tolist()
-        rise = f"{abs(first - last):.4g} {'higher' if first > last else 'lower'}"
-        left = self.start + self.repeats - hi
-        between = f" beyond {left:.4g} without indenter" if left > WHOLE * self.repeats else ""
+        hi = self.pieces.domain[1]
+        left = seams[0].left
+        how = f"with {left:.4g} without indenter" if left else "with a corner"
         return (
-            f"note: the trace begins {rise} than it ends, and repeats at x = {hi:.6g}{between}: "
-            "that is a corner, and contact there has an infinite pressure; cut the trace between "
-            "two places of one height and slope"
+            f"note: the ends of the trace do not meet at x = {hi:.6g}, it jumps in {seams[0]}: it "
+            f"repeats {how}, where contact has an infinite pressure; cut it between two places of "
+            "one height and slope"
         )
 
     def within(self, x: Array) -> Array:

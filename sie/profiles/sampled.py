@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
+from typing import Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -15,8 +16,9 @@ from sie.inheritance import override
 from . import fitting
 from .base import Profile, of_any_x
 from .slope import Slope
-from .splines import cross_validated, explains, interpolating_spline, smoothing_spline
+from .splines import Spline, cross_validated, explains, interpolating_spline, smoothing_spline
 from .trace_files import Column, read_trace
+from .trace_units import Reading, Side, as_gap, factors, side_of, stated
 from .trace_values import Mended, Smoothing, checked, scaled, smoothing_of
 
 Array = NDArray[np.float64]
@@ -47,6 +49,8 @@ class Sampled(Profile):
         The trace, mended if that was asked for; both read-only.
     mended : Mended
         What `mend` did: `left_out`, `averaged` (numbers of points) and `sorted` (bool).
+    reading : Reading
+        How a file was read: `file`, `units`, `length`, `side`; empty without one.
 
     Raises
     ------
@@ -57,7 +61,8 @@ class Sampled(Profile):
     -----
     The smoothing spline minimises Σ(h - f(x))² + λ ∫f''² dx. h' is a quadratic polynomial on each
     piece. Nothing is known beyond the ends of the trace: a contact that would reach an end raises
-    `ContactError`, as the end of a trace is no corner of the indenter.
+    `ContactError`, as the end of a trace is no corner of the indenter. `Periodic` repeats a trace:
+    where its ends meet, by a periodic spline.
 
     References
     ----------
@@ -78,6 +83,7 @@ class Sampled(Profile):
     smoothing: Smoothing
     mended: Mended
     source: str
+    reading: Reading
 
     def __init__(
         self, x: ArrayLike, h: ArrayLike, smoothing: Smoothing = 0.0, mend: bool = False
@@ -90,15 +96,19 @@ class Sampled(Profile):
         object.__setattr__(self, "smoothing", smoothing_of(smoothing, points))
         object.__setattr__(self, "mended", mended)
         object.__setattr__(self, "source", "")
+        object.__setattr__(self, "reading", Reading())
 
     @classmethod
     def read(
         cls,
         path: str | Path,
         columns: tuple[Column, Column] = (0, 1),
-        scale: float | tuple[float, float] = 1.0,
+        scale: float | tuple[float, float] | None = None,
         skip: int = 0,
         *,
+        units: str | tuple[str, str] = "",
+        heights: Side | Literal[""] = "",
+        length: str = "",
         smoothing: Smoothing = 0.0,
         mend: bool = False,
     ) -> Sampled:
@@ -110,12 +120,20 @@ class Sampled(Profile):
             Text in columns, or (with the extra `traces`) a format that SurfaceTopography reads.
         columns : pair of int or str, default (0, 1)
             The columns of x and h, by number from 0 or by name in the header. For text only.
-        scale : float or pair of float, default 1
-            One factor for x and h, or one for each: 1e-3 makes mm of µm, and a negative factor
-            for h makes the gap of a surface's height.
+        scale : float or pair of float, optional
+            One factor for x and h, or one for each, in place of units: 1e-3 makes mm of µm. A
+            negative factor for h turns the heights of a surface over.
         skip : int, default 0
             Lines at the top that are no part of the table. Comments (#, %) and headers are passed
             over without it. For text only.
+        units : str or pair of str, optional
+            The unit of the columns of the file, or of x and of h, like "um" or ("mm", "um"). Those
+            that the head of the file states are used without it.
+        heights : {"gap", "surface"}, optional
+            What the column h is: the gap, or the height z of a surface, positive out of the
+            material, whose gap max z - z is. The gap if it is not stated.
+        length : str, optional
+            The unit of lengths of the scene, to which the units are converted; mm need none.
         smoothing : float or "gcv", default 0
             As in `Sampled`.
         mend : bool, default False
@@ -129,21 +147,29 @@ class Sampled(Profile):
         Raises
         ------
         ValueError
-            If the file holds no trace; the message gives the numbers of the lines.
+            If the file holds no trace; the message gives the numbers of the lines. If it states
+            units and there is no length to convert them to, or a scale that contradicts them.
         OSError
             If the file cannot be read.
 
         Examples
         --------
-        >>> Sampled.read("pad.csv", scale=(1e-3, -1e-3))    # doctest: +SKIP
-        Sampled.read('pad.csv', scale=(0.001, -0.001))
+        >>> Sampled.read("pad.csv", units="um", length="mm", heights="surface")  # doctest: +SKIP
+        Sampled.read('pad.csv', units='um', heights='surface', length='mm')
         """
-        x, h = read_trace(path, columns, skip, keep_missing=mend)
-        made = cls(*scaled(x, h, scale), smoothing, mend)
+        x, h, in_head = read_trace(path, columns, skip, keep_missing=mend)
+        known, file, side = stated(units), Path(path).name, side_of(heights, scale)
+        known = known if any(known) else in_head
+        x, h = scaled(x, h, factors(file, known, length, scale))
+        made = cls(x, as_gap(h) if heights == "surface" else h, smoothing, mend)
+        converted, factor = length if any(known) else "", "" if scale is None else repr(scale)
         given = {
             "columns": (columns, (0, 1)),
-            "scale": (scale, 1.0),
+            "scale": (scale, None),
             "skip": (skip, 0),
+            "units": (units, ""),
+            "heights": (heights, ""),
+            "length": (converted, ""),
             "smoothing": (smoothing, 0.0),
             "mend": (mend, False),
         }
@@ -151,6 +177,7 @@ class Sampled(Profile):
             f", {name}={value!r}" for name, (value, default) in given.items() if value != default
         )
         object.__setattr__(made, "source", f"Sampled.read({str(path)!r}{options})")
+        object.__setattr__(made, "reading", Reading(file, known, converted, factor, side))
         return made
 
     def __repr__(self) -> str:
@@ -188,8 +215,7 @@ class Sampled(Profile):
         return float(self.smoothing)
 
     @cached_property
-    def _spline(self) -> tuple[Array, Array]:
-        """(breaks, coefficients of h about the left end of each piece, low order first)."""
+    def _spline(self) -> Spline:
         if self.lam:
             return smoothing_spline(self.points, self.heights, self.lam)
         return interpolating_spline(self.points, self.heights)
@@ -197,17 +223,12 @@ class Sampled(Profile):
     @cached_property
     def pieces(self) -> Slope:
         """H of the spline, a parabola between neighbouring points."""
-        breaks, c = self._spline
-        return Slope(breaks, breaks[:-1], c[:, 1:] * np.arange(1.0, 4.0), np.full(len(c), 2))
+        return self._spline.slope
 
     @of_any_x
     @override
     def height(self, x: Array) -> Array:
-        breaks, c = self._spline
-        k = np.clip(np.searchsorted(breaks, x, side="right") - 1, 0, len(c) - 1)
-        u = x - breaks[k]
-        h = c[k, 0] + u * (c[k, 1] + u * (c[k, 2] + u * c[k, 3]))
-        return np.where((x < breaks[0]) | (x > breaks[-1]), INF, h)
+        return self._spline(x)
 
     @property
     @override
@@ -395,5 +416,6 @@ class Sampled(Profile):
         """Another trace made by a call of a method, which is how one from a file is printed."""
         made = Sampled(x, h, smoothing)
         object.__setattr__(made, "mended", self.mended)
+        object.__setattr__(made, "reading", self.reading)
         object.__setattr__(made, "source", f"{self.source}.{call}" if self.source else "")
         return made

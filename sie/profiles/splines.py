@@ -39,7 +39,10 @@ from numpy.typing import NDArray
 
 from sie.numerics.interval import EPS
 
+from .slope import Slope
+
 Array = NDArray[np.float64]
+INF = float("inf")
 
 ALL_KNOTS = 1000  # up to so many points each is a knot
 FEWEST_KNOTS = 250
@@ -53,23 +56,73 @@ LONGEST = 4.0  # times the length of the trace: beyond it, averaging leaves a st
 SIGNIFICANT = 3.0  # standard deviations
 LOCAL = 50  # points whose misfit measures the noise
 REFINED = 0.02  # of the logarithm of the averaging length
+FADED = 52.0  # averaging lengths beyond which a point counts exp(-52/√2) = 1e-16
+MOST_TURNS = 20  # periods on either side: what averages over more leaves nothing of the trace
 
 
-def interpolating_spline(x: Array, h: Array) -> tuple[Array, Array]:
-    """(breaks, coefficients (N, 4), low order first, about the left end of each piece).
+@dataclass(frozen=True)
+class Spline:
+    """A cubic spline f on its breaks (N+1,).
 
-    Not-a-knot at the ends, so that a cubic is reproduced.
+    c (N, 4) are its coefficients about the left end of each piece, low order first.
     """
+
+    breaks: Array
+    c: Array
+
+    @property
+    def slope(self) -> Slope:
+        """f', a parabola between neighbouring breaks."""
+        degrees = np.full(len(self.c), 2)
+        return Slope(self.breaks, self.breaks[:-1], self.c[:, 1:] * np.arange(1.0, 4.0), degrees)
+
+    def tilted(self, slope: float) -> Spline:
+        """f + slope (x - the first break)."""
+        steps = self.breaks[:-1] - self.breaks[0]
+        line = np.stack((slope * steps, np.full(len(steps), slope)), axis=1)
+        return Spline(self.breaks, self.c + np.pad(line, ((0, 0), (0, 2))))
+
+    def __call__(self, x: Array) -> Array:
+        """f(x), infinite beyond its ends."""
+        breaks, c = self.breaks, self.c
+        k = np.clip(np.searchsorted(breaks, x, side="right") - 1, 0, len(c) - 1)
+        u = x - breaks[k]
+        f = c[k, 0] + u * (c[k, 1] + u * (c[k, 2] + u * c[k, 3]))
+        return np.where((x < breaks[0]) | (x > breaks[-1]), INF, f)
+
+
+def interpolating_spline(x: Array, h: Array, ends: str = "not-a-knot") -> Spline:
+    """The spline through the points; not-a-knot at the ends, so that a cubic is reproduced."""
     from scipy.interpolate import CubicSpline  # noqa: PLC0415 -- heavy, and for traces only
 
-    c: Array = CubicSpline(x, h).c.T[:, ::-1].copy()
-    return x, c
+    return Spline(x, CubicSpline(x, h, bc_type=ends).c.T[:, ::-1].copy())
 
 
-def smoothing_spline(x: Array, h: Array, lam: float) -> tuple[Array, Array]:
-    """(breaks, coefficients) of the smoothing spline with λ = lam > 0; breaks at its knots."""
+def smoothing_spline(x: Array, h: Array, lam: float) -> Spline:
+    """The smoothing spline with λ = lam > 0, with breaks at its knots."""
     problem = _Problem(x, h)
-    return problem.spline(lam / problem.length**3)
+    return Spline(*problem.spline(lam / problem.length**3))
+
+
+def closed_spline(x: Array, h: Array, period: float, lam: float) -> Spline:
+    """The periodic spline on [x_0, x_0 + period] through points of one period, or along them.
+
+    With λ > 0 it is the smoothing spline of the points repeated, so often that nothing of the ends
+    is left. A spline with the same knots and values there is this one.
+    """
+    knots, f = x, h
+    if lam:
+        averaged = (lam * (len(x) / period) ** 3) ** 0.25
+        most = min(math.ceil(FADED * averaged / len(x)), MOST_TURNS)
+        turns = np.arange(-most, most + 1.0)
+        repeated = (x + period * turns[:, None]).ravel()
+        smooth = smoothing_spline(repeated, np.tile(h, len(turns)), lam)
+        inner = smooth.breaks[(smooth.breaks > x[0]) & (smooth.breaks < x[0] + period)]
+        inner = inner[: np.searchsorted(inner, x[-1], side="right")]
+        knots = np.append(x[0], inner)
+        f = smooth(knots)
+    end = x[0] + period
+    return interpolating_spline(np.append(knots, end), np.append(f, f[0]), "periodic")
 
 
 def longest_lambda(x: Array) -> float:

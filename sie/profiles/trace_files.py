@@ -23,6 +23,8 @@ from numpy.typing import NDArray
 
 from sie import arguments, files
 
+from .trace_units import unit_named, units_of_head
+
 Array = NDArray[np.float64]
 Column = int | str
 
@@ -48,8 +50,10 @@ DECIMAL_COMMA = r"[-+]?\d*(,\d+)?([eE][-+]?\d+)?"
 
 def read_trace(
     path: str | Path, columns: tuple[Column, ...], skip: int = 0, keep_missing: bool = False
-) -> tuple[Array, Array]:
-    """The points x and heights h of a trace; `columns` and `skip` are those of a text file.
+) -> tuple[Array, Array, tuple[str, str]]:
+    """The points x and heights h of a trace, and the units of both where the file has them.
+
+    `columns` and `skip` are those of a text file.
 
     Raises ValueError where the file holds no trace, and OSError where it cannot be read.
     """
@@ -64,8 +68,9 @@ def read_trace(
     data = files.content(path, TRACE.size)
     if path.suffix.lower() not in TEXT:
         return _line_scan(path)
-    x, h = _table(path.name, data, int(skip), TRACE).columns(pair, keep_missing)
-    return x, h
+    table = _table(path.name, data, int(skip), TRACE)
+    x, h = table.columns(pair, keep_missing)
+    return x, h, table.units(pair)
 
 
 def read_table(path: str | Path, limit: Limit = TRACE) -> Table:
@@ -87,7 +92,7 @@ class Table:
     rows         (number of the line, its cells) from the first line with numbers on
     header       names of the columns in lower case without their units; empty without a header
     separator    what separates the cells, "" for blanks
-    before       the lines before the first one with numbers
+    before       the lines before the first one with numbers, those that are skipped too
     """
 
     file: str
@@ -127,6 +132,11 @@ class Table:
             )
         return tuple(numbers.T)
 
+    def units(self, wanted: tuple[Column, ...]) -> tuple[str, str]:
+        """The units of length of two columns by the lines before the numbers, "" where none."""
+        indices = tuple(map(self._index, wanted))
+        return units_of_head(list(self.before), self.separator, self.width, indices)
+
     def _index(self, column: Column) -> int:
         last = self.width - 1
         if isinstance(column, str):
@@ -148,8 +158,8 @@ class Table:
         return int(column)
 
 
-def _line_scan(path: Path) -> tuple[Array, Array]:
-    """A line scan as SurfaceTopography reads it, heights in the unit of the lengths."""
+def _line_scan(path: Path) -> tuple[Array, Array, tuple[str, str]]:
+    """A line scan as SurfaceTopography reads it, heights in the unit of the lengths, and that."""
     try:
         import SurfaceTopography  # noqa: PLC0415 -- an extra
     except ImportError:
@@ -174,11 +184,13 @@ def _line_scan(path: Path) -> tuple[Array, Array]:
         )
     x, h = topography.positions_and_heights()
     heights: Array = np.ma.filled(np.ma.asarray(h, dtype=float), np.nan)
-    return np.asarray(x, dtype=float).ravel(), heights.ravel()
+    unit = unit_named(str(getattr(topography, "unit", None) or ""))
+    return np.asarray(x, dtype=float).ravel(), heights.ravel(), (unit, unit)
 
 
 def _table(file: str, data: bytes, skip: int, limit: Limit) -> Table:
-    lines = _text(file, data, limit.lines).splitlines()[skip:]
+    whole = _text(file, data, limit.lines).splitlines()
+    lines = whole[skip:]
     separator = _separator(lines)
     split = [_cells(line, separator) for line in lines]
     start = _first_row(split, separator)
@@ -188,9 +200,8 @@ def _table(file: str, data: bytes, skip: int, limit: Limit) -> Table:
             "give a text file with columns, or skip fewer lines"
         )
     rows = tuple((k + skip + 1, cells) for k, cells in enumerate(split) if k >= start and cells)
-    before = lines[:start]
-    header = _header(before, separator, len(split[start]))
-    return Table(file, rows, header, separator, tuple(before))
+    header = _header(lines[:start], separator, len(split[start]))
+    return Table(file, rows, header, separator, tuple(whole[: skip + start]))
 
 
 def _header(lines: list[str], separator: str, width: int) -> tuple[str, ...]:

@@ -201,20 +201,3 @@ def test_edges_that_no_event_touches_keep_what_they_asked_for():
     damping = Damping(*(np.arange(6.0) + m for m in (10.0, 20.0, 30.0, 40.0)))
     kept, _ = damping.carried(before, after)
     assert kept.insists.tolist() == [30.0, 33.0, 34.0, 35.0]
-
-
-def test_a_trace_that_is_repeated_where_its_ends_do_not_meet_says_so():
-    x = np.linspace(0.0, 1.0, 41)
-    h = 0.01 * np.cos(6.0 * np.pi * x)
-    notes = [
-        sie.solve(
-            sie.Scene(
-                profile=sie.Periodic(sie.Sampled(x, h + drop * x), 1.0),
-                modulus=1.0,
-                normal_load=1e-4,
-            )
-        ).notes
-        for drop in (0.0, 0.004)
-    ]
-    assert not any("repeats at" in note for note in notes[0])
-    assert any("begins 0.004 lower than it ends" in note for note in notes[1])

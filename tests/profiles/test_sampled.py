@@ -211,9 +211,9 @@ def test_a_column_may_be_named_as_in_the_header_with_its_unit(tmp_path):
         "n,X (um),Z [um]\n" + "\n".join(f"{k},{x},{h}" for k, (x, h) in enumerate(TABLE))
     )
     assert (
-        sie.Sampled.read(file, columns=("X (um)", "Z [um]"))
-        == sie.Sampled.read(file, columns=("x", "z"))
-        == sie.Sampled.read(file, (1, 2))
+        sie.Sampled.read(file, columns=("X (um)", "Z [um]"), length="um")
+        == sie.Sampled.read(file, columns=("x", "z"), length="um")
+        == sie.Sampled.read(file, (1, 2), length="um")
     )
 
 
@@ -235,7 +235,7 @@ def test_missing_values_of_a_file_are_named_by_their_lines(tmp_path):
     with pytest.raises(ValueError, match="text where a number is wanted, in line 3"):
         sie.Sampled.read(file)
     with pytest.raises(ValueError, match="no column 'z', its header names x, h"):
-        sie.Sampled.read(file, columns=("x", "z"))
+        sie.Sampled.read(file, columns=("x", "z"), length="um")
     with pytest.raises(FileNotFoundError):
         sie.Sampled.read(tmp_path / "nothing.csv")
 
@@ -315,5 +315,5 @@ def test_the_flat_with_rounded_edges_in_a_trace_is_found(a, R, centre, tilt, off
 
 
 def test_a_trace_of_heights_upside_down_fits_no_pad():
-    with pytest.raises(ValueError, match=r"scale = \(1, -1\)"):
+    with pytest.raises(ValueError, match='heights = "surface"'):
         sie.Sampled(X, -H).fit_rounded_flat()

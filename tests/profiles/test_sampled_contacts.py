@@ -16,6 +16,152 @@ from sie.contact import normal
 from sie.io import scene_file
 from sie.io.mesh_result import read_mesh
 
+# -- repeated --------------------------------------------------------------------------------------
+
+
+def cosine(x):
+    return 0.01 * np.cos(2.0 * np.pi * x) + 0.002 * np.sin(6.0 * np.pi * x)
+
+
+@pytest.mark.parametrize("last", [1.0, 0.995], ids=["ends in the same place", "ends a step before"])
+@pytest.mark.parametrize(
+    "made",
+    [
+        lambda x: sie.Sampled(x, cosine(x)),
+        lambda x: sie.Sampled(-x[::-1], cosine(x[::-1])).mirrored(),
+        lambda x: sie.Sampled(x, cosine(x) - 0.02 * x).tilted(0.02),
+    ],
+    ids=["trace", "mirrored", "tilted"],
+)
+def test_a_repeated_trace_presses_as_its_function_over_the_seam(made, last):
+    """The seam, at 0.41, lies inside a patch."""
+    x = 0.41 + np.linspace(0.0, last, round(200 * last) + 1)
+    traced, exact = (
+        sie.solve(sie.Scene(profile=sie.Periodic(one, 1.0), modulus=1.0, normal_load=0.01))
+        for one in (made(x), sie.FromFunction("-0.02*pi*sin(2*pi*x) + 0.012*pi*cos(6*pi*x)"))
+    )
+    assert not any("do not meet" in note for note in traced.notes)
+    places = np.linspace(0.0, 1.0, 301)
+    assert traced.check().ok
+    assert traced.pressure(places) == pytest.approx(exact.pressure(places), abs=3e-5)
+
+
+@pytest.mark.parametrize(
+    ("smoothing", "apart"),
+    [(0.0, 1e-15), (1e-8, 1e-15), (1e-4, 1e-13), (1e-1, 1e-8)],  # the last with a knot in 4 points
+)
+def test_a_repeated_trace_does_not_depend_on_where_its_period_begins(smoothing, apart):
+    x = np.linspace(0.0, 1.0, 101)[:-1]
+    h = cosine(x) + 1e-4 * np.random.default_rng(4).standard_normal(100)
+    one = sie.Periodic(sie.Sampled(x, h, smoothing), 1.0)
+    other = sie.Periodic(
+        sie.Sampled(np.append(x[37:], x[:37] + 1.0), np.append(h[37:], h[:37]), smoothing), 1.0
+    )
+    assert not one.joint and not other.joint
+    places = np.linspace(-0.2, 0.3, 97)
+    assert one.height(places) == pytest.approx(other.height(places), abs=apart)
+    assert one.slope(places) == pytest.approx(other.slope(places), abs=1e3 * apart)
+    left = 1.0 / (1.0 + 0.01 * smoothing * (2.0 * np.pi) ** 4)  # of the longest wave
+    waves = 2.0 * np.fft.rfft(one.height(x))[1].real / 100.0
+    assert waves == pytest.approx(0.01 * left, abs=5e-5)
+
+
+@pytest.mark.parametrize(
+    ("h", "period", "says"),
+    [
+        (lambda x: cosine(x) + 0.004 * x, 1.0, r"height by -0.0040. \(.* with a corner"),
+        (lambda x: (x - 0.5) ** 2, 1.0, r"height by .*, slope by -2 \(.* with a corner"),
+        (cosine, 1.2, "with 0.2 without indenter"),
+    ],
+)
+def test_a_repeated_trace_whose_ends_do_not_meet_says_by_how_much(h, period, says):
+    x = np.linspace(0.0, 1.0, 41)
+    profile = sie.Periodic(sie.Sampled(x, h(x)), period)
+    assert re.search(f"the ends of the trace do not meet at x = .*{says}", profile.joint)
+    assert (
+        profile.joint in sie.solve(sie.Scene(profile=profile, modulus=1.0, normal_load=2e-3)).notes
+    )
+
+
+@pytest.mark.parametrize("jump", [False, True])
+def test_the_slope_of_a_noisy_trace_meets_within_its_noise(jump):
+    x = np.linspace(0.0, 1.0, 401)
+    h = (x - 0.5) ** 2 if jump else cosine(x)
+    noisy = h + 1e-4 * np.random.default_rng(2).standard_normal(401)
+    assert bool(sie.Periodic(sie.Sampled(x, noisy, "gcv"), 1.0).joint) == jump
+
+
+# -- units and sides of a file ---------------------------------------------------------------------
+
+ROWS = [(0.5 * k, 2.0 + 0.1 * (k - 4) ** 2) for k in range(9)]
+STYLUS = "Stylus,Radius: 2.5 µm\r\nLocation,0.0 um, 0.0 um\r\n\r\nLateral um,Raw Micrometer,\r\n"
+HEADS = {
+    "stylus": (STYLUS, ",", ",,\r\n", "latin-1"),
+    "a line of units and a count": ("µm µm\n9\n", ",   ", "\n", "utf-8"),
+    "brackets": ("x [um]\tz (µm)\n", "\t", "\n", "utf-8"),
+    "comment": ("# x_um z_um\n", "   ", "\n", "utf-8"),
+}
+
+
+def scan(folder, head):
+    before, between, end, encoding = HEADS[head]
+    file = folder / "scan.csv"
+    text = before + "".join(f"{x:.3e}{between}{z:.3e}{end}" for x, z in ROWS)
+    file.write_bytes(text.encode(encoding))
+    return file
+
+
+@pytest.mark.parametrize("head", HEADS)
+def test_units_in_a_head_are_used_and_contradicted_in_a_sentence(head, tmp_path):
+    file, (x, z) = scan(tmp_path, head), np.transpose(ROWS)
+    read = sie.Sampled.read(file, length="mm")
+    assert read.points == pytest.approx(1e-3 * x, rel=1e-14)
+    assert read.heights == pytest.approx(1e-3 * z, rel=1e-14)
+    assert read == sie.Sampled.read(file, scale=1e-3, length="mm")
+    assert sie.Sampled.read(file, units=("mm", "nm"), length="m").heights.max() < 1e-8
+    with pytest.raises(ValueError, match=r"x in um and h in um.*scale = .* contradicts"):
+        sie.Sampled.read(file, scale=(1e-3, 1e-6))
+    with pytest.raises(ValueError, match=r"x in um and h in um.*scale = .* contradicts"):
+        sie.Sampled.read(file, scale=1e-6, length="mm")
+    with pytest.raises(ValueError, match='give length = "mm"'):
+        sie.Sampled.read(file)
+
+
+def test_heights_of_a_surface_are_turned_over_once(tmp_path):
+    file, (_, z) = scan(tmp_path, "comment"), np.transpose(ROWS)
+    surface = sie.Sampled.read(file, length="mm", heights="surface")
+    assert surface.heights == pytest.approx(1e-3 * (z.max() - z), rel=1e-14)
+    assert eval(repr(surface), {"Sampled": sie.Sampled}) == surface
+    with pytest.raises(ValueError, match="turns the heights over"):
+        sie.Sampled.read(file, scale=(1e-3, -1e-3), heights="surface")
+    with pytest.raises(ValueError, match='"gap" or "surface"'):
+        sie.Sampled.read(file, length="mm", heights="up")
+
+
+def test_a_scene_reads_the_units_of_its_trace_and_says_so(tmp_path, capsys):
+    scan(tmp_path, "stylus")
+    scene = tmp_path / "scene.toml"
+    text = '[profile]\nkind = "sampled"\npath = "scan.csv"\nheights = "gap"\n'
+    text += "[pair]\nmodulus = 1.0\n[load]\nnormal_load = 1e-5\n"
+    scene.write_text(text)
+    assert scene_file.read(scene).scene.profile.points[-1] == pytest.approx(4e-3, rel=1e-14)
+    assert main(["solve", str(scene), "--want", "edges"]) == 0
+    said = capsys.readouterr().out
+    assert "x in um and h in um, converted to mm; h is the gap" in " ".join(said.split())
+
+
+def test_a_scene_that_uses_units_asks_for_those_of_its_trace(tmp_path):
+    pytest.importorskip("pint")
+    np.savetxt(tmp_path / "scan.csv", ROWS, delimiter=",")
+    text = '[units]\nchecked = true\n[profile]\nkind = "sampled"\npath = "scan.csv"\n{}'
+    text += "[pair]\nmodulus = 1.0\n[load]\nnormal_load = 1e-5\n"
+    with pytest.raises(ValueError, match=r'states no units .* give units = "mm"'):
+        scene_file.parse(text.format(""), folder=tmp_path)
+    made = scene_file.parse(text.format('units = ["um", "nm"]\n'), folder=tmp_path).scene.profile
+    assert made.points[-1] == pytest.approx(4e-3, rel=1e-14)
+    assert made.heights.max() == pytest.approx(3.6e-6, rel=1e-14)
+
+
 # -- several patches -------------------------------------------------------------------------------
 
 
@@ -72,7 +218,7 @@ def test_a_rough_trace_costs_at_most_one_search_for_one_patch(load, monkeypatch)
 @pytest.mark.parametrize(
     ("h", "says"),
     [
-        (-H, r"arches upwards.*scale = \(1, -1\)"),
+        (-H, 'arches upwards.*heights = "surface"'),
         (0.0 * X + 3.0, "straight line"),
         (0.2 * X - 1e6, "straight line"),
         (H - 4.0 * X, "lowest at its end.*levelled"),
@@ -83,7 +229,7 @@ def test_a_rough_trace_costs_at_most_one_search_for_one_patch(load, monkeypatch)
 def test_a_contact_at_the_end_of_a_trace_is_refused_with_the_trace_s_own_reason(h, says):
     with pytest.raises(sie.ContactError, match=says) as refused:
         pressed(sie.Sampled(X, h), 1.0).edges  # noqa: B018 -- computes it
-    assert ("other sign" in str(refused.value)) == ("arches" in says)
+    assert ("hollow" in str(refused.value)) == ("arches" in says)
 
 
 @pytest.mark.parametrize("sign", [-1.0, 1.0])
