@@ -11,7 +11,8 @@ from typing import Any
 
 from sie.problem.scene import Scene
 
-from .controls import LIVE, SAVED, Control, shapes
+from .answer import sliders
+from .controls import SAVED, Control, shapes
 from .figures import items
 
 SERVED = (
@@ -26,7 +27,7 @@ KEPT = (
 
 def served(file: Scene | None) -> str:
     """The page that asks a server for its answers and for bokeh.js."""
-    return _filled(_about(LIVE, file), SERVED, '<script src="bokeh.js"></script>')
+    return _filled(_about(sliders(file), file), SERVED, '<script src="bokeh.js"></script>')
 
 
 def saved(answers: dict[str, Any]) -> str:
