@@ -60,7 +60,7 @@ from .sweep_work import QUANTITIES
 from .traction.base import ZERO, Density
 from .traction.combination import scaled, superposed
 
-__version__ = "0.1.0"
+__version__ = "0.3.0.dev0"
 
 __all__ = [
     "QUANTITIES",
@@ -110,7 +110,7 @@ __all__ = [
 
 
 def __getattr__(name: str) -> Any:
-    """`sie.plots`, whose import needs Matplotlib, when it is asked for."""
-    if name == "plots":
-        return higher_layers.module("plots")
+    """The public modules, such as `sie.plots` with Matplotlib, imported when they are asked for."""
+    if name in ("charts", "plots", "teaching"):
+        return higher_layers.module(name)
     raise AttributeError(f"module 'sie' has no attribute {name!r}")
