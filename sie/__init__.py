@@ -30,9 +30,9 @@ Units are free: any consistent set works, and nothing depends on scale.
 131.935
 """
 
+from importlib import import_module
 from typing import Any
 
-from . import higher_layers
 from . import interrupt as interrupt
 from .cauchy.equation import CauchyEquation
 from .certificate.trace_noise import TraceReport
@@ -112,5 +112,5 @@ __all__ = [
 def __getattr__(name: str) -> Any:
     """The public modules, such as `sie.plots` with Matplotlib, imported when they are asked for."""
     if name in ("charts", "plots", "teaching"):
-        return higher_layers.module(name)
+        return import_module(f"sie.{name}")
     raise AttributeError(f"module 'sie' has no attribute {name!r}")

@@ -145,8 +145,7 @@ def sliders(file: Scene | None) -> tuple[Control, ...]:
 
 def _at_rest(base: Scene) -> tuple[float, float]:
     """The load and the mean pressure without friction."""
-    without = {"friction": 0.0, "tangential_load": 0.0, "bulk_stress": 0.0, "sliding": 0}
-    solution = solve(replace(base, **without))
+    solution = solve(replace(base, friction=0.0, tangential_load=0.0, bulk_stress=0.0, sliding=0))
     return solution.normal_load, solution.normal_load / (2.0 * solution.half_width)
 
 

@@ -11,8 +11,7 @@ from typing import Any
 
 from sie.problem.scene import Scene
 
-from .answer import sliders
-from .controls import SAVED, Control, shapes
+from .controls import LIVE, SAVED, Control, shapes
 from .figures import items
 
 SERVED = (
@@ -25,9 +24,9 @@ KEPT = (
 )
 
 
-def served(file: Scene | None) -> str:
+def served(file: Scene | None, sliders: tuple[Control, ...] = LIVE) -> str:
     """The page that asks a server for its answers and for bokeh.js."""
-    return _filled(_about(sliders(file), file), SERVED, '<script src="bokeh.js"></script>')
+    return _filled(_about(sliders, file), SERVED, '<script src="bokeh.js"></script>')
 
 
 def saved(answers: dict[str, Any]) -> str:

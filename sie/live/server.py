@@ -12,7 +12,7 @@ from urllib.parse import parse_qsl, urlsplit
 from sie.errors import ContactError
 from sie.problem.scene import Scene
 
-from .answer import PARTS, Setting, answer
+from .answer import PARTS, Setting, answer, sliders
 from .page import bokeh_script, served
 
 HOST = "127.0.0.1"  # no other machine is answered
@@ -40,7 +40,7 @@ class LiveServer(ThreadingHTTPServer):
             ) from None
         try:
             self.contents = {
-                "/": ("text/html; charset=utf-8", served(file).encode()),
+                "/": ("text/html; charset=utf-8", served(file, sliders(file)).encode()),
                 "/bokeh.js": ("text/javascript", bokeh_script()),
             }
         except BaseException:

@@ -151,7 +151,7 @@ sys.exit(main(sys.argv[1:]))
 
 
 def test_a_port_that_is_taken_is_refused_before_the_page_is_made(server, capsys, monkeypatch):
-    monkeypatch.setattr("sie.live.server.served", lambda file: pytest.fail("the page is made"))
+    monkeypatch.setattr("sie.live.server.served", lambda *_: pytest.fail("the page is made"))
     port = str(server.server_port)
     assert main(["live", "--no-browser", "--port", port]) == 2
     assert f"port {port} cannot be served on" in capsys.readouterr().err

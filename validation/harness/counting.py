@@ -55,9 +55,9 @@ def work(run: Callable[[], Any]) -> Work:
         # the wrappers above are no work of the program
         calls[0] += kind == "call" and frame.f_code.co_filename != __file__
 
-    functions = {name: f for name, f in vars(np).items() if isinstance(f, np.ufunc)}
+    functions = {k: _Counted(f, elements) for k, f in vars(np).items() if isinstance(f, np.ufunc)}
     before = sys.getprofile()
-    with patch.multiple(np, **{name: _Counted(f, elements) for name, f in functions.items()}):
+    with patch.dict(vars(np), functions):
         sys.setprofile(event)
         try:
             run()
