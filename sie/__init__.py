@@ -59,7 +59,7 @@ from .sweep_work import QUANTITIES
 from .traction.base import ZERO, Density
 from .traction.combination import scaled, superposed
 
-__version__ = "0.1.0"
+__version__ = "0.3.0.dev0"
 
 __all__ = [
     "QUANTITIES",
@@ -109,9 +109,13 @@ __all__ = [
 
 
 def __getattr__(name: str) -> Any:
-    """`sie.plots`, whose import needs Matplotlib, when it is asked for."""
-    if name == "plots":
-        from importlib import import_module  # noqa: PLC0415
-
-        return import_module("sie.plots")
-    raise AttributeError(f"module 'sie' has no attribute {name!r}")
+    """The public modules, such as `sie.plots` with Matplotlib, imported when they are asked for."""
+    if name == "charts":
+        import sie.charts  # noqa: PLC0415
+    elif name == "plots":
+        import sie.plots  # noqa: PLC0415
+    elif name == "teaching":
+        import sie.teaching  # noqa: PLC0415
+    else:
+        raise AttributeError(f"module 'sie' has no attribute {name!r}")
+    return globals()[name]

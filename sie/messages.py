@@ -5,12 +5,14 @@ from __future__ import annotations
 import difflib
 import re
 import textwrap
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
+from typing import Any
 
 WIDE = 80  # columns of a report
 NAMES = 16  # columns of the names in it
 LONGEST = 60  # characters of a value that a message shows
 LONGEST_WORD = 255
+LONGEST_LIST = 600  # characters of a list that is printed whole
 
 
 def nearest(name: str, known: Iterable[str]) -> str:
@@ -46,6 +48,30 @@ def shortened(text: str) -> str:
 def with_short_words(sentence: object) -> str:
     """The sentence with its longest words cut: a key or a formula may be as long as a file."""
     return re.sub(rf"\S{{{LONGEST_WORD + 1},}}", lambda word: shortened(word[0]), str(sentence))
+
+
+def listed(items: Collection[Any]) -> str:
+    """The items as in a list, the first and the last alone where the whole is long.
+
+    >>> listed([1.0, 2.0]), listed(range(1000))
+    ('1.0, 2.0', '0, <998 more>, 999')
+    """
+    if len(items) <= LONGEST_LIST:
+        whole = ", ".join(map(repr, items))
+        if len(whole) <= LONGEST_LIST:
+            return whole
+    first, *between, last = items
+    ends = (with_middle_cut(repr(item), LONGEST_LIST // 3) for item in (first, last))
+    return f", <{len(between)} more>, ".join(ends)
+
+
+def with_middle_cut(text: str, most: int = LONGEST_LIST) -> str:
+    """The text, without its middle where it is longer than that.
+
+    >>> with_middle_cut("a" * 9 + "b" * 9, 10)
+    'aaaaa ... bbbbb'
+    """
+    return text if len(text) <= most else f"{text[: most // 2]} ... {text[-(most // 2) :]}"
 
 
 def named_rows(*rows: tuple[str, str]) -> str:

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable
 from dataclasses import dataclass
+from html import escape
 
 from .contact.pressure import upright_law
 from .patches.answer import asks_for_patches
@@ -75,6 +76,9 @@ class Plan:
     def stages(self) -> frozenset[str]:
         """The stages of the solution that will be filled, a frozenset of str."""
         return frozenset(s.stage for s in self.steps if s.run and s.stage)
+
+    def _repr_html_(self) -> str:
+        return f"<pre>{escape(str(self))}</pre>"
 
     def __str__(self) -> str:
         width = max(len(s.name) for s in self.steps)

@@ -190,6 +190,8 @@ def _check_name(scene: Scene, name: str) -> None:
             if known
             else 'a field of a scene, or "profile." and a parameter of its profile'
         )
+        if name in {f.name for f in fields(cast(Any, scene.profile))}:
+            here = f'"profile.{name}", the parameter of its profile'
         raise ValueError(f'over "{name}" is not known: choose {here}')
 
 

@@ -7,8 +7,9 @@ nobody needs to know the number.
 A worker process that dies breaks a whole `ProcessPoolExecutor`: every task that the pool still
 holds fails, further submissions fail too, and which task was the cause is not known. These tasks
 run again, each in a pool of one process. Dask starts another worker and gives it the tasks of the
-first; it gives up those that were on four workers that died, of which any may be the cause. These
-run again one after the other. Only a task whose own process dies then has no result.
+first; it gives up those that were on four workers that died, of which any may be the cause, and
+reports an error of its own where a result is lost while it is fetched. Tasks that any such executor
+fails run again one after the other. Only a task whose own process dies then has no result.
 """
 
 from __future__ import annotations
@@ -52,7 +53,7 @@ def outcomes(task: Task, take: Take, executor: Executor, left: list[Outcome]) ->
 
     for name, future in _together(task, take_noted, executor, left):
         argument = taken.pop(name)
-        if _died(future):
+        if _died(future) or not (pool or future.cancelled() or future.exception() is None):
             lost.append((name, argument))
         else:
             yield name, future

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import textwrap
 from dataclasses import dataclass, fields
+from html import escape
 from typing import Any
 
 from sie.contact.inequalities import TOLERATED, Intervals, shown
@@ -116,6 +117,9 @@ class Certificate:
             "notes": list(self.notes)
         }
         return numbers | ({} if self.shear is None else {"shear": self.shear.as_dict()})
+
+    def _repr_html_(self) -> str:
+        return f"<pre>{escape(str(self))}</pre>"
 
     def __str__(self) -> str:
         rows: tuple[tuple[str, str], ...] = (

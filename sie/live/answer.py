@@ -2,7 +2,7 @@
 
 All is relative to a base: one of four indenters on a half-plane with E* = R = 1, or the scene of a
 file. The load is a multiple of the base's. Tilt and bulk stress are multiples of what its mean
-pressure would need: slope p̄/E*, stress p̄.
+pressure would need: slope p̄/E*, stress p̄. The sliders start from the values of the file.
 """
 
 from __future__ import annotations
@@ -23,12 +23,13 @@ from sie.problem.scene import Scene
 from sie.profiles.shapes import RoundedFlat
 from sie.solution import Solution, solve
 
-from .controls import ACROSS, BANDS, DOWN, LIVE, OF_FILE, ROUNDED, SAVED, SHAPES, shapes
+from .controls import ACROSS, BANDS, DOWN, LIVE, OF_FILE, ROUNDED, SAVED, SHAPES, Control, shapes
 
 LOAD = 0.4  # of the four indenters, over E* R
 POINTS = 161
 MARGIN, DEPTH = 1.8, 1.8  # half of the picture's width, and its depth, over the half-width
 NODES = (4, 8, 16, 32, 64, 128)
+SHOWN = 0.9  # of the points lie below the top of the picture of an infinite traction
 
 Answer = dict[str, Any]
 
@@ -56,8 +57,8 @@ class Setting:
     @classmethod
     def of_words(cls, words: Mapping[str, str], file: Scene | None = None) -> Setting:
         """The setting that a query of the page names; what it leaves out keeps its start."""
-        numbers = {control.name: control for control in LIVE}
-        given: dict[str, Any] = {}
+        numbers = {control.name: control for control in sliders(file)}
+        given: dict[str, Any] = {name: control.start for name, control in numbers.items()}
         for name, word in words.items():
             if name == "shape":
                 if word not in shapes(file):
@@ -88,23 +89,64 @@ class Setting:
 
     @cached_property
     def scene(self) -> Scene:
-        """The scene under the sliders."""
-        base = self.base
-        at_rest = solve(replace(base, friction=0.0, tangential_load=0.0, bulk_stress=0.0))
-        P = at_rest.normal_load * (self.load if self.shape == OF_FILE else 1.0)
-        mean = at_rest.normal_load / (2.0 * at_rest.half_width)
+        """The scene under the sliders; that of the file where none was moved."""
+        base, times = self.base, self.load if self.shape == OF_FILE else 1.0
+        if self.shape == OF_FILE and self == Setting.of_words({}, self.file):
+            return base
+        rest, mean = _at_rest(base)
+        P = rest * times
         changes: dict[str, Any] = {
             "normal_load": P,
             "half_width": None,
             "friction": self.friction,
             "tangential_load": self.friction * self.share * P,
             "bulk_stress": self.bulk * mean,
+            "sliding": 0,
         }
+        if base.moment is not None:
+            changes["moment"] = base.moment * times  # the load keeps its place
         if self.tilt:
             changes |= {"moment": None, "tilt": base.tilt + self.tilt * mean / base.Estar}
-        if self.beta:
+        if self.beta != base.beta:
             changes["dundurs"] = self.beta
         return replace(base, **changes)
+
+
+def sliders(file: Scene | None) -> tuple[Control, ...]:
+    """The sliders of the served page, which start from the values of the file.
+
+    Raises
+    ------
+    ValueError
+        For a bonded punch, which has no coefficient of friction.
+    ContactError
+        If the file's normal problem has no answer.
+    """
+    if file is None:
+        return LIVE
+    if file.bonded:
+        raise ValueError(
+            "friction = inf has no place on a slider: give a finite friction, or use sie solve"
+        )
+    P, mean = _at_rest(file)
+    limit = file.friction * P
+    start = {
+        "friction": file.friction,
+        "share": float(file.sliding or (file.tangential_load / limit if limit else 0.0)),
+        "bulk": file.bulk_stress / mean,
+        "beta": file.beta,
+    }
+    known = {"beta": (0.0,)} if file.body is not None else {}  # two bodies have a β of their own
+    return tuple(
+        replace(c, values=known.get(c.name, c.values)).starting(start.get(c.name, c.start))
+        for c in LIVE
+    )
+
+
+def _at_rest(base: Scene) -> tuple[float, float]:
+    """The load and the mean pressure without friction."""
+    solution = solve(replace(base, friction=0.0, tangential_load=0.0, bulk_stress=0.0, sliding=0))
+    return solution.normal_load, solution.normal_load / (2.0 * solution.half_width)
 
 
 def answer(setting: Setting, part: str) -> Answer:
@@ -127,13 +169,17 @@ def _contact(solution: Solution) -> Answer:
     lo, hi = solution.edges
     # Closer together at the edges
     x = (lo + hi) / 2 + (hi - lo) / 2 * np.sin(np.linspace(-np.pi / 2, np.pi / 2, POINTS))
-    pressure, shear = _finite(solution.pressure(x)), _finite(solution.shear(x))
+    pressure, shear = solution.pressure(x), solution.shear(x)
+    finite = np.isfinite(pressure) & np.isfinite(shear)
+    x, pressure, shear = x[finite], pressure[finite], shear[finite]
+    top = 1.05 * float(pressure.max() if finite.all() else np.quantile(pressure, SHOWN))
+    friction = solution.scene.friction
     certificate = solution.check()
     nodes, errors = _textbook(solution)
     zones = ", ".join(f"[{lo:.6g}, {hi:.6g}]" for lo, hi in solution.stick)
     return {
         "x": _rounded(x), "p": _rounded(pressure), "q": _rounded(shear),
-        "fp": _rounded(solution.scene.friction * pressure),
+        "fp": _rounded(friction * pressure), "tops": _rounded((top, (friction or 1.0) * top)),
         "stick": [_rounded(zone) for zone in solution.stick],
         "n": nodes, "errors": errors, "certificate": _number(certificate.error),
         "numbers": [
@@ -155,7 +201,7 @@ def _stress(solution: Solution) -> Answer:
     mises = solution.stress(columns[None, :], rows[:, None]).mises
     # A peak at one point would leave one band for all others.
     top = float(np.quantile(mises[np.isfinite(mises)], 0.995))
-    bands = np.clip(_finite(mises) / top * BANDS, 0, BANDS - 1).astype(int)
+    bands = np.clip(np.nan_to_num(mises) / top * BANDS, 0, BANDS - 1).astype(int)
     weakest, tension = solution.elastic_limit(), solution.peak_tension()
     place = f"({weakest.x:.4g}, {weakest.y:.4g})"
     tensile = f"{tension.value:.6g} at x = {tension.x:.6g}" if tension.value > 0.0 else "none"
@@ -192,11 +238,6 @@ def _textbook(solution: Solution) -> tuple[list[int], list[float]]:
         known = np.isfinite(exact)
         errors.append(float(np.abs(p - exact)[known].max() / exact[known].max()))
     return list(NODES), [_number(max(error, 1e-17)) for error in errors]
-
-
-def _finite(values: Any) -> Any:
-    """Infinite tractions, as at a sharp edge, as numbers that a picture can leave out."""
-    return np.clip(np.nan_to_num(values), -1e300, 1e300)
 
 
 def _number(value: float) -> float:

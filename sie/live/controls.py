@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from sie.problem.scene import Scene
 from sie.profiles.row import Row
@@ -29,6 +29,10 @@ class Control:
     def nearest(self, value: float) -> float:
         """The value of the slider nearest to a number."""
         return min(self.values, key=lambda known: abs(known - value))
+
+    def starting(self, value: float) -> Control:
+        """The slider with this value too, which it starts with."""
+        return replace(self, values=tuple(sorted({*self.values, value})), start=value)
 
 
 def _steps(low: float, high: float, step: float) -> tuple[float, ...]:

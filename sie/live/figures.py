@@ -50,7 +50,7 @@ def _source(name: str, **columns: list[Any]) -> Any:
 
 
 def _pressure() -> Any:
-    drawn = _figure("pressure", "x", "p")
+    drawn = _figure("pressure", "x", "p", y_range=(0, 1))
     source = _source("contact", x=[], p=[], q=[], fp=[])
     drawn.varea("x", y1=0, y2="p", source=source, color="#4477aa", alpha=0.25)
     drawn.line("x", "p", source=source, color="#4477aa", line_width=2)
@@ -58,7 +58,7 @@ def _pressure() -> Any:
 
 
 def _shear() -> Any:
-    drawn = _figure("shear; bar: stick; dashed: ± f p", "x", "q")
+    drawn = _figure("shear; bar: stick; dashed: ± f p", "x", "q", y_range=(-1, 1))
     source = _source("contact", x=[], p=[], q=[], fp=[], minus=[])
     for bound in ("fp", "minus"):
         drawn.line("x", bound, source=source, color="#999999", line_dash="dashed")

@@ -29,6 +29,10 @@ async function answer(values, part) {
   return page.answers[[values.shape, ...used.map((c) => String(values[c.name]))].join("|")][part];
 }
 
+function shortened(value) {
+  return String(Number(value.toPrecision(4)));
+}
+
 function fill(name, data) {
   for (const source of sources[name]) source.data = data;
 }
@@ -48,6 +52,10 @@ function showNumbers(parts) {
 
 function showContact(a) {
   fill("contact", { x: a.x, p: a.p, q: a.q, fp: a.fp, minus: a.fp.map((v) => -v) });
+  const [p, q] = a.tops; // beyond them a curve goes to infinity
+  for (const [figure, start, end] of [[figures[0], 0, p], [figures[1], -q, q]]) {
+    figure.y_range.setv({ start, end, reset_start: start, reset_end: end });
+  }
   fill("stick", { lo: a.stick.map((z) => z[0]), hi: a.stick.map((z) => z[1]) });
   fill("errors", { n: a.n, error: a.errors, certificate: a.n.map(() => Math.max(a.certificate, 1e-17)) });
   showNumbers([a.numbers]);
@@ -71,7 +79,7 @@ async function update() {
   const values = setting();
   element("ratio").disabled = values.shape !== "rounded flat";
   for (const control of page.controls) {
-    element(control.name).nextElementSibling.value = values[control.name];
+    element(control.name).nextElementSibling.value = shortened(values[control.name]);
   }
   const status = element("status");
   for (const id of ["pictures", "numbers"]) element(id).classList.add("stale");
@@ -127,7 +135,7 @@ function addControl(control) {
   input.value = control.values.indexOf(control.start);
   input.disabled = control.values.length < 2;
   input.addEventListener("input", () => {
-    input.setAttribute("aria-valuetext", control.values[input.value]);
+    input.setAttribute("aria-valuetext", shortened(control.values[input.value]));
     update();
   });
   element("controls").append(label, input, document.createElement("output"));

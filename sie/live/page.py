@@ -24,9 +24,9 @@ KEPT = (
 )
 
 
-def served(file: Scene | None) -> str:
+def served(file: Scene | None, sliders: tuple[Control, ...] = LIVE) -> str:
     """The page that asks a server for its answers and for bokeh.js."""
-    return _filled(_about(LIVE, file), SERVED, '<script src="bokeh.js"></script>')
+    return _filled(_about(sliders, file), SERVED, '<script src="bokeh.js"></script>')
 
 
 def saved(answers: dict[str, Any]) -> str:

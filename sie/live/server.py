@@ -12,7 +12,7 @@ from urllib.parse import parse_qsl, urlsplit
 from sie.errors import ContactError
 from sie.problem.scene import Scene
 
-from .answer import PARTS, Setting, answer
+from .answer import PARTS, Setting, answer, sliders
 from .page import bokeh_script, served
 
 HOST = "127.0.0.1"  # no other machine is answered
@@ -23,19 +23,29 @@ class LiveServer(ThreadingHTTPServer):
 
     Raises
     ------
-    OSError
-        If the port is taken.
+    ValueError
+        If the port is taken, or the scene has no place on the sliders.
     ImportError
         If Bokeh is not installed.
     """
 
     def __init__(self, file: Scene | None = None, port: int = 0) -> None:
         self.file = file
-        self.contents = {
-            "/": ("text/html; charset=utf-8", served(file).encode()),
-            "/bokeh.js": ("text/javascript", bokeh_script()),
-        }
-        super().__init__((HOST, port), _Handler)
+        try:
+            super().__init__((HOST, port), _Handler)
+        except OSError as problem:
+            raise ValueError(
+                f"port {port} cannot be served on ({problem.strerror}): give --port another "
+                "number, or leave it out for any that is free"
+            ) from None
+        try:
+            self.contents = {
+                "/": ("text/html; charset=utf-8", served(file, sliders(file)).encode()),
+                "/bokeh.js": ("text/javascript", bokeh_script()),
+            }
+        except BaseException:
+            self.server_close()
+            raise
 
     @property
     def address(self) -> str:

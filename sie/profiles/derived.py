@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from sie import arguments
 from sie.inheritance import override
+from sie.messages import with_middle_cut
 
 from .base import Parity, Profile, of_any_x
 from .power_law import PowerLaw
@@ -97,7 +98,7 @@ class Derived(Profile):
                 todo.append(f".{kind.__name__.lower()}({', '.join(map(repr, arguments))})")
             else:
                 text.append(item if isinstance(item, str) else repr(item))
-        return "".join(reversed(text))
+        return with_middle_cut("".join(reversed(text)))
 
     @cached_property
     def _parts(self) -> tuple[tuple[Placed, ...], float]:

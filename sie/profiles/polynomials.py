@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from sie import arguments
 from sie.inheritance import override
+from sie.messages import listed
 
 from .base import Profile, of_any_x
 from .slope import JUMP, Slope, polynomial_slope
@@ -28,7 +29,7 @@ SURELY = 1.0 - 1e-12  # a bound that rounding does not reach
 NO_DIGITS = 1e3 * float(np.finfo(float).tiny)  # doubles below tiny have fewer digits than others
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Polynomial(Profile):
     """A polynomial: h = Σ coefficients[k] x^k.
 
@@ -56,6 +57,9 @@ class Polynomial(Profile):
     """
 
     coefficients: tuple[float, ...]
+
+    def __repr__(self) -> str:
+        return f"Polynomial(coefficients=({listed(self.coefficients)}))"
 
     def __post_init__(self) -> None:
         c = _coefficients(
@@ -142,7 +146,9 @@ class Piecewise(Profile):
                 )
 
     def __repr__(self) -> str:
-        return f"Piecewise(breaks={self.ends!r}, pieces={self.coefficients!r})"
+        comma = "," * (len(self.coefficients) == 1)
+        pieces = f"({listed(self.coefficients)}{comma})"
+        return f"Piecewise(breaks=({listed(self.ends)}), pieces={pieces})"
 
     @cached_property
     def pieces(self) -> Slope:

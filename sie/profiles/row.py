@@ -19,6 +19,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from sie import arguments
 from sie.inheritance import override
+from sie.messages import listed
 
 from .base import Profile, of_any_x
 from .closed_trace import closed, open_seams
@@ -77,7 +78,7 @@ class Row(Profile):
         object.__setattr__(self, "profiles", given)
 
     def __repr__(self) -> str:
-        return f"Row([{', '.join(map(repr, self.profiles))}])"
+        return f"Row([{listed(self.profiles)}])"
 
     @cached_property
     def lowest(self) -> tuple[tuple[float, float, int], ...]:

@@ -1,8 +1,6 @@
 """Stress histories of a cycle of loading, slip on the surface, and parameters of fretting damage.
 
-A cycle is a sequence of states, one Solution after each step of the load. This module uses
-.pressure, .shear and .scene.bulk_stress of a state (through `stress(x, y)`), and .slip(x), the
-tangential displacement of the body against the indenter.
+A cycle is a sequence of states, one Solution after each step of the load.
 
     slip amplitude     δ(x) = (max s - min s)/2 over the cycle
     Ruiz (1984)        κ1 = max|q| δ, friction work, for wear
@@ -24,6 +22,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from sie import arguments
 from sie.errors import ContactError
+from sie.messages import listed
 
 from . import fatigue
 from .fatigue import CriticalPlane
@@ -80,7 +79,7 @@ class Range:
         return 0.5 * (self.highest + self.lowest)
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Cycle:
     """A cycle of loading: the solutions after each of its steps, the last of which closes it.
 
@@ -124,6 +123,9 @@ class Cycle:
             if not callable(getattr(state, "stress", None)):
                 raise ValueError(f"{state!r} is not a solution: give {remedy}")
         object.__setattr__(self, "states", states)  # a generator gives them once only
+
+    def __repr__(self) -> str:
+        return f"Cycle([{listed(self.states)}])"
 
     @cached_property
     def size(self) -> int:

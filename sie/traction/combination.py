@@ -17,6 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from sie import arguments
 from sie.inheritance import override
+from sie.messages import listed
 
 from .base import ZERO, Density
 
@@ -40,6 +41,9 @@ class Combination(Density):
     """
 
     terms: tuple[tuple[float, Density], ...]
+
+    def __repr__(self) -> str:
+        return f"Combination(({listed(self.terms)}))"
 
     @cached_property
     def resultant(self) -> float:  # type: ignore[override]

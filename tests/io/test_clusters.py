@@ -103,6 +103,29 @@ def test_chunks_that_were_on_a_dying_worker_run_again_one_after_the_other():
     assert "died" in found["reason"][2] and len(executor.asked) == 6
 
 
+class Confused(Losing):
+    """Runs each chunk, and reports an error of its own when the first two are fetched at first.
+
+    Dask's executor does so where the worker that has a result dies while it is fetched.
+    """
+
+    def submit(self, function, chunk):
+        future = Future()
+        if len(self.asked) < 2:
+            future.set_exception(ValueError("not enough values to unpack (expected 3, got 2)"))
+        else:
+            future.set_result(function(chunk))
+        self.asked.append(chunk)
+        return future
+
+
+def test_a_result_that_an_executor_loses_is_computed_again():
+    loads, executor = [1.0, 2.0, 3.0, 4.0], Confused()
+    found = arrays(sie.sweep(SCENE, {"normal_load": loads}, "half_width", executor, chunk=1))
+    assert np.isfinite(found["half_width"]).all() and (found["reason"] == "").all()
+    assert len(executor.asked) == 6
+
+
 SCRIPT = """
 from mpi4py.futures import MPIPoolExecutor
 import sie, test_clusters

@@ -105,6 +105,11 @@ def test_a_solution_is_a_table_and_a_picture():
     assert not re.search(r"nan|None|\n\n", html.partition("<img")[0])
 
 
+@pytest.mark.parametrize("found", [SHEARED.check(), sie.plan(PUNCH.scene)], ids=["check", "plan"])
+def test_a_certificate_and_a_plan_are_shown_as_their_tables(found):
+    assert found._repr_html_() == f"<pre>{escape(str(found))}</pre>"
+
+
 def test_without_matplotlib_a_solution_is_its_table(monkeypatch):
     monkeypatch.setitem(sys.modules, "sie.plots.contact_plot", None)
     html = PUNCH._repr_html_()

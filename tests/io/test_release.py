@@ -54,8 +54,13 @@ def test_the_source_distribution_has_what_the_recipe_tests():
 # -- the recipe -----------------------------------------------------------------------------------
 
 
-def test_the_recipe_has_the_version_of_the_package():
+def test_the_recipe_the_citation_and_the_changelog_have_the_version_of_the_package():
     assert RECIPE["context"]["version"] == sie.__version__
+    citation = yaml.safe_load((ROOT / "CITATION.cff").read_text(encoding="utf-8"))
+    assert citation["version"] == sie.__version__
+    first = re.search("^## (.+)$", (ROOT / "CHANGELOG.md").read_text(encoding="utf-8"), re.M)
+    release, _, unreleased = sie.__version__.partition(".dev")
+    assert first[1] == (f"Unreleased ({release})" if unreleased else release)
 
 
 def test_the_recipe_asks_for_the_oldest_python_of_the_package():

@@ -228,6 +228,7 @@ def test_a_program_that_imports_a_kernel_and_runs_none_shows_no_bar(monkeypatch,
     [
         ({"over": {}}, "nothing to sweep over"),
         ({"over": {"normal_laod": [1.0]}}, '"normal_laod" is not known: choose body'),
+        ({"over": {"half_flat": [1.0]}}, 'is not known: choose "profile.half_flat"'),
         (
             {"over": {"profile.radiuss": [1.0]}},
             '"profile.radiuss" is not known: choose half_flat, radius',

@@ -15,8 +15,8 @@ import pytest
 
 import sie
 from sie.cli import main
-from sie.io.scene_file import example
-from sie.live.answer import PARTS, Setting, answer
+from sie.io.scene_file import example, parse
+from sie.live.answer import PARTS, Setting, answer, sliders
 from sie.live.controls import LIVE, OF_FILE, SAVED, shapes
 
 pytest.importorskip("bokeh", reason="the live page needs the extra `live`")
@@ -59,10 +59,59 @@ def test_words_that_the_page_does_not_send_are_refused(words):
 
 def test_the_sliders_change_the_scene_of_a_file():
     scene = sie.Scene(profile=sie.Parabola(2.0), modulus=3.0, poisson=0.3, normal_load=0.7)
-    setting = Setting.of_words({"load": "2", "friction": "0.4", "share": "0.5"}, scene)
+    words = {"load": "2", "friction": "0.4", "share": "0.5"}
+    setting = Setting.of_words(words, scene)
     assert setting.shape == OF_FILE
     assert setting.scene.normal_load == 1.4
     assert math.isclose(setting.scene.tangential_load, 0.5 * 0.4 * 1.4)
+
+
+@pytest.mark.parametrize("name", ["partial-slip", "dissimilar", "flat", "sliding", "wedge"])
+def test_the_sliders_start_from_the_values_of_the_file(name):
+    scene = parse(example(name)).scene
+    setting = Setting.of_words({}, scene)
+    start = {control.name: control.start for control in sliders(scene)}
+    assert setting.scene == scene
+    assert start["friction"] == scene.friction
+    assert start["beta"] == scene.beta
+    assert "refusal" not in answer(setting, "contact")
+    solution = sie.solve(scene)
+    limit = scene.friction * solution.normal_load
+    assert math.isclose(start["share"] * limit, solution.tangential_load, abs_tol=1e-9 * limit)
+
+
+def test_a_slider_that_moves_leaves_the_others_where_the_file_has_them():
+    scene = parse(example("partial-slip")).scene
+    moved = Setting.of_words({"load": "2"}, scene).scene
+    assert moved.normal_load == 2.0 * scene.normal_load
+    assert math.isclose(moved.tangential_load, 2.0 * scene.tangential_load)
+    assert (moved.friction, moved.body) == (scene.friction, scene.body)
+    assert math.isclose(moved.bulk_stress, scene.bulk_stress)
+
+
+def test_a_load_off_the_centre_keeps_its_place():
+    scene = parse(example("flat")).scene
+    moved = Setting.of_words({"load": "2"}, scene).scene
+    assert (moved.normal_load, moved.moment) == (2 * scene.normal_load, 2 * scene.moment)
+
+
+def test_a_bonded_file_has_no_place_on_the_sliders():
+    scene = sie.Scene(
+        profile=sie.Flat(1.0), modulus=1.0, dundurs=0.2, normal_load=1.0, friction=math.inf
+    )
+    with pytest.raises(ValueError, match="finite friction"):
+        sliders(scene)
+
+
+@pytest.mark.parametrize("profile", [sie.Wedge(0.3), sie.Flat(1.0)])
+def test_an_infinite_pressure_leaves_a_picture_of_the_finite_ones(profile):
+    scene = sie.Scene(profile=profile, modulus=1.0, poisson=0.3, normal_load=0.4, friction=0.5)
+    shown, solution = answer(Setting.of_words({}, scene), "contact"), sie.solve(scene)
+    mean = solution.normal_load / (2.0 * solution.half_width)
+    top, _ = shown["tops"]
+    assert mean < top < 10.0 * mean
+    assert max(shown["p"]) < 100.0 * mean
+    assert np.mean(np.array(shown["p"]) < top) > 0.85
 
 
 @pytest.fixture(scope="module")
@@ -94,11 +143,18 @@ sys.exit(main(sys.argv[1:]))
     with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as running:
         try:
             address = running.stdout.readline().split()[0]
-            with urllib.request.urlopen(address + "answer?share=0.5") as reply:
+            with urllib.request.urlopen(address + "answer?friction=0.5&share=0.5") as reply:
                 assert json.load(reply)["stick"]
         finally:
             running.send_signal(signal.SIGINT)
         assert running.wait(timeout=60) == 130
+
+
+def test_a_port_that_is_taken_is_refused_before_the_page_is_made(server, capsys, monkeypatch):
+    monkeypatch.setattr("sie.live.server.served", lambda *_: pytest.fail("the page is made"))
+    port = str(server.server_port)
+    assert main(["live", "--no-browser", "--port", port]) == 2
+    assert f"port {port} cannot be served on" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("mistake", [["--port", "70000"], ["--port", "x"], ["no-such.toml"]])
