@@ -188,8 +188,8 @@ class Sampled(Profile):
         return float(self.smoothing)
 
     @cached_property
-    def _spline(self) -> tuple[Array, Array]:
-        """(breaks, coefficients of h about the left end of each piece, low order first)."""
+    def _spline(self) -> tuple[Array, Array, Array]:
+        """(breaks, coefficients of h about the left end of each piece, tails of its slopes)."""
         if self.lam:
             return smoothing_spline(self.points, self.heights, self.lam)
         return interpolating_spline(self.points, self.heights)
@@ -197,13 +197,14 @@ class Sampled(Profile):
     @cached_property
     def pieces(self) -> Slope:
         """H of the spline, a parabola between neighbouring points."""
-        breaks, c = self._spline
-        return Slope(breaks, breaks[:-1], c[:, 1:] * np.arange(1.0, 4.0), np.full(len(c), 2))
+        breaks, c, tails = self._spline
+        slopes, degrees = c[:, 1:] * np.arange(1.0, 4.0), np.full(len(c), 2)
+        return Slope(breaks, breaks[:-1], slopes, degrees, tails=tails)
 
     @of_any_x
     @override
     def height(self, x: Array) -> Array:
-        breaks, c = self._spline
+        breaks, c, _ = self._spline
         k = np.clip(np.searchsorted(breaks, x, side="right") - 1, 0, len(c) - 1)
         u = x - breaks[k]
         h = c[k, 0] + u * (c[k, 1] + u * (c[k, 2] + u * c[k, 3]))

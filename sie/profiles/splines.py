@@ -37,7 +37,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from sie.numerics.interval import EPS
+from sie.numerics.interval import EPS, two_product, two_sum
 
 Array = NDArray[np.float64]
 
@@ -55,21 +55,28 @@ LOCAL = 50  # points whose misfit measures the noise
 REFINED = 0.02  # of the logarithm of the averaging length
 
 
-def interpolating_spline(x: Array, h: Array) -> tuple[Array, Array]:
-    """(breaks, coefficients (N, 4), low order first, about the left end of each piece).
+def interpolating_spline(x: Array, h: Array) -> tuple[Array, Array, Array]:
+    """(breaks, coefficients (N, 4), low order first, about the left end of each piece; tails).
 
-    Not-a-knot at the ends, so that a cubic is reproduced.
+    Not-a-knot at the ends, so that a cubic is reproduced. It is the spline of h - level x, which
+    loses no digits to a tilt that all of h has; the tails are what rounding takes from its slopes.
     """
     from scipy.interpolate import CubicSpline  # noqa: PLC0415 -- heavy, and for traces only
 
-    c: Array = CubicSpline(x, h).c.T[:, ::-1].copy()
-    return x, c
+    chords = np.diff(h) / np.diff(x)
+    level = float(chords[np.abs(chords).argmin()])
+    product, rounded = two_product(level, x)
+    left, rest = two_sum(h, -product)
+    c: Array = CubicSpline(x, np.stack((left, rest - rounded), axis=1)).c.sum(axis=2).T[:, ::-1]
+    slope, tails = two_sum(c[:, 1], level)
+    return x, np.stack((h[:-1], slope, c[:, 2], c[:, 3]), axis=1), tails
 
 
-def smoothing_spline(x: Array, h: Array, lam: float) -> tuple[Array, Array]:
-    """(breaks, coefficients) of the smoothing spline with λ = lam > 0; breaks at its knots."""
+def smoothing_spline(x: Array, h: Array, lam: float) -> tuple[Array, Array, Array]:
+    """The same of the smoothing spline with λ = lam > 0; breaks at its knots, and no tails."""
     problem = _Problem(x, h)
-    return problem.spline(lam / problem.length**3)
+    breaks, c = problem.spline(lam / problem.length**3)
+    return breaks, c, np.zeros(len(c))
 
 
 def longest_lambda(x: Array) -> float:
