@@ -115,7 +115,7 @@ def __getattr__(name: str) -> Any:
     elif name == "plots":
         import sie.plots  # noqa: PLC0415
     elif name == "teaching":
-        import sie.teaching  # noqa: PLC0415
+        import sie.teaching  # noqa: F401, PLC0415
     else:
         raise AttributeError(f"module 'sie' has no attribute {name!r}")
     return globals()[name]

@@ -75,6 +75,9 @@ def shear_certificate(
     parts = [_part(factor, d, slope) for factor, d in state.shear.bases]
     own = next((t for t in parts if t.density is pressure), _part(f, pressure, slope))
     p, q = f * own.p, finite(np.asarray(sum(_values(t, own) for t in parts)) + np.zeros(own.x.size))
+    # q may be made of another pressure, whose edges and places are rounded apart from those of p
+    rounding = p * np.minimum(np.spacing(np.abs(own.x)) / _from_edges(own.x, pressure, chord), 1.0)
+    q_near_p = np.sign(q) * np.clip(p, np.abs(q) - rounding, np.abs(q) + rounding)
     # without shear what is missed is compared with f p
     scale = np.abs(q) if q.any() else p
     size, peak = float(own.weight @ scale), float(scale.max())
@@ -91,7 +94,7 @@ def shear_certificate(
     return ShearCertificate(
         residual=float(np.abs(missed).max(initial=0.0)) / peak,
         equilibrium=abs(force - loads[0]) / size,
-        excess=excess(state, state.contact, own.x, p, q) / float(p.max()),
+        excess=excess(state, state.contact, own.x, p, q_near_p) / float(p.max()),
         opposing=opposing(state, state.slip_now(own.x[some]), own.x[some]),
         abscissae=digits * max(of_force / size, highest / peak),
         condition=state.condition,
@@ -99,6 +102,13 @@ def shear_certificate(
         kind=state.kind,
         tol=min(c.tol for c in of_pressures),
     )
+
+
+def _from_edges(x: Array, pressure: Density, chord: Chord) -> Array:
+    """The distances from the nearest edges of patches, of an ulp at least."""
+    ends = np.array(_zones(pressure)).ravel()
+    apart = np.abs(chord.difference(x[:, None] - ends)).min(axis=1, initial=np.inf)
+    return np.asarray(np.maximum(apart, np.spacing(np.abs(x))))
 
 
 def _period(pressure: Density) -> float:

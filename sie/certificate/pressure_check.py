@@ -13,6 +13,8 @@ low-discrepancy sequence (`profiles.unresolved`). An edge x2 that is off by δ c
 too much (`contact.edges`), and leaves ΔP/(π w(x)) in the pressure, like the load on a flat punch:
 next to the edge that is p(x) δ/(2 d), d the distance from it. δ is at least half an ulp of x2, if
 x2 is kept as a double. The rounding of ∫H dφ is a part of ΔP.
+
+Where an edge is sharp the pressure has no peak: there `peak` is that of p sqrt(1 - s²).
 """
 
 from __future__ import annotations
@@ -60,7 +62,11 @@ def _measured(density: SlopeDensity, slope: Slope, tol: float) -> Certificate:
     rule = composite_rule(contact, slope, epsilon=density.epsilon, resolution=resolved)
     x, weight = rule.x, rule.weight
     p = _finite(density(x))
-    peak = float(p.max())
+    finite = _of_sharp_edges(density, x)
+    if density.k1 or density.k2:  # p dx = p finite r dφ, both at x as it is rounded
+        weight = weight * finite / np.sin(rule.angle)
+        rule = rule._replace(weight=weight)
+    peak = float((p * finite).max())
     P, r = density.resultant, contact.r
     H, H_beside, H_at_edges = _slopes(slope, contact, rule.between)
     residual = _residual(density, H, rule, p)
@@ -89,6 +95,15 @@ def _measured(density: SlopeDensity, slope: Slope, tol: float) -> Certificate:
         edges=_load_on_edges(density, resolved, rule) / (math.pi * r * (bounded_peak or peak)),
         notes=notes(np.concatenate((H, H_at_edges)), bounded_peak / (2.0 * density.half_modulus)),
     )
+
+
+def _of_sharp_edges(density: SlopeDensity, x: Array) -> Array:
+    """sqrt(1 - s²), times which a pressure with a sharp edge is finite; 1 without one."""
+    if not (density.k1 or density.k2):
+        return np.ones_like(x)
+    left, right = density.contact.from_left(x), density.contact.from_right(x)
+    root: Array = np.sqrt(left) * np.sqrt(right) / density.contact.r
+    return root
 
 
 def _load_on_edges(density: SlopeDensity, slope: Slope, rule: Rule) -> float:
@@ -202,12 +217,16 @@ def _rounding(density: SlopeDensity, change: Array, rule: Rule, p: Array) -> tup
     """
     order = np.argsort(rule.x, kind="stable")
     x, weight, p = rule.x[order], rule.weight[order], p[order]
+    finite = _of_sharp_edges(density, x)
+    weight, p = weight / finite, p * finite
     ulp, apart = np.spacing(np.abs(x)), np.diff(x)
     steps = np.abs(np.diff(p)) * np.minimum(ulp[1:] / np.maximum(apart, ulp[1:]), 1.0)
     from_edge = np.maximum(
         np.minimum(density.contact.from_left(x), density.contact.from_right(x)), 0.0
     )
     moved = np.abs(p) * np.minimum(ulp / np.maximum(2.0 * from_edge, ulp), 1.0)
+    if density.k1 or density.k2:
+        moved[:] = 0.0  # p finite has no root there
     moved[1:] = np.maximum(moved[1:], steps)
     moved[:-1] = np.maximum(moved[:-1], steps)
     at = rule.between

@@ -15,7 +15,7 @@ PROMISE = (
     "At a distance d from the nearer edge the pressure is wrong by at most 3 (error + edges "
     "sqrt(r/d)) of its peak, or of p(x) where that is larger, but for errors below 1e-15 of the "
     "peak, for what one ulp of x changes, and for what a function does on less than 5e-4 of the "
-    "contact."
+    "contact. With a sharp edge that holds for p sqrt(1 - (x/r)²), x from the centre."
 )
 WIDE = 79  # columns of a terminal
 LEAST = 8.0 * EPS  # rounding of single pressures, which the integrals average out ...
@@ -33,6 +33,7 @@ class Certificate:
      At a distance d from the nearer edge the pressure is wrong by at most 3 (error + edges
     sqrt(r/d)) of its peak, or of p(x) where that is larger, but for errors below 1e-15 of the peak,
     for what one ulp of x changes, and for what a function does on less than 5e-4 of the contact.
+    With a sharp edge that holds for p sqrt(1 - (x/r)²), x from the centre.
 
     Parameters
     ----------

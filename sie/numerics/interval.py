@@ -23,7 +23,7 @@ EPS = float(np.finfo(float).eps)
 TAIL_MATTERS = 4.0 * EPS
 
 
-def two_sum(a: float, b: float) -> tuple[float, float]:
+def two_sum(a: Any, b: Any) -> tuple[Any, Any]:
     """a + b as the nearest double and the exact remainder (Knuth 1969)."""
     s = a + b
     c = s - a
@@ -33,7 +33,7 @@ def two_sum(a: float, b: float) -> tuple[float, float]:
 SPLITTER = 2.0**27 + 1.0  # halves a double's digits
 
 
-def two_product(a: float, b: float) -> tuple[float, float]:
+def two_product(a: Any, b: Any) -> tuple[Any, Any]:
     """a b as the nearest double and the exact remainder (Dekker 1971)."""
     p = a * b
     t = SPLITTER * a

@@ -87,7 +87,7 @@ def _crossings(
     for k in (one, other):
         piece = int(np.searchsorted(slopes[k].breaks, inner)) - 1
         width = slopes[k].coefficients.shape[1]
-        c = recentred(slopes[k], np.array([piece]), np.array([inner]), width)[0]
+        c = recentred(slopes[k], np.array([piece]), np.array([inner]), width)[0][0]
         rows.append(
             np.concatenate(([float(profiles[k].height(inner))], c / np.arange(1, width + 1)))
         )

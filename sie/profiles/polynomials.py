@@ -158,7 +158,9 @@ class Piecewise(Profile):
             _well_placed(row, lo, hi)
             for row, (lo, hi) in zip(given, pairwise(self.ends), strict=True)
         ]
-        return polynomial_slope(self.ends, [o for o, _ in rows], [c for _, c in rows])
+        c = [[float(v) for v in row] for _, row in rows]
+        tails = np.array([float(exact[0] - Fraction(row[0])) for (_, exact), row in zip(rows, c)])
+        return polynomial_slope(self.ends, [o for o, _ in rows], c, tails)
 
     @of_any_x
     @override
@@ -256,7 +258,7 @@ def _ends(breaks: Sequence[float], count: int) -> tuple[float, ...]:
     return ends
 
 
-def _well_placed(row: tuple[float, ...], lo: float, hi: float) -> tuple[float, tuple[float, ...]]:
+def _well_placed(row: tuple[float, ...], lo: float, hi: float) -> tuple[float, list[Fraction]]:
     """(origin, coefficients about it), where the slope at the origin is smallest.
 
     The origin is an end of the piece, x = 0 or the zero of a straight line. The arithmetic is
@@ -273,10 +275,10 @@ def _well_placed(row: tuple[float, ...], lo: float, hi: float) -> tuple[float, t
     return min(moved, key=lambda pair: abs(pair[1][0]))
 
 
-def _moved(row: tuple[float, ...], origin: float) -> tuple[float, ...]:
+def _moved(row: tuple[float, ...], origin: float) -> list[Fraction]:
     """Coefficients about the origin, by synthetic division in rational arithmetic."""
     c = [Fraction(v) for v in row]
     for i in range(len(c) - 1):
         for j in range(len(c) - 2, i - 1, -1):
             c[j] += Fraction(origin) * c[j + 1]
-    return tuple(float(v) for v in c)
+    return c

@@ -12,6 +12,7 @@ ln(length/piece) times as large. So the tolerance is smaller for pieces that tou
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from functools import lru_cache
 from typing import NamedTuple
 
@@ -203,13 +204,7 @@ def refined(slope: Slope, lo: float, hi: float, tol: float, cuts: Array | None =
     k = np.clip(
         np.searchsorted(slope.breaks, breaks[:-1], side="right") - 1, 0, len(slope.origins) - 1
     )
-    return Slope(
-        breaks,
-        slope.origins[k],
-        slope.coefficients[k],
-        np.maximum(degrees, slope.degrees[k]),
-        slope.functions,
-    )
+    return replace(slope.chosen(k, breaks), degrees=np.maximum(degrees, slope.degrees[k]))
 
 
 def integral(slope: Slope, start: float, x: Array) -> Array:

@@ -21,7 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie import arguments
-from sie.numerics.interval import EPS
+from sie.numerics.interval import EPS, two_product, two_sum
 
 from .slope_row import Row
 
@@ -62,6 +62,7 @@ class Slope:
     origins         (N,)
     coefficients    (N, D), low order first
     degrees         (N,)
+    tails           (N,), what rounding took from coefficients[:, 0]: a tilt may cancel the rest
 
     `degrees` is the Chebyshev degree that resolves each piece; it equals the polynomial's degree
     where there is no function.
@@ -72,6 +73,7 @@ class Slope:
     coefficients: Array
     degrees: NDArray[np.int64]
     functions: tuple[FunctionTerm, ...] = ()
+    tails: Array | float = 0.0
 
     def local(self, k: Any, start: Array, tail: Array, u: Array) -> Array:
         """H at t = (start + tail) + u on the pieces k, without rounding t.
@@ -264,7 +266,7 @@ class Slope:
         k = np.arange(len(self.origins))
         inner = self.breaks[1:-1]
         width = self.coefficients.shape[1]
-        return recentred(self, k[1:], inner, width) - recentred(self, k[:-1], inner, width)
+        return recentred(self, k[1:], inner, width)[0] - recentred(self, k[:-1], inner, width)[0]
 
     @property
     def domain(self) -> tuple[float, float]:
@@ -275,9 +277,19 @@ class Slope:
         """The slope of h(x) + tilt x."""
         if tilt == 0.0:
             return self
-        c = self.coefficients.copy()
-        c[:, 0] += tilt
-        return replace(self, coefficients=c)
+        c, (level, rest) = self.coefficients.copy(), two_sum(self.coefficients[:, 0], tilt)
+        c[:, 0], tails = two_sum(level, rest + self.tails)
+        return replace(self, coefficients=c, tails=tails)._near_zeros()
+
+    def _near_zeros(self) -> Slope:
+        """The same with the zero of an outer straight piece as its origin, if not its inner end."""
+        c, origins = self.coefficients, self.origins.copy()
+        if c.shape[1] == 2 and len(origins) > 1:
+            for k, lo, hi in ((0, *self.breaks[:2]), (-1, *self.breaks[-2:])):
+                if np.isinf(lo - hi) and lo < origins[k] < hi and c[k, 1]:
+                    origins[k] = min(max(origins[k] - c[k, 0] / c[k, 1], lo), hi)
+        c, tails = recentred(self, np.arange(len(origins)), origins, c.shape[1])
+        return replace(self, origins=origins, coefficients=c, tails=tails)
 
     def less_level(self, x: float, near: float) -> tuple[float, Slope]:
         """H(x), and H - H(x) with x as the origin of every piece whose own is not so near.
@@ -286,9 +298,8 @@ class Slope:
         """
         level = float(self(x))
         origins = np.where(np.abs(self.origins - x) > near, x, self.origins)
-        c = recentred(self, np.arange(len(origins)), origins, self.coefficients.shape[1])
-        c[:, 0] -= level
-        return level, replace(self, origins=origins, coefficients=c)
+        c, tails = recentred(self, np.arange(len(origins)), origins, self.coefficients.shape[1])
+        return level, replace(self, origins=origins, coefficients=c, tails=tails).tilted(-level)
 
     def split_at(self, x: float) -> Slope:
         """The same slope with one more break, at x."""
@@ -296,12 +307,17 @@ class Slope:
         if not self.breaks[0] < x < self.breaks[-1] or self.breaks[k] == x:
             return self
         twice = np.insert(np.arange(len(self.origins)), k, k - 1)
+        return self.chosen(twice, np.insert(self.breaks, k, x))
+
+    def chosen(self, k: NDArray[Any], breaks: Array) -> Slope:
+        """These pieces, on other breaks."""
         return replace(
             self,
-            breaks=np.insert(self.breaks, k, x),
-            origins=self.origins[twice],
-            coefficients=self.coefficients[twice],
-            degrees=self.degrees[twice],
+            breaks=breaks,
+            origins=self.origins[k],
+            coefficients=self.coefficients[k],
+            degrees=self.degrees[k],
+            tails=np.broadcast_to(self.tails, self.origins.shape)[k],
         )
 
     def within(self, lo: float, hi: float) -> Slope:
@@ -309,30 +325,25 @@ class Slope:
         split = self.split_at(lo).split_at(hi)
         kept = (split.breaks[:-1] >= lo) & (split.breaks[1:] <= hi)
         ends = np.append(split.breaks[:-1][kept], split.breaks[1:][kept][-1])
-        return Slope(
-            ends,
-            split.origins[kept],
-            split.coefficients[kept],
-            split.degrees[kept],
-            split.functions,
-        )
+        return split.chosen(kept, ends)
 
     def shifted(self, dx: float) -> Slope:
         """The slope of h(x - dx)."""
         functions = tuple(replace(f, shift=f.shift + dx) for f in self.functions)
-        breaks, origins = self.breaks + dx, self.origins + dx
+        breaks = self.breaks + dx
+        moved = replace(self, breaks=breaks, origins=self.origins + dx, functions=functions)
         # A piece that is shorter than the doubles are apart there is gone.
         kept = np.diff(breaks) > 0.0
-        if kept.all():
-            return replace(self, breaks=breaks, origins=origins, functions=functions)
         ends = np.append(breaks[:-1][kept], breaks[-1])
-        return Slope(ends, origins[kept], self.coefficients[kept], self.degrees[kept], functions)
+        return moved if kept.all() else moved.chosen(kept, ends)
 
     def mirrored(self) -> Slope:
         """The slope of h(-x), that is -H(-x)."""
         c = -self.coefficients[::-1] * (-1.0) ** np.arange(self.coefficients.shape[1])
         functions = tuple(replace(f, shift=-f.shift, sign=-f.sign) for f in self.functions)
-        return Slope(-self.breaks[::-1], -self.origins[::-1], c, self.degrees[::-1], functions)
+        tails = -np.broadcast_to(self.tails, self.origins.shape)[::-1]
+        origins = -self.origins[::-1]
+        return Slope(-self.breaks[::-1], origins, c, self.degrees[::-1], functions, tails)
 
     def __add__(self, other: Slope) -> Slope:
         """The sum on the intersection of both domains, broken where either is."""
@@ -351,13 +362,20 @@ class Slope:
         nearer = _distance(one, breaks) <= _distance(two, breaks)
         origins = np.where(other.is_zero[theirs] | (~self.is_zero[mine] & nearer), one, two)
         width = max(self.coefficients.shape[1], other.coefficients.shape[1])
-        c = recentred(self, mine, origins, width) + recentred(other, theirs, origins, width)
+        c, tails = recentred(self, mine, origins, width)
+        more, other_tails = recentred(other, theirs, origins, width)
+        level, rest = two_sum(c[:, 0], more[:, 0])
+        c += more
+        c[:, 0], tails = two_sum(level, rest + (tails + other_tails))
         degrees = np.maximum(self.degrees[mine], other.degrees[theirs])
-        return Slope(breaks, origins, c, degrees, self.functions + other.functions)
+        return Slope(breaks, origins, c, degrees, self.functions + other.functions, tails)
 
 
 def polynomial_slope(
-    breaks: Sequence[float], origins: Sequence[float], coefficients: Sequence[Sequence[float]]
+    breaks: Sequence[float],
+    origins: Sequence[float],
+    coefficients: Sequence[Sequence[float]],
+    tails: Array | float = 0.0,
 ) -> Slope:
     """A Slope from rows of polynomial coefficients of unequal length."""
     width = max(len(row) for row in coefficients)
@@ -365,7 +383,8 @@ def polynomial_slope(
     for k, row in enumerate(coefficients):
         c[k, : len(row)] = row
     degrees = np.array([max(len(row) - 1, 0) for row in coefficients], dtype=np.int64)
-    return Slope(np.asarray(breaks, dtype=float), np.asarray(origins, dtype=float), c, degrees)
+    ends, origin = np.asarray(breaks, dtype=float), np.asarray(origins, dtype=float)
+    return Slope(ends, origin, c, degrees, tails=tails)
 
 
 def _distance(origins: Array, breaks: Array) -> Array:
@@ -385,16 +404,24 @@ def _distance(origins: Array, breaks: Array) -> Array:
     )
 
 
-def recentred(slope: Slope, k: NDArray[np.int64], origins: Array, width: int) -> Array:
-    """Coefficients of the pieces k about new origins, by synthetic division (Horner).
+def recentred(
+    slope: Slope, k: NDArray[np.int64], origins: Array, width: int
+) -> tuple[Array, Array]:
+    """Coefficients of the pieces k about new origins, and tails, by synthetic division (Horner).
 
     They are exact where the origin stays.
     """
-    c = np.zeros((len(k), width))
+    c, tails = np.zeros((len(k), width)), np.broadcast_to(slope.tails, slope.origins.shape)[k]
     c[:, : slope.coefficients.shape[1]] = slope.coefficients[k]
-    step = origins - slope.origins[k]
+    step, cut = two_sum(origins, -slope.origins[k])
     if step.any():
-        for i in range(width - 1):
+        for j in range(width - 2, 0, -1):
+            c[:, j] += step * c[:, j + 1]
+        if width > 1:
+            rise, rounded = two_product(step, c[:, 1])
+            level, rest = two_sum(c[:, 0], rise)
+            c[:, 0], tails = two_sum(level, (rest + tails) + (rounded + cut * c[:, 1]))
+        for i in range(1, width - 1):
             for j in range(width - 2, i - 1, -1):
                 c[:, j] += step * c[:, j + 1]
-    return c
+    return c, tails

@@ -37,7 +37,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from sie.numerics.interval import EPS
+from sie.numerics.interval import EPS, two_product, two_sum
 
 from .slope import Slope
 
@@ -64,23 +64,26 @@ MOST_TURNS = 20  # periods on either side: what averages over more leaves nothin
 class Spline:
     """A cubic spline f on its breaks (N+1,).
 
-    c (N, 4) are its coefficients about the left end of each piece, low order first.
+    c (N, 4) are its coefficients about the left end of each piece, low order first; tails (N,) is
+    what rounding took from the slopes c[:, 1].
     """
 
     breaks: Array
     c: Array
+    tails: Array
 
     @property
     def slope(self) -> Slope:
         """f', a parabola between neighbouring breaks."""
-        degrees = np.full(len(self.c), 2)
-        return Slope(self.breaks, self.breaks[:-1], self.c[:, 1:] * np.arange(1.0, 4.0), degrees)
+        slopes, degrees = self.c[:, 1:] * np.arange(1.0, 4.0), np.full(len(self.c), 2)
+        return Slope(self.breaks, self.breaks[:-1], slopes, degrees, tails=self.tails)
 
     def tilted(self, slope: float) -> Spline:
         """f + slope (x - the first break)."""
-        steps = self.breaks[:-1] - self.breaks[0]
-        line = np.stack((slope * steps, np.full(len(steps), slope)), axis=1)
-        return Spline(self.breaks, self.c + np.pad(line, ((0, 0), (0, 2))))
+        c = self.c.copy()
+        c[:, 0] += slope * (self.breaks[:-1] - self.breaks[0])
+        c[:, 1], rest = two_sum(c[:, 1], slope)
+        return Spline(self.breaks, c, self.tails + rest)
 
     def __call__(self, x: Array) -> Array:
         """f(x), infinite beyond its ends."""
@@ -92,16 +95,27 @@ class Spline:
 
 
 def interpolating_spline(x: Array, h: Array, ends: str = "not-a-knot") -> Spline:
-    """The spline through the points; not-a-knot at the ends, so that a cubic is reproduced."""
+    """The spline through the points; not-a-knot at the ends, so that a cubic is reproduced.
+
+    It is the spline of h - level x, which loses no digits to a tilt that all of h has.
+    """
     from scipy.interpolate import CubicSpline  # noqa: PLC0415 -- heavy, and for traces only
 
-    return Spline(x, CubicSpline(x, h, bc_type=ends).c.T[:, ::-1].copy())
+    chords = np.diff(h) / np.diff(x)
+    level = 0.0 if ends == "periodic" else float(chords[np.abs(chords).argmin()])
+    product, rounded = two_product(level, x)
+    left, rest = two_sum(h, -product)
+    both = np.stack((left, rest - rounded), axis=1)
+    c: Array = CubicSpline(x, both, bc_type=ends).c.sum(axis=2).T[:, ::-1]
+    slope, tails = two_sum(c[:, 1], level)
+    return Spline(x, np.stack((h[:-1], slope, c[:, 2], c[:, 3]), axis=1), tails)
 
 
 def smoothing_spline(x: Array, h: Array, lam: float) -> Spline:
     """The smoothing spline with λ = lam > 0, with breaks at its knots."""
     problem = _Problem(x, h)
-    return Spline(*problem.spline(lam / problem.length**3))
+    breaks, c = problem.spline(lam / problem.length**3)
+    return Spline(breaks, c, np.zeros(len(c)))
 
 
 def closed_spline(x: Array, h: Array, period: float, lam: float) -> Spline:

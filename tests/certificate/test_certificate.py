@@ -104,6 +104,39 @@ def test_edges_far_from_x_0_are_known_better_than_to_an_ulp_of_x():
     assert found.ok
 
 
+X = np.arange(-32.0, 33.0) / 16.0  # squares and cubes of which are doubles
+LEVEL = 30.0 + 2.0**-13
+
+
+def _with_level(level):
+    """Profiles whose slope is `level` and a small one, in doubles without rounding."""
+    small = ([level, 2e-3], [level, 1e-3], [level, 3e-3])
+    pieces, shape = sie.Piecewise([-1.0, 1.0], small), X**2 / 1024 + X**3 / 4096
+    half = sie.Piecewise([-0.5], [[0.75 * level, 1e-3], [0.75 * level, 2e-3]])
+    return {
+        "pieces": pieces,
+        "sum": half + sie.Parabola(1024.0).shifted(0.25) + sie.Polynomial([0, 0.25 * level, 1e-4]),
+        "trace": sie.Sampled(X, level * X + shape),
+    }
+
+
+@pytest.mark.parametrize("kind", _with_level(0.0))
+def test_a_slope_that_a_tilt_cancels_costs_no_digits_that_the_certificate_does_not_show(kind):
+    """With the slope 30.0001 and the tilt -30.0001 + 1e-4 it is the contact of the slope 1e-4."""
+    rest = 2.0**-13
+    tilted = sie.Scene(
+        profile=_with_level(LEVEL)[kind], modulus=1.0, half_width=0.5, tilt=rest - LEVEL
+    )
+    level = sie.Scene(profile=_with_level(0.0)[kind], modulus=1.0, half_width=0.5, tilt=rest)
+    one, other = sie.solve(tilted), sie.solve(level)
+    found = one.check()
+    assert found.ok
+    x = other.centre + 0.5 * np.linspace(-0.99, 0.99, 41)
+    error = np.abs(one.pressure(x) - other.pressure(x)).max() / other.pressure(x).max()
+    assert error <= 3.0 * (found.error + 10.0 * found.edges)
+    np.testing.assert_allclose(one.edges, other.edges, rtol=0.0, atol=1e-14)
+
+
 def test_the_same_promise_is_printed_and_documented():
     found = sie.solve(sie.Scene(profile=sie.Parabola(1.0), modulus=1.0, normal_load=0.3)).check()
     assert PROMISE in " ".join(str(found).split())

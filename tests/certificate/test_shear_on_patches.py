@@ -34,6 +34,17 @@ def measured(solution, shear=None, Q=None, tau=0.0):
     return shear_certificate(state, solution.pressure, loads, slope, pressures)
 
 
+def test_pressures_whose_edges_are_rounded_apart_are_no_excess_of_friction():
+    """The shear on one patch, of a profile that may touch in two, is made of another pressure."""
+    profile = sie.Polynomial((0.0, 0.011940933832244222, -0.25, 0.0, 0.25))
+    P, Q = 0.22353196588895907, -0.013625963439846001
+    scene = sie.Scene(profile=profile, modulus=1.0, normal_load=P, friction=0.3)
+    solution = sie.follow(scene, sie.Path([(P, Q, 0.0)]))[0]
+    assert solution.check().ok
+    more = sie.superposed((1.0 + 1e-9, solution.tangential.shear))
+    assert measured(solution, more).excess > 1e-11
+
+
 @each
 @pytest.mark.parametrize("part", [-0.4, 0.99])
 def test_a_shear_is_certified_to_rounding(profile, part):

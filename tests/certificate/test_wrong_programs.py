@@ -228,6 +228,42 @@ def test_the_closed_form_that_cancels_is_caught():
     assert_caught(scene, naive, share=0.1)
 
 
+# -- sharp edges ----------------------------------------------------------------------------------
+
+SHARP = {
+    "both edges": sie.Scene(profile=sie.Flat(1.0), modulus=1.0, normal_load=1.0, moment=0.2),
+    "one edge": sie.Scene(profile=sie.Flat(1.0), modulus=1.0, normal_load=1.0, tilt=1.0),
+}
+
+
+@pytest.mark.parametrize("scene", SHARP.values(), ids=SHARP)
+@pytest.mark.parametrize(("width", "size"), [(0.05, 1e-10), (0.003, 1e-7)])
+def test_a_bump_beside_a_sharp_edge_is_caught(scene, width, size):
+    """An infinite pressure is no measure: 1e-10 of that at the centre counts."""
+    p, m = right(scene), sie.solve(scene).centre
+    bump = size * float(p(m))
+    found, _ = certificate(scene, lambda x: p(x) + bump * np.exp(-(((x - m - 0.31) / width) ** 2)))
+    assert not found.ok
+
+
+@pytest.mark.parametrize("side", [-1.0, 1.0])
+def test_a_step_next_to_a_sharp_edge_is_caught(side):
+    """Of the part 1e-10 within 1e-3 r of it, where p sqrt(1 - s²) is as large as anywhere."""
+    scene = SHARP["both edges"]
+    p = right(scene)
+    found, _ = certificate(scene, lambda x: p(x) * (1.0 + 1e-10 * (side * x > 0.999)))
+    assert not found.ok
+    assert found.error > 1e-10 / 3
+
+
+@pytest.mark.parametrize("scene", SHARP.values(), ids=SHARP)
+def test_a_right_sharp_edge_is_certified_to_rounding(scene):
+    found = sie.solve(scene).check()
+    assert found.ok
+    assert found.error < 2e-14
+    assert found.abscissae < 1e-13
+
+
 # -- claims that lie ------------------------------------------------------------------------------
 
 
