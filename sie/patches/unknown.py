@@ -71,7 +71,8 @@ def _unknown_depth(
         f"which of the valleys at x = {x1:.6g} and {x2:.6g} touch, and how they share the load, is "
         f"decided by a difference of their depths of {decides:.2g} at normal_load over E*/2 = "
         f"{given.load:.6g}, and doubles of h tell {known:.2g}: raise the load, or give a profile "
-        "of which only one valley is as deep"
+        "of which only one valley is as deep",
+        valleys=(x1, x2),
     )
 
 
