@@ -12,10 +12,10 @@ import numpy as np
 
 from .contact.inequalities import slope_rises, slope_rises_far, verify_inequalities
 from .contact.known_contact import Normal
-from .contact.normal import normal_contact
+from .contact.normal import falls_somewhere, normal_contact, of_one_patch, one_series
 from .contact.pressure import pressure
 from .errors import ContactError, InequalityError, LoadError, ResolutionError
-from .patches.answer import SeveralPatches, asks_for_patches, light_patches, several_patches
+from .patches.answer import SeveralPatches, asks_for_patches, several_patches
 from .patches.full import FullContact
 from .problem.request import ECONOMY
 from .problem.scene import Scene
@@ -24,9 +24,8 @@ from .profiles.slope import Slope
 from .stages import stage as cached_property  # its first reading is logged
 from .traction.of_slope import SlopeDensity
 
-# Of the slope's change over one patch: where that much of it is not linear, the search for overlaps
-# shows other valleys (it misses them where a contact is 1e-5 of their distance).
-BENT = 1e-3
+# of a patch: the pressure on more of them is more exact as that of several patches
+MOST_PANELS = 128
 
 
 class Frictionless:
@@ -50,17 +49,10 @@ class Frictionless:
         """The contact without shear, verified where the profile may not be convex."""
         if asks_for_patches(self.scene.profile):
             return self._in_patches()
+        if self._of_waves is not None:
+            return self.unverified if self._is_one_patch else self._of_waves
         try:
-            may_be_light = self._may_be_in_patches and not self._bent
-            light = light_patches(self.scene) if may_be_light else None
-        except ContactError as error:
-            raise explained(error, self.scene.profile) from None
-        if light is not None and len(light.patches) > 1:
-            return light
-        try:
-            one = self.one_patch()
-            elsewhere = light is not None and not light.meets(one.edges.contact[:2])
-            return light if light is not None and elsewhere else one
+            return self.one_patch()
         except (InequalityError, LoadError, ResolutionError) as error:
             # Without a lowest point patches are no answer either, unless another tilt is found
             bottomless = "falls" in error.reached and self.scene.moment is None
@@ -155,14 +147,29 @@ class Frictionless:
         )
         return several_patches(plain)
 
-    @property
-    def _bent(self) -> bool:
-        """Whether the slope of a function bends within one patch: the load is not light."""
+    @cached_property
+    def _of_one_series(self) -> Normal | None:
+        """The contact in which one series resolves the slope of a function."""
+        return one_series(self.scene, self.tol, self.economy)
+
+    @cached_property
+    def _of_waves(self) -> SeveralPatches | FullContact | None:
+        """The contact of a function whose slope falls: patches are then sought at once."""
+        scene = self.scene
+        may_be = self._may_be_in_patches and scene.profile.pieces.functions and scene.normal_load
+        if not may_be or self._of_one_series is not None or not falls_somewhere(scene):
+            return None
         try:
-            c = self.unverified.series
-        except ContactError:
+            return several_patches(scene)
+        except ContactError:  # why there is no one patch may say more
+            return None
+
+    @property
+    def _is_one_patch(self) -> bool:
+        found = self._of_waves
+        if not isinstance(found, SeveralPatches) or len(found.patches) > 1:
             return False
-        return c is not None and float(np.abs(c[2:]).sum()) > BENT * abs(float(c[1]))
+        return any(found.edges.sharp) or len(found.found.operator.panels.piece) <= MOST_PANELS
 
     @property
     def _several(self) -> SeveralPatches | FullContact | None:
@@ -175,6 +182,10 @@ class Frictionless:
 
         Bodies may overlap there, or be in tension.
         """
+        if self._of_one_series is not None:
+            return self._of_one_series
+        if self._of_waves and self._is_one_patch and not any(self._of_waves.edges.sharp):
+            return of_one_patch(self._of_waves.edges, self.scene, self.tol, self.economy)
         return normal_contact(self.scene, self.tol, self.economy)
 
     @cached_property

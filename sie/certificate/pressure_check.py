@@ -28,9 +28,10 @@ from sie.contact.edge_integrals import EdgeIntegrals, edge_integrals
 from sie.contact.inequalities import intervals_below, relative_gaps
 from sie.contact.small_strains import notes, regular_points
 from sie.numerics.interval import EPS, Interval
+from sie.profiles.look import FINER
 from sie.profiles.resolution import refined
 from sie.profiles.slope import Slope
-from sie.profiles.unresolved import largest_misfit
+from sie.profiles.unresolved import largest_misfit, start_of
 from sie.progress_bar import reported, step_done
 from sie.traction.of_slope import SlopeDensity
 
@@ -70,7 +71,7 @@ def _measured(density: SlopeDensity, slope: Slope, tol: float) -> Certificate:
     P, r = density.resultant, contact.r
     H, H_beside, H_at_edges = _slopes(slope, contact, rule.between)
     residual = _residual(density, H, rule, p)
-    outside, gaps = relative_gaps(density, slope)
+    outside, gaps = relative_gaps(density, slope, FINER, start_of(density.interval))
     of_force, of_equation = _rounding(density, H_beside - H, rule, p)
     regular = regular_points(density, slope, x)
     bounded_peak = float(p[regular].max(initial=0.0))

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from sie.numerics import chebyshev
 from sie.numerics.interval import EPS, Interval
+from sie.profiles.look import beside, narrow_parts
 from sie.profiles.resolution import refined
 from sie.profiles.slope import Slope
 from sie.traction.of_slope import SlopeDensity
@@ -35,10 +36,17 @@ DOUBLED: Array = np.geomspace(1.0, 1024.0, 11)
 LONGEST = 0.5
 
 
-def gap(x: Array, density: SlopeDensity, slope: Slope, more: More = None) -> Array:
+def gap(
+    x: Array,
+    density: SlopeDensity,
+    slope: Slope,
+    more: More = None,
+    places: tuple[Array, Array] | None = None,
+) -> Array:
     """The gap at x (1-d): 0 in contact, inf beyond the ends of the indenter.
 
-    `slope` includes the tilt.
+    `slope` includes the tilt. A function's narrow valleys are looked for at `places`, left and
+    right of the contact.
 
     `more(x, side)` is added to the outward derivative of the gap: what else opens it.
     """
@@ -48,13 +56,17 @@ def gap(x: Array, density: SlopeDensity, slope: Slope, more: More = None) -> Arr
     out[(x < lo) | (x > hi) | np.isinf(x)] = np.inf
     x = np.where(np.isinf(x), np.nan, x)
     contact = density.contact
-    for side, outside in (
-        (1.0, (contact.from_right(x) < 0.0) & (x <= hi)),
-        (-1.0, (contact.from_left(x) < 0.0) & (x >= lo)),
+    hints: tuple[Array, ...] = (np.zeros(0), np.zeros(0))
+    if slope.functions and density.resolves:
+        found = beside(density.interval, slope) if places is None else places
+        hints = tuple(narrow_parts(slope, some) for some in found)
+    for side, cuts, outside in (
+        (1.0, hints[1], (contact.from_right(x) < 0.0) & (x <= hi)),
+        (-1.0, hints[0], (contact.from_left(x) < 0.0) & (x >= lo)),
     ):
         if outside.any():
             with np.errstate(over="ignore"):  # a gap may be larger than all doubles
-                out[outside] = _on_one_side(x[outside], side, density, slope, more)
+                out[outside] = _on_one_side(x[outside], (side, cuts), density, slope, more)
     return out
 
 
@@ -77,14 +89,15 @@ def gap_slope(x: Array, density: SlopeDensity, slope: Slope) -> Array:
 
 
 def _on_one_side(
-    x: Array, side: float, density: SlopeDensity, slope: Slope, more: More = None
+    x: Array, way: tuple[float, Array], density: SlopeDensity, slope: Slope, more: More = None
 ) -> Array:
-    contact = density.contact
+    """The gap at x on one side, with places at which a function has to be cut."""
+    side, contact = way[0], density.contact
     distance = -(contact.from_right(x) if side > 0.0 else contact.from_left(x))
     # A distance over the contact's width may exceed all doubles, a quotient of roots does not.
     root_width = np.sqrt(2.0 * contact.r)
     theta = 2.0 * np.arcsinh(np.sqrt(distance) / root_width)
-    cuts = _cuts(float(x[np.argmax(theta)]), float(theta.max()), side, contact, slope)
+    cuts = _cuts(float(x[np.argmax(theta)]), float(theta.max()), way, contact, slope)
     # No double is nearer to the edge.
     beyond = np.nextafter(contact.x2 if side > 0.0 else contact.x1, side * np.inf)
 
@@ -116,11 +129,14 @@ def _on_one_side(
     return until[k] + parts[len(cuts) - 1 :]
 
 
-def _cuts(farthest: float, theta_max: float, side: float, contact: Interval, slope: Slope) -> Array:
+def _cuts(
+    farthest: float, theta_max: float, way: tuple[float, Array], contact: Interval, slope: Slope
+) -> Array:
     """Ends of the panels in θ, never farther apart than LONGEST.
 
     The panels are graded from the breaks inside and cut at those outside.
     """
+    side, hints = way
     inner = slope.breaks[
         (contact.from_left(slope.breaks) > 0.0) & (contact.from_right(slope.breaks) > 0.0)
     ]
@@ -135,8 +151,8 @@ def _cuts(farthest: float, theta_max: float, side: float, contact: Interval, slo
     graded = first * 2.0 ** np.arange(int(np.ceil(np.log2(LONGEST / first))) + 1)
     even = np.arange(LONGEST, theta_max, LONGEST)
     edge = contact.x2 if side > 0.0 else contact.x1
-    doubled = edge + side * contact.r * DOUBLED
-    resolved = refined(slope, min(edge, farthest), max(edge, farthest), EPS, doubled)
+    known = np.union1d(edge + side * contact.r * DOUBLED, hints)
+    resolved = refined(slope, min(edge, farthest), max(edge, farthest), EPS, known)
     pieces = resolved.breaks
     if slope.functions:
         parts = np.maximum(np.ceil(resolved.degrees / DEGREE), 1.0).astype(int)

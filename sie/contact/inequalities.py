@@ -13,6 +13,8 @@ from numpy.typing import NDArray
 
 from sie.errors import InequalityError, ResolutionError
 from sie.numerics.interval import EPS, Interval, angles, inner, position
+from sie.profiles import look
+from sie.profiles.look import ROUNDING, beside, closer, falls
 from sie.profiles.resolution import refined
 from sie.profiles.slope import Slope
 from sie.traction.of_slope import SlopeDensity
@@ -22,21 +24,17 @@ from .gap import gap, gap_slope
 Array = NDArray[np.float64]
 Intervals = tuple[tuple[float, float], ...]
 
+NEAR = 4.0  # half-widths, how far out the gap of a function is tested at least
 OUT = 1.0 + 1e-9  # of a reach: what is at it is within it
 # Tension or overlap below this fraction of the peak is rounding.
 TOLERATED = 1e-11
 FAR = 1e3  # half-widths, how far out the gap is tested at least
-FARTHEST = 1e140  # half-widths, how far out the slope of an indenter without ends is
-DENSE = 20  # places for each factor 10 of the distance from an edge, at which the slope is
-EVEN, FINELY = 1000, 10_000  # places on an indenter between its ends; on one that is a function
 HALVINGS = 60  # of the interval in which the gap is least
 STEEP = 1e6  # times the slopes in the contact
 SCAN = 40
 # Distances from an edge, in half-widths.
 AHEAD = np.concatenate((np.geomspace(1e-6, 1.0, SCAN), np.geomspace(1.0, FAR, 2 * SCAN)[1:]))
 NAMED = 3  # intervals that a message names
-# Part of the slopes in the contact by which a rising slope may fall between two points.
-ROUNDING = 8.0 * EPS
 # points in contact at which the sign of the pressure is tested, at least 3 on every piece
 SCANNED = 600
 ZOOMS, ZOOMED = 5, 10  # around its minima: how often, and places each time
@@ -62,34 +60,17 @@ def slope_rises(density: SlopeDensity, slope: Slope) -> bool:
 
 def slope_rises_far(contact: Interval, slope: Slope) -> bool:
     """Whether h' rises from place to place on the whole indenter beside the contact."""
-    with np.errstate(all="ignore"):  # a function may overflow out there
-        return all(not _falls(slope(x)).any() for x in _far(contact, slope))
+    return rises_at(beside((contact.x1, contact.x2), slope), slope)
 
 
-def _far(contact: Interval, slope: Slope) -> tuple[Array, Array]:
-    """Places beside the contact on the whole indenter, ascending: left of it and right of it."""
-    lo, hi = slope.domain
-    breaks = slope.breaks[np.isfinite(slope.breaks)]
-    decades = np.log10(FARTHEST) + 6.0
-    distance = contact.r * np.geomspace(1e-6, FARTHEST, int(DENSE * decades))
-    number = FINELY if slope.functions else EVEN
-    even = np.linspace(lo, hi, number) if np.isfinite(lo) and np.isfinite(hi) else breaks
-    sides = (
-        (contact.x1 - distance[::-1], (lo, contact.x1)),
-        (contact.x2 + distance, (contact.x2, hi)),
-    )
-    left, right = (
-        np.unique(np.clip(np.concatenate((x, even, breaks)), *ends)) for x, ends in sides
-    )
-    return left, right
+def rises_at(places: tuple[Array, Array], slope: Slope) -> bool:
+    """Whether h' rises from place to place."""
+    return all(not falls(look.values(slope, x)).any() for x in places)
 
 
-def _falls(H: Array) -> NDArray[np.bool_]:
-    """Whether a slope falls from one place to the next by more than its rounding."""
-    return np.asarray(H[1:] - H[:-1] < -ROUNDING * np.abs(H[:-1]))
-
-
-def _least_gaps(density: SlopeDensity, slope: Slope) -> tuple[Array, float, float]:
+def _least_gaps(
+    density: SlopeDensity, slope: Slope, places: tuple[Array, Array]
+) -> tuple[Array, float, float]:
     """Where the gap may be least beside the contact, and how far out left and right that is.
 
     Beyond the last place where h' falls the gap has at most one minimum more, as the pull of the
@@ -98,12 +79,18 @@ def _least_gaps(density: SlopeDensity, slope: Slope) -> tuple[Array, float, floa
     contact = density.contact
     found: list[Array] = []
     reach = []
-    for x, side in zip(_far(contact, slope), (-1.0, 1.0), strict=True):
+    for place, side in zip(places, (-1.0, 1.0), strict=True):
+        x = closer(place, falls(look.values(slope, place))) if slope.functions else place
         outwards = x[1:] if side > 0.0 else x[-2::-1]
         outwards = outwards[side * (outwards - (contact.x2 if side > 0.0 else contact.x1)) > 0.0]
         with np.errstate(all="ignore"):
             H = side * slope(outwards)
-            last = np.flatnonzero(_falls(H))
+            last = np.flatnonzero(falls(H))
+        if slope.functions:
+            distance = np.abs(outwards - (contact.x2 if side > 0.0 else contact.x1))
+            load = density.resultant / density.half_modulus
+            low = np.flatnonzero(look.may_touch(distance, H, contact.r, load))
+            last = last[last <= low.max(initial=0)]
         end = int(last[-1]) + 2 if last.size else 0
         rises = np.flatnonzero(H[end:] > density.slope_scale)
         end = min(end + (int(rises[0]) + 1 if rises.size else 0), len(H))
@@ -183,16 +170,21 @@ def _with_minima(x: Array, p: Array, density: SlopeDensity) -> tuple[Array, Arra
     return x[order], p[order]
 
 
-def relative_gaps(density: SlopeDensity, slope: Slope) -> tuple[Array, Array]:
+def relative_gaps(
+    density: SlopeDensity, slope: Slope, finer: int = 1, start: float = 0.0
+) -> tuple[Array, Array]:
     """Points beside the contact, out to FAR half-widths, and the relative gap there.
 
-    It is relative to its largest value within one half-width.
+    It is relative to its largest value within one half-width. Where it may be least is looked for
+    from place to place (`profiles.look.beside`), as close and beginning as given.
     """
     contact, r = density.contact, density.contact.r
     x = _beside(contact, slope)
-    if _opens_everywhere(x, density, slope) and slope_rises_far(contact, slope):
+    places = beside((contact.x1, contact.x2), slope, finer, start)
+    seen = bool(slope.functions) and density.resolves
+    if (seen or _opens_everywhere(x, density, slope)) and rises_at(places, slope):
         return x, np.zeros(len(x))
-    least, *reach = _least_gaps(density, slope)
+    least, *reach = _least_gaps(density, slope, places)
     x = np.concatenate((x, least))
     # A function may overflow out there; from where it opens that steeply on, the gap is not tested
     outward = np.sign(x - contact.m)
@@ -203,12 +195,14 @@ def relative_gaps(density: SlopeDensity, slope: Slope) -> tuple[Array, Array]:
     left, right = (
         np.abs(x[opens & (outward == side)] - contact.m).min(initial=np.inf) for side in (-1.0, 1.0)
     )
+    if seen:  # beyond, heights show that the gap is open
+        left, right = (min(end, max(far, NEAR * r)) for end, far in zip((left, right), reach))
     left, right = max(left, reach[0] * OUT), max(right, reach[1] * OUT)
     x = x[np.abs(x - contact.m) < np.where(outward > 0.0, right, left)]
     if not x.size:
         return x, x
     try:
-        values = gap(x, density, slope)
+        values = gap(x, density, slope, places=places)
     except ResolutionError:  # of waves without end
         if not slope_rises(density, slope):
             raise
@@ -304,10 +298,8 @@ def _opens_everywhere(x: Array, density: SlopeDensity, slope: Slope) -> bool:
 
     At the breaks among x both sides count.
 
-    Between its breaks a polynomial slope or a power has no feature that x misses; a function may.
+    Between its breaks a polynomial slope or a power has no feature that x misses.
     """
-    if slope.functions and density.resolves:
-        return False
     if not (slope.functions or slope.continuous):
         x = np.concatenate((x, np.nextafter(x, -np.inf), np.nextafter(x, np.inf)))
     if _slope_rises_outwards(x, density, slope):

@@ -21,6 +21,7 @@ from sie.numerics.interval import Interval, interval_about
 from sie.problem.request import ECONOMY
 from sie.problem.scene import Scene
 from sie.profiles.base import Profile
+from sie.profiles.look import across, falls, values
 from sie.profiles.power_law import PowerLaw
 from sie.profiles.resolution import refined
 from sie.profiles.slope import Slope
@@ -33,7 +34,7 @@ from .pressure import resolution, slope_series, upright_law
 from .smooth_slope import smooth_contact
 from .tilt_of_moment import refuse_outside, tilt_of_moment
 from .widest_contact import widest_contact
-from .window import MOST_GROWN, Window, window_of
+from .window import FITTED, MOST_GROWN, Window, window_of
 
 Array = NDArray[np.float64]
 
@@ -71,6 +72,64 @@ def normal_contact(
     return found
 
 
+def of_one_patch(edges: Edges, scene: Scene, tol: float, economy: Collection[str]) -> Normal:
+    """The contact under a load near edges that a search for patches has found."""
+    axis = scene.profile.axis if "symmetry" in economy and edges.tilt == 0.0 else None
+    found = Normal(edges, False)
+    for _ in range(LOOKS):
+        lo, hi = edges.contact.x1, edges.contact.x2
+        margin, ends = 0.5 * (FITTED - 1.0) * (hi - lo), scene.profile.domain
+        declared = with_breaks(scene.profile.pieces, found.seen)
+        window = max(lo - margin, ends[0]), min(hi + margin, ends[1])
+        resolved = refined(declared, *window, resolution(tol))
+        found = replace(found, edges=_closer(edges, scene, resolved, economy))
+        more = _unseen(found, resolved, scene, tol, economy)
+        if not more:
+            break
+        found = replace(found, seen=found.seen + more)
+    if axis is None:
+        return found
+    contact = interval_about(axis, found.edges.contact.r).rounded((axis,))
+    centred = replace(found.edges, contact=contact, moment=axis * edges.normal_load)
+    return replace(found, edges=centred, symmetric=True)
+
+
+def _closer(edges: Edges, scene: Scene, slope: Slope, economy: Collection[str]) -> Edges:
+    """The edges by their conditions on a resolved slope; as they are where one is sharp."""
+    if any(edges.sharp):
+        return edges
+    search = _search(scene, slope.tilted(edges.tilt), economy)
+    try:
+        found = search.polished(edges.contact, edges.normal_load / search.half_modulus, False)
+    except (LoadError, OverflowError):
+        found = None
+    return edges if found is None else search.finished(found, edges.normal_load, edges.tilt)
+
+
+def one_series(scene: Scene, tol: float, economy: Collection[str]) -> Normal | None:
+    """The contact in which one series resolves the slope of a function; None if none does."""
+    profile = scene.profile
+    if not profile.pieces.functions or "transform" not in economy:
+        return None
+    if upright_law(scene, economy) is not None:
+        return None
+    with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
+        try:
+            found = _smooth(scene, profile.pieces, tol, "symmetry" in economy)
+        except ArithmeticError:
+            return None
+    if found is None or (not profile.convex and _unseen_by_series(found, profile, tol)):
+        return None
+    _refuse_unresolved(found.edges, scene)
+    return found
+
+
+def falls_somewhere(scene: Scene) -> bool:
+    """Whether the slope falls from place to place where the search for the contact begins."""
+    slope, window = scene.profile.pieces, window_of(scene)
+    return bool(falls(values(slope, across(slope, (window.lo, window.hi)))).any())
+
+
 def _within_scale(
     scene: Scene, tol: float, economy: Collection[str], seen: tuple[float, ...] | None
 ) -> Normal:
@@ -94,7 +153,12 @@ def _within_scale(
         raise LoadError(
             f"the search for the contact left the range of doubles, under {_asked(scene)}: {NEARER}"
         ) from None
-    edges = found.edges
+    _refuse_unresolved(found.edges, scene)
+    return found
+
+
+def _refuse_unresolved(edges: Edges, scene: Scene) -> None:
+    """Raises LoadError where doubles cannot hold the contact."""
     (x1, x2), r, P = edges.contact[:2], edges.contact.r, edges.normal_load
     apart = math.ulp(max(abs(x1), abs(x2)))
     if not r >= PLACES * apart:
@@ -103,7 +167,6 @@ def _within_scale(
             f"{apart:.2g} apart: {NEARER}"
         )
     refuse_out_of_scale(r, P, scene.Estar)
-    return found
 
 
 def refuse_out_of_scale(r: float, load: float, Estar: float) -> None:

@@ -24,7 +24,8 @@ from .gap import gap, gap_volume
 from .of_scene import Problem, problem_of
 from .operator import Found, Operator
 from .result import PatchCertificate
-from .solver import contact, light_contact
+from .solver import contact
+from .unseen import unseen
 
 Array = NDArray[np.float64]
 
@@ -52,10 +53,6 @@ class SeveralPatches:
     def patches(self) -> tuple[tuple[float, float], ...]:
         return self.pressure.patches
 
-    def meets(self, interval: tuple[float, float]) -> bool:
-        """Whether a patch has a place in common with an interval."""
-        return any(a <= interval[1] and b >= interval[0] for a, b in self.patches)
-
     def gap(self, x: Array) -> Array:
         """The gap at x (1-d), also beyond the window in which contact was sought."""
         o, (lo, hi), domain = self.found.operator, self.window, self.problem.domain
@@ -74,7 +71,8 @@ class SeveralPatches:
         return gap_volume(self.found.operator)
 
     def certificate(self, tol: float) -> PatchCertificate:
-        found = certificate(self.found, self.pressure, self.problem.given, tol)
+        missed = unseen(self.found, self.problem)
+        found = certificate(self.found, self.pressure, self.problem.given, tol, missed)
         return replace(found, notes=found.notes + self.notes)
 
 
@@ -115,21 +113,6 @@ def several_patches(scene: Scene) -> SeveralPatches | FullContact:
         if not found.problem.given.load < MOST_STEEP * narrowest * narrowest:
             raise LoadError(OUT_OF_RANGE)
     return found
-
-
-def light_patches(scene: Scene) -> SeveralPatches | None:
-    """The contact of a scene whose profile has several valleys, if its load presses them lightly.
-
-    Raises LoadError where the rounding of h hides which of them touch.
-    """
-    if scene.normal_load is None or scene.moment is not None:
-        return None
-    with np.errstate(all="ignore"):
-        problem = problem_of(scene)
-        found = light_contact(problem, several=True)
-        if found is None:
-            return None
-        return answered(problem, found, scene)
 
 
 def whole(problem: Problem, scene: Scene) -> FullContact | None:

@@ -4,6 +4,7 @@ residual      max |1/π PV∫p(t)/(x - t) dt - E*/2 (h' + θ)| / peak; per perio
               (π/λ) cot(π(x - t)/λ)
 equilibrium   |∫p dx - P| / P, |∫p x dx - M| / (P r)
 inequalities  the lowest bound of D over the largest D, and places where the gap would be negative
+resolution    E*/2 |h' - its resolution| / peak of a function, at places of its own (`unseen`)
 condition     relative change of the narrowest patch or gap per relative change of the load, or of
               the half-width that is given; it is large where a patch is about to appear, or two to
               merge
@@ -25,7 +26,7 @@ from .newton import Linear, conditions
 from .operator import Found, Operator
 from .panels import LONG, PatchPanels
 from .result import CLOSE, LEAST, PatchCertificate
-from .state import Given
+from .state import Given, Unseen
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
@@ -48,9 +49,9 @@ SHARED = 1e-9  # of the load of a patch: what the rounding of h may change witho
 
 @reported("certificate")
 def certificate(
-    found: Found, pressure: PatchPressure, given: Given, tol: float
+    found: Found, pressure: PatchPressure, given: Given, tol: float, missed: Unseen
 ) -> PatchCertificate:
-    """Measure an answer; `given` is what was asked, in units of E*/2."""
+    """Measure an answer; `given` is what was asked, in units of E*/2, `missed` of a function."""
     o, P, G = found.operator, found.operator.patches, pressure.half_modulus
     rule, places = measured_on(pressure)
     p, at = (pressure.at_points(m.points, m.patch, m.piece) for m in (rule, places))
@@ -75,7 +76,9 @@ def certificate(
         measured_to=max(LEAST, min(EXPLAINED * _rounding(o, linear, given, peak / G), MOST)),
         tol=tol,
         tension=tuple((t.lo, t.hi) for t in found.findings.tension),
-        overlap=tuple((v.lo, v.hi) for v in found.findings.overlap),
+        overlap=tuple((v.lo, v.hi) for v in (*found.findings.overlap, *missed.overlap)),
+        resolution=G * missed.resolution / peak,
+        lowest_gap=missed.lowest_gap,
         notes=(
             *_notes(condition),
             *_notes_on_heights(found, linear),

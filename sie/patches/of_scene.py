@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie.problem.scene import Scene
+from sie.profiles.slope import Slope
 
 from .chord import Chord
 from .pieces import Pieces
@@ -32,7 +33,7 @@ class Problem:
     """
 
     pieces: Callable[..., Pieces]
-    slope: Callable[[Array], Array]
+    slope: Slope
     height: Callable[[Array], Array]
     by_slope: bool
     domain: tuple[float, float]

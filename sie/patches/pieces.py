@@ -14,6 +14,7 @@ are pieces without indenter (`void`): H is 0 there, h infinite, and only the ris
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
@@ -30,6 +31,7 @@ Index = NDArray[np.int64]
 GROWTH = 8.0  # a piece is continued beyond its ends while its polynomial grows by no more
 EASY = 1.5  # lengths: how far a polynomial of degree 3 or less is continued
 WAVES = 6.0  # of these lengths a panel may take in
+MISSED = 1e-9  # of the size of H: what differs by more from a function is not resolved
 CORNER = 1e-9  # of the terms of H: a jump that is no rounding
 # times the rounding of each term: what a series leaves out, and the sums over it, are as much
 ROUNDINGS = 4.0
@@ -237,6 +239,21 @@ class Pieces:
         corners = np.concatenate(([0.0], np.cumsum(np.abs(self.ends[1:-1] * self._drops))))
         total += corners[ky] - corners[kx]
         return np.asarray(ROUNDINGS * EPS * total)
+
+    def H(self, x: Array) -> Array:
+        """H at places x, by the pieces that they are on."""
+        return np.asarray(self.value(self.locate(x), x, 0.0))
+
+    def missed(self, slope: Callable[[Array], Array], x: Array) -> Array:
+        """The places among x of a window on which the pieces differ from a function.
+
+        What is narrower than the pieces that resolved it shows there.
+        """
+        inside = x[(x >= self.ends[0]) & (x <= self.ends[-1])]
+        with np.errstate(all="ignore"):
+            H, found = slope(inside), self.H(inside)
+            size = np.abs(self.series).sum(axis=1)[self.locate(inside)]
+        return np.asarray(inside[np.abs(H - found) > MISSED * np.maximum(size, np.abs(H))])
 
     def horizon(self, tilt: float, c: Array) -> float:
         """The distance from places c within which all valleys of h + tilt x are.

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from sie.numerics import chebyshev
 from sie.numerics.interval import EPS
 from sie.profiles.base import Profile
+from sie.profiles.look import across, narrow_parts
 from sie.profiles.resolution import refined
 from sie.profiles.slope import Slope
 
@@ -20,6 +21,7 @@ Array = NDArray[np.float64]
 
 # Periods: patches are found from one cut to the next, wherever that is.
 COPIES = (-1.0, 0.0, 1.0, 2.0)
+FEW = 16  # ends of parts about narrow valleys: beyond, they are cut only where they are missed
 ROUNDING = 1e-15  # of the largest coefficient: what of a series is left out
 
 
@@ -28,8 +30,8 @@ def of_profile(
 ) -> Pieces:
     """The slope of a profile with its walls, functions resolved on the window.
 
-    Between two of the `cuts` they are resolved to the rounding of the slopes there. Of a periodic
-    profile there are several copies.
+    Between two of the `cuts` they are resolved to the rounding of the slopes there, and so they are
+    about their narrow valleys. Of a periodic profile there are several copies.
     """
     slope = profile.pieces
     pieces = _with_walls(_resolved(slope, window, tol, cuts), profile.walls, profile)
@@ -53,7 +55,18 @@ def _joined(parts: list[Pieces]) -> Pieces:
 
 
 def _resolved(slope: Slope, window: tuple[float, float], tol: float, cuts: Array | None) -> Pieces:
-    if cuts is None or not slope.functions:
+    if not slope.functions:
+        return from_slope(slope, window, tol)
+    narrow = narrow_parts(slope, across(slope, window))
+    if len(narrow) > FEW:
+        pieces = _between(slope, window, tol, cuts)
+        if not pieces.missed(slope, narrow).size:
+            return pieces
+    return _between(slope, window, tol, narrow if cuts is None else np.union1d(cuts, narrow))
+
+
+def _between(slope: Slope, window: tuple[float, float], tol: float, cuts: Array | None) -> Pieces:
+    if cuts is None:
         return from_slope(slope, window, tol)
     ends = [window[0], *cuts[(cuts > window[0]) & (cuts < window[1])].tolist(), window[1]]
     return _joined([from_slope(slope, part, tol) for part in pairwise(ends)])

@@ -52,6 +52,8 @@ class PatchCertificate:
     tension, overlap  intervals where p < 0 in contact, gap < 0 beside it: () if verified by bounds
     notes             sentences
     shear             the certificate of the shear traction
+    resolution        the difference between a function and its resolution, as a pressure
+    lowest_gap        the lowest gap over the largest one beside it, 0 if none is negative
     """
 
     residual: float
@@ -66,11 +68,13 @@ class PatchCertificate:
     overlap: tuple[tuple[float, float], ...] = ()
     notes: tuple[str, ...] = ()
     shear: OfShear | None = None
+    resolution: float = 0.0
+    lowest_gap: float = 0.0
 
     @property
     def error(self) -> float:
         """The estimated relative error of the pressure."""
-        return max(LEAST, self.residual, self.force, self.moment)
+        return max(LEAST, self.residual, self.force, self.moment, self.resolution)
 
     @property
     def ok(self) -> bool:
@@ -92,6 +96,8 @@ class PatchCertificate:
             ("equilibrium of forces, |∫p - P| / P", f"{self.force:.1e}"),
             ("equilibrium of moments, |∫px - M| / (P r)", f"{self.moment:.1e}"),
             ("lowest bound of p / root, over the largest", f"{self.lowest_pressure:+.1e}"),
+            ("lowest gap outside / the largest beside it", f"{self.lowest_gap:+.1e}"),
+            ("a function's difference from its resolution / peak", f"{self.resolution:.1e}"),
             ("narrowest patch or gap, per change of the load", f"{self.condition:.1e}"),
         ]
         allowed = max(self.tol, self.measured_to)
@@ -115,6 +121,8 @@ def worst_of(found: Sequence[PatchCertificate]) -> PatchCertificate:
         moment=max(c.moment for c in found),
         condition=max(c.condition for c in found),
         measured_to=max(c.measured_to for c in found),
+        resolution=max(c.resolution for c in found),
+        lowest_gap=min(c.lowest_gap for c in found),
         lowest_pressure=min(c.lowest_pressure for c in found),
         tension=tuple(v for c in found for v in c.tension),
         overlap=tuple(v for c in found for v in c.overlap),

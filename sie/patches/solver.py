@@ -19,6 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie.errors import ContactError, LoadError, ResolutionError
+from sie.profiles.look import beside, narrow_parts
 from sie.progress_bar import reported
 
 from . import newton
@@ -38,7 +39,6 @@ from .valleys import graded_about, is_light, pressed, valleys, within_reach
 from .window import (
     COARSE,
     WIDENED,
-    falling,
     fitted_window,
     levels,
     overlap_beyond,
@@ -94,7 +94,7 @@ def contact(problem: Problem) -> Found:
 def _in_windows(problem: Problem) -> Found:
     light = light_contact(problem)
     if light is not None:
-        return _in_one_period(light, problem)
+        return _in_one_period(_with_far_valleys(light, problem), problem)
     window = fitted_window(problem)
     for _ in range(WIDENED):
         found = _within(problem, window)
@@ -108,28 +108,20 @@ def _in_windows(problem: Problem) -> Found:
     )
 
 
-def light_contact(problem: Problem, several: bool = False) -> Found | None:
-    """The patches of a load that presses each valley like a parabola; None if it does not.
-
-    `several`: they are sought only if the profile has more than one valley.
-    """
+def light_contact(problem: Problem) -> Found | None:
+    """The patches of a load that presses each valley like a parabola; None if it does not."""
     if problem.given.moment is not None:
         return None
     window, chord, tilt = whole_window(problem), problem.chord, problem.given.tilt
-    hints = falling(problem, window)
-    if several and not hints.size:
-        return None
     try:
-        pieces = problem.pieces(window, hints)
+        pieces = problem.pieces(window)
         every = valleys(pieces, window, tilt)
-        if several and len(every.x) < 2:
-            return None
         near = within_reach(every, problem.given.load, pieces, chord)
         found = pressed(near, problem.given.load, chord)
         if found is None or not is_light(*found, pieces, tilt, chord):
             return None
         (x, *_), r = found
-        pieces = problem.pieces(window, np.union1d(graded_about(x, r, window, chord), hints))
+        pieces = problem.pieces(window, graded_about(x, r, window, chord))
         light = settled(bounded(x - r, x + r, pieces, chord, tilt), pieces, problem)
     except (*ASTRAY, Exhausted):
         return None
@@ -211,24 +203,32 @@ def _within(problem: Problem, window: tuple[float, float]) -> Found:
 
 
 def _with_far_valleys(found: Found, problem: Problem) -> Found:
-    """The same contact, or that in which valleys beyond its window touch as well.
+    """The same contact, or that in which valleys touch as well that its pieces do not show.
 
     They are all looked at, unless the function has more features than can be resolved.
     """
-    window, whole = found.operator.pieces.domain, whole_window(problem)
-    if problem.chord.periodic or (window[0] <= whole[0] and window[1] >= whole[1]):
+    state, o = found.state, found.operator
+    window, wide = o.pieces.domain, whole_window(problem)
+    if not problem.chord.periodic:
+        wide = min(window[0], wide[0]), max(window[1], wide[1])
+    narrow, missed = np.zeros(0), False
+    if problem.by_slope:
+        x = np.concatenate(beside((o.patches.edges[0], o.patches.edges[-1]), problem.slope))
+        x = x[(x >= wide[0]) & (x <= wide[1])]
+        narrow = narrow_parts(problem.slope, x)
+        missed = o.pieces.missed(problem.slope, narrow).size > 0
+    if (problem.chord.periodic or wide == window) and not missed:
         return found
     try:
-        wide = min(window[0], whole[0]), max(window[1], whole[1])
-        pieces = problem.pieces(wide, np.union1d(window, falling(problem, wide)))
+        pieces = problem.pieces(
+            wide, np.union1d(np.clip(window, *wide), narrow) if missed else np.array(window)
+        )
     except ResolutionError:
         return found
-    state = found.state
-    seen = findings(
-        Operator(state.patches, pieces, found.operator.Y), state.tilt, problem.given.load
-    )
-    if seen.overlap:
-        return settled(mended(state, replace(seen, tension=()), pieces), pieces, problem)
+    seen = findings(Operator(state.patches, pieces, o.Y), state.tilt, problem.given.load)
+    if seen.overlap or missed:
+        start = mended(state, replace(seen, tension=()), pieces) if seen.overlap else state
+        return settled(start, pieces, problem)
     return replace(found, findings=replace(found.findings, doubt=seen.doubt, place=seen.place))
 
 

@@ -106,6 +106,19 @@ class Overlap(NamedTuple):
     largest: float
 
 
+class Unseen(NamedTuple):
+    """What the pieces of a function have missed.
+
+    resolution   the largest difference from it on the patches, a slope
+    lowest_gap   the lowest gap over the largest one of the same gap, 0 where none is negative
+    overlap      where the bodies overlap
+    """
+
+    resolution: float = 0.0
+    lowest_gap: float = 0.0
+    overlap: tuple[Overlap, ...] = ()
+
+
 @dataclass(frozen=True)
 class Findings:
     """The violations of the inequalities; none if the patches are the answer.

@@ -70,7 +70,8 @@ def _unknown_depth(
     return LoadError(
         f"how the valleys at x = {x1:.6g} and {x2:.6g} share normal_load = {given.load:.6g} E*/2 "
         f"is decided by a difference of depths of {decides:.2g}, and doubles of h tell "
-        f"{known:.2g}: raise the load, or make one valley deeper"
+        f"{known:.2g}: raise the load, or make one valley deeper",
+        valleys=(x1, x2),
     )
 
 

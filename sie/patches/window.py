@@ -8,6 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie.errors import LoadError
+from sie.profiles.look import closer, may_touch, values
+from sie.profiles.look import falls as look_falls
 
 from .of_scene import Problem
 from .operator import Found, Operator
@@ -25,8 +27,6 @@ WINDOWS = 200
 # lengths, and places on each side, at which a function without ends is looked at; beyond the last
 # of them at which it falls valleys are looked for so many times as far
 SCALES, PLACES, BEYOND = (1e-6, 1e9), 6000, 4.0
-EVEN = 10_000  # places of a window, between which a function is not looked at
-MOST_NARROW = 128  # ends of parts on which it falls: waves in greater number show by themselves
 WIDENED = 12  # times a window is widened, before the slope is said to rise too little
 
 
@@ -106,38 +106,19 @@ def whole_window(problem: Problem) -> tuple[float, float]:
     distance = np.geomspace(SCALES[0], SCALES[1], PLACES)
     ends = []
     for side, end, limit in ((-1.0, first, lo), (1.0, last, hi)):
-        x = middle + side * distance
-        x = x[(x >= lo) & (x <= hi)]
-        with np.errstate(all="ignore"):
-            H = side * (problem.slope(x) + problem.given.tilt)
-        away = np.abs(x - middle)
-        falls = away[:-1][(H[:-1] <= 0.0) | (H[1:] < H[:-1])]
+        away = distance[distance <= side * (limit - middle)]
+
+        def outward(away: Array, side: float = side) -> Array:
+            return side * (values(problem.slope, middle + side * away) + problem.given.tilt)
+
+        away = closer(away, look_falls(outward(away)))
+        H = outward(away)
+        low = np.flatnonzero(may_touch(away, H, NARROWEST * (last - first), problem.given.load))
+        falling = np.flatnonzero((H[:-1] <= 0.0) | look_falls(H))
+        falls = away[falling[falling <= low.max(initial=0)]]
         reach = max(abs(end - middle), BEYOND * float(falls.max(initial=0.0)))
         ends.append(min(max(middle + side * reach, lo), hi) if np.isinf(limit) else limit)
     return ends[0], ends[1]
-
-
-def falling(problem: Problem, window: tuple[float, float]) -> Array:
-    """Places about the parts where the slope falls; none if the profile has one valley only.
-
-    A function is looked at from place to place. Pieces that end at these places show what is as
-    narrow as they are apart.
-    """
-    if not problem.by_slope:
-        return np.zeros(1)
-    even = np.linspace(*window, EVEN)
-    middle, far = 0.5 * (window[0] + window[1]), 0.5 * (window[1] - window[0])
-    near = far * np.geomspace(SCALES[0], 1.0, PLACES)
-    x = np.unique(np.concatenate((even, middle - near, middle + near, problem.breaks)))
-    x = x[(x >= window[0]) & (x <= window[1])]
-    with np.errstate(all="ignore"):
-        H = problem.slope(x)
-    falls = H[1:] < H[:-1]
-    ends = np.flatnonzero(np.diff(np.concatenate(([False], falls, [False]))))
-    step = len(x) // 8  # of parts that long the resolution needs no hint
-    narrow = np.repeat(ends[1::2] - ends[::2] < step, 2)
-    kept = ends[narrow] if np.count_nonzero(narrow) <= MOST_NARROW else ends[:1]
-    return x[np.minimum(kept if kept.size else ends, len(x) - 1)]
 
 
 def overlap_beyond(

@@ -77,12 +77,17 @@ def expanded(slope: Slope, resolved: Slope, contact: Interval) -> Pieces:
     return Pieces(lo, hi, chebyshev.transform(slope.inside(x)))
 
 
+def start_of(edges: tuple[float, ...]) -> float:
+    """A number in [0, 1) that the digits of the edges determine."""
+    return zlib.crc32(np.array(edges).tobytes()) / 2.0**32
+
+
 def scattered(contact: Interval, start_at: int = 0) -> Array:
     """Points inside the contact, ascending: SAMPLES of the sequence that its edges determine.
 
     Further points halve their distance from an edge, down to CLOSEST of the contact.
     """
-    start = zlib.crc32(np.array([contact.x1, contact.x2]).tobytes()) / 2.0**32
+    start = start_of((contact.x1, contact.x2))
     fractions = (start + GOLDEN * np.arange(start_at, start_at + SAMPLES)) % 1.0
     width = contact.x2 - contact.x1
     near = width * CLOSEST ** ((fractions[:HALVINGS] + np.arange(HALVINGS)) / HALVINGS)

@@ -84,3 +84,28 @@ def test_a_valley_that_touches_more_lightly_than_the_rounding_of_its_neighbour_i
         sie.solve(sie.Scene(profile=deeper, normal_load=P, modulus=2.0)) for P in (1e-12, 1e-10)
     )
     assert (len(light.patches), len(heavier.patches)) == (1, 2)
+
+
+def valley(place, width, depth):
+    """A parabola with a valley of a width at half of its depth."""
+    w = width / (2.0 * np.sqrt(np.log(2.0)))
+    return lambda x: x + 2.0 * depth * (x - place) / w**2 * np.exp(-(((x - place) / w) ** 2))
+
+
+@pytest.mark.parametrize("domain", [(-np.inf, np.inf), (-3.0, 3.0)])
+@pytest.mark.parametrize("part", [0.01, 0.033])
+def test_a_valley_as_wide_as_a_hundredth_of_its_distance_is_seen(domain, part):
+    profile = sie.FromFunction(valley(1.5, 1.5 * part, 0.9), domain=domain)
+    contact = sie.solve(sie.Scene(profile=profile, modulus=1.0, normal_load=0.5))
+    assert any(a < 1.5 < b for a, b in contact.patches)
+    assert contact.check().ok
+
+
+def test_the_certificate_of_one_patch_sees_a_valley_that_the_search_has_missed(monkeypatch):
+    found = sie.solve(
+        sie.Scene(profile=sie.FromFunction(valley(1.5, 0.005, 0.9)), modulus=1.0, normal_load=0.5)
+    )
+    monkeypatch.setattr(type(found), "_of_waves", None)
+    monkeypatch.setattr("sie.frictionless.slope_rises_far", lambda *_: True)
+    assert len(found.patches) == 1
+    assert not found.check().ok and found.check().lowest_gap < 0.0

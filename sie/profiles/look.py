@@ -1,0 +1,159 @@
+"""Places at which a function is looked at beside a contact, and closer ones where its slope falls.
+
+A valley of h has a part on which h' rises between two on which it falls. The places are so close
+that two of them are on every valley that is wider, at half of its depth, than SEEN of its distance
+from the middle of the contact: there the slope falls from one place to the next. Between such
+places further ones show the valley itself. A certificate looks at other places, closer by FINER.
+"""
+
+from __future__ import annotations
+
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .slope import Slope
+
+Array = NDArray[np.float64]
+Bool = NDArray[np.bool_]
+
+SEEN = 0.01  # width of a valley at half of its depth, of its distance from the contact's middle
+FINER = 8
+CLOSELY = 1e6  # half-widths: how far out places are as close as that
+FARTHEST = 1e140  # half-widths, how far out the slope of an indenter without ends is looked at
+DENSE = 20  # places for each factor 10 of the distance, beyond and next to an edge
+EVEN = 1000  # places between the ends of an indenter that is made of polynomials
+NEAREST = 1e-6  # half-widths from an edge
+# places of a window: even ones, and on each side of its middle, from a part of the window on
+ACROSS, PLACES, NARROW = 10_000, 6000, 1e-6
+BETWEEN = 32  # further places between two where the slope falls, and between their neighbours
+CLOSE = 0.1  # of the largest height on the way: so low a place may be one of contact
+BESIDE = 2.0  # lengths of a part on which the slope falls: beyond, a narrow valley is over
+MOST = 128  # ends of parts on which it falls: waves in greater number show by themselves
+COARSE = np.append(0.0, np.geomspace(NEAREST, FARTHEST, int(DENSE * np.log10(FARTHEST / NEAREST))))
+ROUNDING = 8.0 * float(np.finfo(float).eps)  # of a slope, by which a rising one may fall
+
+
+@lru_cache(maxsize=2)
+def _distances(finer: int) -> tuple[Array, int]:
+    """Distances from an edge in half-widths, ascending, and how many are next to it."""
+    step = 0.5 * SEEN / finer
+    close = np.expm1(np.arange(step, np.log(CLOSELY), step))
+    near = np.geomspace(NEAREST, close[0], int(DENSE * np.log10(close[0] / NEAREST)) + 1)[:-1]
+    far = np.geomspace(CLOSELY, FARTHEST, int(DENSE * np.log10(FARTHEST / CLOSELY)))
+    return np.concatenate(([0.0], near, close, far)), len(near) + 1
+
+
+def beside(
+    edges: tuple[float, float], slope: Slope, finer: int = 1, start: float = 0.0
+) -> tuple[Array, Array]:
+    """Places beside a contact on the whole indenter, ascending: left of it and right of it.
+
+    `start` in [0, 1) moves all places but the first ones, by as much of the way to the next.
+    """
+    r = 0.5 * (edges[1] - edges[0])
+    distances, near = _distances(finer) if slope.functions else (COARSE, len(COARSE))
+    distance = r * distances
+    if start:
+        moved = 1.0 + 0.5 * SEEN / finer * start
+        distance[near:] = (distance[near:] + r) * moved - r
+    lo, hi = slope.domain
+    breaks = slope.breaks[np.isfinite(slope.breaks)]
+    if np.isfinite(hi - lo) or (len(breaks) > 1 and not slope.functions):
+        number = ACROSS if slope.functions else EVEN
+        breaks = np.concatenate((breaks, np.linspace(breaks[0], breaks[-1], number)))
+    found = []
+    for place, (a, b) in (
+        (edges[0] - distance[::-1], (lo, edges[0])),
+        (edges[1] + distance, (edges[1], hi)),
+    ):
+        every = np.clip(np.concatenate((place, breaks)), a, b)
+        found.append(np.unique(every) if breaks.size else place)
+    return found[0], found[1]
+
+
+def across(slope: Slope, window: tuple[float, float], start: float = 0.0) -> Array:
+    """Places of a bounded window, even ones and others that crowd towards its middle.
+
+    `start` in [0, 1) moves the even ones by as much of the way to the next.
+    """
+    middle, far = 0.5 * (window[0] + window[1]), 0.5 * (window[1] - window[0])
+    near = far * np.geomspace(NARROW, 1.0, PLACES)
+    even = np.linspace(*window, ACROSS)
+    even += start * (even[1] - even[0])
+    x = np.unique(np.concatenate((even, middle - near, middle + near, slope.breaks)))
+    return np.asarray(x[(x >= window[0]) & (x <= window[1])])
+
+
+def values(slope: Slope, x: Array) -> Array:
+    """H at ascending places x; infinities and nan where a function overflows."""
+    with np.errstate(all="ignore"):
+        if len(slope.origins) == 1 and len(x) and np.isinf(slope.domain).all():
+            return np.asarray(slope.inside(x[None])[0])
+        return np.asarray(slope(x))
+
+
+def falls(H: Array) -> Bool:
+    """Whether a slope falls from one place to the next by more than its rounding."""
+    with np.errstate(invalid="ignore"):
+        return np.asarray(H[1:] - H[:-1] < -ROUNDING * np.abs(H[:-1]))
+
+
+def closer(x: Array, falling: Bool) -> Array:
+    """The places x, and more about those between which the slope falls, unless these are many."""
+    runs = np.count_nonzero(falling[1:] & ~falling[:-1])
+    wide = falling.copy()
+    wide[1:] |= falling[:-1]
+    wide[:-1] |= falling[1:]
+    k = np.flatnonzero(wide)
+    if not k.size or 2 * runs > MOST:
+        return x
+    part = np.arange(1, BETWEEN + 1) / (BETWEEN + 1)
+    more = x[k, None] + (x[k + 1] - x[k])[:, None] * part
+    return np.unique(np.concatenate((x, more.ravel())))
+
+
+def may_touch(distance: Array, H: Array, r: float, load: float) -> Bool:
+    """Whether the bodies may touch at distances from an edge, by the height that slopes add up to.
+
+    A load over E*/2 on places no closer to the edge than r/2 on the mean lowers the surface at a
+    distance d by less than load/π (ln(2 (d + r)/r) + 1). A height that is not known counts.
+    """
+    with np.errstate(all="ignore"):
+        steps = np.diff(distance, prepend=0.0)
+        h = np.cumsum(0.5 * steps * (H + np.append(H[:1], H[:-1])))
+        lowered = load / np.pi * (np.log(2.0 * (distance + r) / r) + 1.0)
+        above = h - CLOSE * np.maximum.accumulate(h) > lowered
+    return np.asarray(~above & np.isfinite(h))
+
+
+def narrow_parts(slope: Slope, x: Array) -> Array:
+    """Ends of the parts on which a slope falls, and places beyond; none if it rises from x to x.
+
+    Pieces that end there show a valley to a resolution, which else may pass over it.
+    """
+    falling = falls(values(slope, x))
+    if not falling.any():
+        return x[:0]
+    x = closer(x, falling)
+    return run_ends(x, falls(values(slope, x)))
+
+
+def turns(slope: Slope, x: Array) -> Array:
+    """The places among x where a slope begins to fall, or to rise: the ends of narrow features."""
+    ends = np.diff(np.concatenate(([False], falls(values(slope, x)), [False])))
+    return np.asarray(x[np.flatnonzero(ends)])
+
+
+def run_ends(x: Array, falling: Bool) -> Array:
+    """Ends of the runs of places between which a slope falls, and places BESIDE them."""
+    ends = np.flatnonzero(np.diff(np.concatenate(([False], falling, [False]))))
+    step = len(x) // 8  # of parts that long the resolution needs no hint
+    narrow = np.repeat(ends[1::2] - ends[::2] < step, 2)
+    if np.count_nonzero(narrow) > MOST:
+        return x[:0]
+    lo, hi = x[ends[narrow]].reshape(-1, 2).T
+    away = BESIDE * (hi - lo)
+    found = np.unique(np.concatenate((lo - away, lo, hi, hi + away)))
+    return np.asarray(found[(found > x[0]) & (found < x[-1])])
