@@ -16,8 +16,7 @@ from sie.inheritance import override
 from .base import Parity, Profile, of_any_x
 from .expression import Expression
 from .resolution import integral
-from .slope import Slope, polynomial_slope
-from .slope_row import FunctionTerm, Vectorised
+from .slope import FunctionTerm, Slope, Vectorised, polynomial_slope
 
 Array = NDArray[np.float64]
 INF = float("inf")

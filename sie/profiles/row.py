@@ -23,8 +23,7 @@ from sie.inheritance import override
 from .base import Profile, of_any_x
 from .derived import joined
 from .lowest_profile import finite_ends, lowest_of
-from .slope import Slope
-from .slope_row import FunctionTerm
+from .slope import FunctionTerm, Slope
 
 Array = NDArray[np.float64]
 INF = float("inf")

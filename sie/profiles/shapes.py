@@ -16,8 +16,7 @@ from sie.inheritance import override
 
 from .base import Profile, of_any_x
 from .power_law import PowerLaw, PowerSlope
-from .slope import Slope, polynomial_slope
-from .slope_row import FunctionTerm
+from .slope import FunctionTerm, Slope, polynomial_slope
 
 Array = NDArray[np.float64]
 INF = float("inf")

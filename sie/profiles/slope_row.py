@@ -1,35 +1,8 @@
-"""What a slope is made of: functions, and pieces as floats, which cost less where they are few."""
+"""One piece of a slope as plain floats, which cost less than arrays where there are few."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
-from typing import Any, NamedTuple
-
-import numpy as np
-from numpy.typing import NDArray
-
-from sie import arguments
-
-Array = NDArray[np.float64]
-Vectorised = Callable[[Array], Any]
-
-
-@dataclass(frozen=True)
-class FunctionTerm:
-    """The function sign f(sign (t - shift)): a user's f, moved and mirrored with its profile."""
-
-    function: Vectorised
-    shift: float = 0.0
-    sign: float = 1.0
-
-    def __call__(self, offset: Array) -> Array:
-        """Values at t, given offset = t - shift."""
-        # `resolution` refuses values that are not finite, and names the place.
-        with np.errstate(all="ignore"):
-            values = arguments.real_values("slope", self.function, self.sign * offset)
-            signed: Array = self.sign * values
-        return signed
+from typing import NamedTuple
 
 
 class Row(NamedTuple):
