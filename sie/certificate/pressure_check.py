@@ -218,18 +218,20 @@ def _rounding(density: SlopeDensity, change: Array, rule: Rule, p: Array) -> tup
     """
     order = np.argsort(rule.x, kind="stable")
     x, weight, p = rule.x[order], rule.weight[order], p[order]
-    finite = _of_sharp_edges(density, x)
-    weight, p = weight / finite, p * finite
     ulp, apart = np.spacing(np.abs(x)), np.diff(x)
-    steps = np.abs(np.diff(p)) * np.minimum(ulp[1:] / np.maximum(apart, ulp[1:]), 1.0)
     from_edge = np.maximum(
         np.minimum(density.contact.from_left(x), density.contact.from_right(x)), 0.0
     )
-    moved = np.abs(p) * np.minimum(ulp / np.maximum(2.0 * from_edge, ulp), 1.0)
-    if density.k1 or density.k2:
-        moved[:] = 0.0  # p finite has no root there
+    of_root = np.abs(p) * np.minimum(ulp / np.maximum(2.0 * from_edge, ulp), 1.0)
+    finite, sharp = _of_sharp_edges(density, x), bool(density.k1 or density.k2)
+    weight, p = weight / finite, p * finite  # the weights of sharp edges have the root of p
+    steps = np.abs(np.diff(p)) * np.minimum(ulp[1:] / np.maximum(apart, ulp[1:]), 1.0)
+    moved = np.zeros_like(p) if sharp else of_root
     moved[1:] = np.maximum(moved[1:], steps)
     moved[:-1] = np.maximum(moved[:-1], steps)
+    of_value = moved / finite + of_root * sharp
     at = rule.between
     near = np.clip(np.searchsorted(x, at), 1, len(x) - 1) - 1
-    return float(weight @ moved), float((moved[near] + density.half_modulus * np.abs(change)).max())
+    return float(weight @ moved), float(
+        (of_value[near] + density.half_modulus * np.abs(change)).max()
+    )

@@ -44,6 +44,26 @@ def two_product(a: Any, b: Any) -> tuple[Any, Any]:
     return p, ((a1 * b1 - p) + a1 * b2 + a2 * b1) + a2 * b2
 
 
+def recentred(c: Array, tails: Array, old: Array, new: Array) -> tuple[Array, Array]:
+    """Rows of polynomial coefficients (K, n) about new origins, by synthetic division (Horner).
+
+    `tails` (K,) are what rounding took from c[:, 0], before and after. Both are exact where the
+    origin stays.
+    """
+    c, (step, cut) = c.copy(), two_sum(new, -old)
+    width = c.shape[1]
+    if width > 1 and step.any():
+        for j in range(width - 2, 0, -1):
+            c[:, j] += step * c[:, j + 1]
+        rise, rounded = two_product(step, c[:, 1])
+        level, rest = two_sum(c[:, 0], rise)
+        c[:, 0], tails = two_sum(level, (rest + tails) + (rounded + cut * c[:, 1]))
+        for i in range(1, width - 1):
+            for j in range(width - 2, i - 1, -1):
+                c[:, j] += step * c[:, j + 1]
+    return c, tails
+
+
 class Interval(NamedTuple):
     """The contact [x1 + tail1, x2 + tail2]."""
 

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .base import Profile
-from .slope import Slope, recentred
+from .slope import Slope
 
 Array = NDArray[np.float64]
 Runs = list[tuple[float, float, int]]
@@ -87,7 +87,7 @@ def _crossings(
     for k in (one, other):
         piece = int(np.searchsorted(slopes[k].breaks, inner)) - 1
         width = slopes[k].coefficients.shape[1]
-        c = recentred(slopes[k], np.array([piece]), np.array([inner]), width)[0][0]
+        c = slopes[k].about(np.array([piece]), np.array([inner]), width)[0][0]
         rows.append(
             np.concatenate(([float(profiles[k].height(inner))], c / np.arange(1, width + 1)))
         )

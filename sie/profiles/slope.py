@@ -21,7 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie import arguments
-from sie.numerics.interval import EPS, two_product, two_sum
+from sie.numerics.interval import EPS, recentred, two_sum
 
 from .slope_row import Row
 
@@ -266,7 +266,14 @@ class Slope:
         k = np.arange(len(self.origins))
         inner = self.breaks[1:-1]
         width = self.coefficients.shape[1]
-        return recentred(self, k[1:], inner, width)[0] - recentred(self, k[:-1], inner, width)[0]
+        return self.about(k[1:], inner, width)[0] - self.about(k[:-1], inner, width)[0]
+
+    def about(self, k: NDArray[np.int64], origins: Array, width: int) -> tuple[Array, Array]:
+        """Coefficients of the pieces k about new origins, and tails."""
+        c = np.zeros((len(k), width))
+        c[:, : self.coefficients.shape[1]] = self.coefficients[k]
+        tails = np.broadcast_to(self.tails, self.origins.shape)[k]
+        return recentred(c, tails, self.origins[k], origins)
 
     @property
     def domain(self) -> tuple[float, float]:
@@ -288,7 +295,7 @@ class Slope:
             for k, lo, hi in ((0, *self.breaks[:2]), (-1, *self.breaks[-2:])):
                 if np.isinf(lo - hi) and lo < origins[k] < hi and c[k, 1]:
                     origins[k] = min(max(origins[k] - c[k, 0] / c[k, 1], lo), hi)
-        c, tails = recentred(self, np.arange(len(origins)), origins, c.shape[1])
+        c, tails = self.about(np.arange(len(origins)), origins, c.shape[1])
         return replace(self, origins=origins, coefficients=c, tails=tails)
 
     def less_level(self, x: float, near: float) -> tuple[float, Slope]:
@@ -298,7 +305,7 @@ class Slope:
         """
         level = float(self(x))
         origins = np.where(np.abs(self.origins - x) > near, x, self.origins)
-        c, tails = recentred(self, np.arange(len(origins)), origins, self.coefficients.shape[1])
+        c, tails = self.about(np.arange(len(origins)), origins, self.coefficients.shape[1])
         return level, replace(self, origins=origins, coefficients=c, tails=tails).tilted(-level)
 
     def split_at(self, x: float) -> Slope:
@@ -362,8 +369,8 @@ class Slope:
         nearer = _distance(one, breaks) <= _distance(two, breaks)
         origins = np.where(other.is_zero[theirs] | (~self.is_zero[mine] & nearer), one, two)
         width = max(self.coefficients.shape[1], other.coefficients.shape[1])
-        c, tails = recentred(self, mine, origins, width)
-        more, other_tails = recentred(other, theirs, origins, width)
+        c, tails = self.about(mine, origins, width)
+        more, other_tails = other.about(theirs, origins, width)
         level, rest = two_sum(c[:, 0], more[:, 0])
         c += more
         c[:, 0], tails = two_sum(level, rest + (tails + other_tails))
@@ -402,26 +409,3 @@ def _distance(origins: Array, breaks: Array) -> Array:
         outside,
         np.where(np.isinf(one_end), np.abs(origins), one_end),
     )
-
-
-def recentred(
-    slope: Slope, k: NDArray[np.int64], origins: Array, width: int
-) -> tuple[Array, Array]:
-    """Coefficients of the pieces k about new origins, and tails, by synthetic division (Horner).
-
-    They are exact where the origin stays.
-    """
-    c, tails = np.zeros((len(k), width)), np.broadcast_to(slope.tails, slope.origins.shape)[k]
-    c[:, : slope.coefficients.shape[1]] = slope.coefficients[k]
-    step, cut = two_sum(origins, -slope.origins[k])
-    if step.any():
-        for j in range(width - 2, 0, -1):
-            c[:, j] += step * c[:, j + 1]
-        if width > 1:
-            rise, rounded = two_product(step, c[:, 1])
-            level, rest = two_sum(c[:, 0], rise)
-            c[:, 0], tails = two_sum(level, (rest + tails) + (rounded + cut * c[:, 1]))
-        for i in range(1, width - 1):
-            for j in range(width - 2, i - 1, -1):
-                c[:, j] += step * c[:, j + 1]
-    return c, tails
