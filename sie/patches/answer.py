@@ -75,7 +75,8 @@ class SeveralPatches:
         return gap_volume(self.found.operator)
 
     def certificate(self, tol: float) -> PatchCertificate:
-        found = certificate(self.found, self.pressure, self.problem.given, tol)
+        asked = self.problem.given, self.problem.height
+        found = certificate(self.found, self.pressure, asked, tol)
         return replace(found, notes=found.notes + self.notes)
 
 
