@@ -114,3 +114,18 @@ def test_raising_moves_a_profile_away(profile, dz):
 def test_what_is_no_row_is_refused(build, words):
     with pytest.raises(ValueError, match=words):
         build()
+
+
+def test_each_flat_of_a_row_is_asked_only_where_it_stands(monkeypatch):
+    asked, height = [], Flat.height
+
+    def counted(profile, x):
+        asked.append(np.size(x))
+        return height(profile, x)
+
+    monkeypatch.setattr(Flat, "height", counted)
+    row = Row([Flat(0.3).shifted(float(k)) for k in range(100)])
+    assert len(row.walls) == 99
+    row.height(np.linspace(0.0, 99.0, 5000))
+    assert len(asked) < 500
+    assert sum(asked) < 20_000
