@@ -53,6 +53,7 @@ MOST = 1e-3  # of the peak: where that is more nothing is certified
 SHARED = 1e-9  # of the load of a patch: what the rounding of h may change without a note
 # gaps that are measured, about, and at which parts of their widths
 GAPS, PARTS = 8, np.array([0.07, 0.37, 0.72, 0.91])
+NARROWEST = 1e-6  # of the whole contact: of a narrower gap doubles tell too few digits
 
 
 @reported("certificate")
@@ -75,15 +76,16 @@ def certificate(
         moment = abs(found_moment - G * given.moment) / (asked * hull)
     linear = conditions(found.state, o, given)
     condition = conditioning(found, given, linear)
+    measured_to = max(LEAST, min(EXPLAINED * _rounding(o, linear, given, peak / G), MOST))
     return PatchCertificate(
         residual=_residual(pressure, (rule, p), (places, at)) / peak,
         force=abs(load - asked) / asked,
         moment=moment,
-        gap=_error_of_gap(pressure, height, (rule, p)),
+        gap=_error_of_gap(pressure, height, (rule, p), measured_to),
         lowest_pressure=min(found.findings.lowest, 0.0),
         patches=P.number,
         condition=condition,
-        measured_to=max(LEAST, min(EXPLAINED * _rounding(o, linear, given, peak / G), MOST)),
+        measured_to=measured_to,
         tol=tol,
         tension=tuple((t.lo, t.hi) for t in found.findings.tension),
         overlap=tuple((v.lo, v.hi) for v in found.findings.overlap),
@@ -331,16 +333,21 @@ def principal_value(
     return np.asarray(total / np.pi)
 
 
-def _error_of_gap(pressure: PatchPressure, height: Height, rule: tuple[Measure, Array]) -> float:
+def _error_of_gap(
+    pressure: PatchPressure, height: Height, rule: tuple[Measure, Array], measured_to: float
+) -> float:
     """The largest error of some gaps; p by its rule."""
     o, (by, p) = pressure.operator, rule
     P, chord, (lo, hi) = o.patches, o.patches.chord, o.pieces.domain
     inner = np.arange(P.number - 1 + chord.periodic)[:: -(-P.number // GAPS)]
+    inner = inner[P.gaps[inner] > NARROWEST * P.hull]
     start, width = P.b[inner], P.gaps[inner]
     if not chord.periodic:
         beyond = min(P.hull, P.a[0] - lo), min(P.hull, hi - P.b[-1])
         start = np.concatenate((start, (P.a[0] - beyond[0], P.b[-1])))
         width = np.concatenate((width, beyond))
+    if not width.size:
+        return 0.0
     x = start[:, None] + width[:, None] * PARTS
     h, opened = (f(x.ravel()).reshape(x.shape) for f in (height, lambda x: gap(o, x)))
     open_ = np.isfinite(h) & np.isfinite(opened) & (width > 0.0)[:, None]
@@ -351,8 +358,13 @@ def _error_of_gap(pressure: PatchPressure, height: Height, rule: tuple[Measure, 
         sums[k] = np.log(np.abs(distance)) @ (p * by.weight) / (np.pi * pressure.half_modulus)
     h = h + pressure.tilt * (x - start[:, None])
     rounding = o.pieces.rounding(x[:, 0], x[:, -1]) + ROUNDINGS * EPS * np.abs(sums).max(axis=1)
-    error = _spread(h - sums - opened, open_) - rounding
     size = np.maximum(opened.max(axis=1), _spread(sums, open_))
+    rounding += (
+        ROUNDINGS * (size / np.maximum(width, EPS * P.hull)) * np.spacing(np.abs(x).max(axis=1))
+    )
+    # the pressure itself is known to `measured_to` of its peak, and so is the slope of the gap
+    rounding += measured_to * float(p.max()) / pressure.half_modulus * width
+    error = _spread(h - sums - opened, open_) - rounding
     return float(np.maximum(error, 0.0).max() / (size.max() or 1.0))
 
 

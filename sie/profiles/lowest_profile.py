@@ -20,6 +20,7 @@ INF = float("inf")
 
 SAMPLES = 33  # points between two breaks at which the heights of functions are compared
 FAR = 1e6  # how far beyond the breaks two functions may cross, in lengths of what is between
+NEAR = 1e-6  # of its distance: by which the root of a polynomial may be off
 ULPS = 4.0  # by which the ends of a domain may be off
 
 
@@ -120,6 +121,11 @@ def _crossings(
         return []
     roots = np.roots(np.trim_zeros(difference[::-1], "f"))
     real = roots[np.abs(roots.imag) <= 1e-9 * np.abs(roots)].real + inner
+    # from the heights themselves: about a far place their difference is rounding of its terms
+    with np.errstate(all="ignore"):
+        steep = slopes[one](real) - slopes[other](real)
+        step = (profiles[one].height(real) - profiles[other].height(real)) / steep
+    real = real - np.where(np.abs(step) <= NEAR * np.abs(real - inner), step, 0.0)
     return [float(x) for x in real if lo < x < hi]
 
 

@@ -1,5 +1,6 @@
 """Rows of indenters and periodic ones: values, the least of their heights, what is refused."""
 
+import itertools
 import math
 import pickle
 
@@ -129,3 +130,18 @@ def test_each_flat_of_a_row_is_asked_only_where_it_stands(monkeypatch):
     row.height(np.linspace(0.0, 99.0, 5000))
     assert len(asked) < 500
     assert sum(asked) < 20_000
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_profiles_are_equally_high_where_they_cross(seed):
+    rng = np.random.default_rng(seed)
+    row = Row(
+        [
+            Parabola(float(10.0 ** rng.uniform(-0.7, 0.7))).shifted(float(x)).raised(float(z))
+            for x, z in zip(rng.uniform(0.0, 8.0, 8), rng.uniform(0.0, 0.1, 8), strict=True)
+        ]
+    )
+    for (_, x, one), (_, _, other) in itertools.pairwise(row.lowest):
+        z1, z2 = (float(row.profiles[k].height(x)) for k in (one, other))
+        steep = np.ptp([float(row.profiles[k].slope(x)) for k in (one, other)])
+        assert abs(z1 - z2) < 4.0 * (np.spacing(z1) + steep * np.spacing(abs(x)))
