@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import inspect
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from functools import lru_cache
 from pathlib import Path
 from typing import Any, Literal, NamedTuple
 
@@ -69,6 +70,7 @@ class Entries(NamedTuple):
     required: tuple[str, ...] = ()
 
 
+@lru_cache(maxsize=64)
 def entries_of(make: Callable[..., Any]) -> Entries:
     """The parameters of a class or function as the entries of a table."""
     parameters = inspect.signature(make, eval_str=True).parameters.values()

@@ -71,8 +71,9 @@ class SeveralPatches:
         return gap_volume(self.found.operator)
 
     def certificate(self, tol: float) -> PatchCertificate:
+        asked = self.problem.given, self.problem.height
         missed = unseen(self.found, self.problem)
-        found = certificate(self.found, self.pressure, self.problem.given, tol, missed)
+        found = certificate(self.found, self.pressure, asked, tol, missed)
         return replace(found, notes=found.notes + self.notes)
 
 

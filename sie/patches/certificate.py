@@ -3,6 +3,8 @@
 residual      max |1/π PV∫p(t)/(x - t) dt - E*/2 (h' + θ)| / peak; per period the kernel is
               (π/λ) cot(π(x - t)/λ)
 equilibrium   |∫p dx - P| / P, |∫p x dx - M| / (P r)
+gap           h + θx - 2/(πE*) ∫p ln|x - t| dt less the gap is constant in each gap: what it varies
+              by beyond rounding, over the largest gap, or change of the integral, at these places
 inequalities  the lowest bound of D over the largest D, and places where the gap would be negative
 resolution    E*/2 |h' - its resolution| / peak of a function, at places of its own (`unseen`)
 condition     relative change of the narrowest patch or gap per relative change of the load, or of
@@ -12,25 +14,30 @@ condition     relative change of the narrowest patch or gap per relative change 
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from sie.numerics import chebyshev
+from sie.numerics.interval import EPS
 from sie.progress_bar import reported, step_done
 
 from .chord import Points
 from .density import PatchPressure
+from .gap import gap
 from .newton import Linear, conditions
 from .operator import Found, Operator
 from .panels import LONG, PatchPanels
+from .pieces import ROUNDINGS
 from .result import CLOSE, LEAST, PatchCertificate
 from .state import Given, Unseen
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
 Mask = NDArray[np.bool_]
+Height = Callable[[Array], Array]
 
 # nodes on a part of a panel: of those that are graded slowly, and of those of many breaks
 NODES, FEWER = 40, 24
@@ -45,14 +52,25 @@ TOGETHER = 32  # of them at once
 EXPLAINED = 16.0  # times what half an ulp of the edges changes
 MOST = 1e-3  # of the peak: where that is more nothing is certified
 SHARED = 1e-9  # of the load of a patch: what the rounding of h may change without a note
+# gaps that are measured, about, and at which parts of their widths
+GAPS, PARTS = 8, np.array([0.07, 0.37, 0.72, 0.91])
+NARROWEST = 1e-6  # of the whole contact: of a narrower gap doubles tell too few digits
 
 
 @reported("certificate")
 def certificate(
-    found: Found, pressure: PatchPressure, given: Given, tol: float, missed: Unseen
+    found: Found,
+    pressure: PatchPressure,
+    asked_for: tuple[Given, Height],
+    tol: float,
+    missed: Unseen,
 ) -> PatchCertificate:
-    """Measure an answer; `given` is what was asked, in units of E*/2, `missed` of a function."""
-    o, P, G = found.operator, found.operator.patches, pressure.half_modulus
+    """Measure an answer, by what was asked in units of E*/2 and the height h.
+
+    `missed` is what the pieces of a function do not show.
+    """
+    (given, height), o, G = asked_for, found.operator, pressure.half_modulus
+    P = o.patches
     rule, places = measured_on(pressure)
     p, at = (pressure.at_points(m.points, m.patch, m.piece) for m in (rule, places))
     p = _without_infinities(rule.points.x, p)
@@ -66,14 +84,16 @@ def certificate(
         moment = abs(found_moment - G * given.moment) / (asked * hull)
     linear = conditions(found.state, o, given)
     condition = conditioning(found, given, linear)
+    measured_to = max(LEAST, min(EXPLAINED * _rounding(o, linear, given, peak / G), MOST))
     return PatchCertificate(
         residual=_residual(pressure, (rule, p), (places, at)) / peak,
         force=abs(load - asked) / asked,
         moment=moment,
+        gap=_error_of_gap(pressure, height, (rule, p), measured_to),
         lowest_pressure=min(found.findings.lowest, 0.0),
         patches=P.number,
         condition=condition,
-        measured_to=max(LEAST, min(EXPLAINED * _rounding(o, linear, given, peak / G), MOST)),
+        measured_to=measured_to,
         tol=tol,
         tension=tuple((t.lo, t.hi) for t in found.findings.tension),
         overlap=tuple((v.lo, v.hi) for v in (*found.findings.overlap, *missed.overlap)),
@@ -318,3 +338,43 @@ def principal_value(
         taken_out = np.where(by.patch == own[some, None], values[some, None], 0.0)
         total[some] += ((p - taken_out) * kernel) @ by.weight
     return np.asarray(total / np.pi)
+
+
+def _error_of_gap(
+    pressure: PatchPressure, height: Height, rule: tuple[Measure, Array], measured_to: float
+) -> float:
+    """The largest error of some gaps; p by its rule."""
+    o, (by, p) = pressure.operator, rule
+    P, chord, (lo, hi) = o.patches, o.patches.chord, o.pieces.domain
+    inner = np.arange(P.number - 1 + chord.periodic)[:: -(-P.number // GAPS)]
+    inner = inner[P.gaps[inner] > NARROWEST * P.hull]
+    start, width = P.b[inner], P.gaps[inner]
+    if not chord.periodic:
+        beyond = min(P.hull, P.a[0] - lo), min(P.hull, hi - P.b[-1])
+        start = np.concatenate((start, (P.a[0] - beyond[0], P.b[-1])))
+        width = np.concatenate((width, beyond))
+    if not width.size:
+        return 0.0
+    x = start[:, None] + width[:, None] * PARTS
+    h, opened = (f(x.ravel()).reshape(x.shape) for f in (height, lambda x: gap(o, x)))
+    open_ = np.isfinite(h) & np.isfinite(opened) & (width > 0.0)[:, None]
+    h, opened = (np.where(open_, v, 0.0) for v in (h, opened))
+    sums = np.zeros(x.shape)
+    for k in zip(*np.nonzero(open_), strict=True):
+        distance = chord.apart(x[k] - by.points.anchor, -by.points.offset)
+        sums[k] = np.log(np.abs(distance)) @ (p * by.weight) / (np.pi * pressure.half_modulus)
+    h = h + pressure.tilt * (x - start[:, None])
+    rounding = o.pieces.rounding(x[:, 0], x[:, -1]) + ROUNDINGS * EPS * np.abs(sums).max(axis=1)
+    size = np.maximum(opened.max(axis=1), _spread(sums, open_))
+    rounding += (
+        ROUNDINGS * (size / np.maximum(width, EPS * P.hull)) * np.spacing(np.abs(x).max(axis=1))
+    )
+    # the pressure itself is known to `measured_to` of its peak, and so is the slope of the gap
+    rounding += measured_to * float(p.max()) / pressure.half_modulus * width
+    error = _spread(h - sums - opened, open_) - rounding
+    return float(np.maximum(error, 0.0).max() / (size.max() or 1.0))
+
+
+def _spread(v: Array, some: Mask) -> Array:
+    """The largest less the least of each row of v at some places, 0 of none."""
+    return np.where(some, v, -np.inf).max(axis=1) - np.where(some, v, np.inf).min(axis=1)

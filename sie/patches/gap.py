@@ -210,11 +210,13 @@ def sides(o: Operator, panels: GapPanels) -> Side:
     integrand = half[:, None] * phi * panels.root * derivative
     c = integrand @ legendre(n)
     primitive = np.asarray(np.polynomial.legendre.legint(c, lbnd=-1, axis=1), dtype=float)
-    whole = primitive.sum(axis=1)
-    first = panels.lo == 0.0
-    run = np.cumsum(first) - 1
-    total = np.cumsum(whole) - whole
-    start = total - total[np.flatnonzero(first)][run]
+    first = np.flatnonzero(panels.lo == 0.0)
+    run = np.cumsum(panels.lo == 0.0) - 1
+    position = np.arange(len(run)) - first[run]
+    # each gap has sums of its own: in one of all, those far beyond the contact would swamp them
+    sums = np.zeros((len(first), int(position.max()) + 2))
+    sums[run, position + 1] = primitive.sum(axis=1)
+    start = np.cumsum(sums, axis=1)[run, position]
     return Side(panels, sign, phi @ legendre(n), primitive, start)
 
 

@@ -283,7 +283,8 @@ def gap_panels(
     limit = as_parameter(followed)
     # waves of the pressure show beside an edge, and so does a kink of H close to it
     inward = edge - pieces.ends[piece + at_right]
-    bent = pieces.bends(piece, at_right) & (np.abs(inward) < size)
+    # its integral asks for that of H' only, its values between the nodes for that of H'' as well
+    bent = (outside | pieces.bends(piece, at_right)) & (np.abs(inward) < size)
     near = np.sqrt(np.abs(inward) / np.where(inner, width, 1.0))
     kink = np.where(bent, np.where(inner, 2.0 * np.arcsinh(near), near), np.inf)
     wave = as_parameter(pieces.plain[piece]) / rule.first

@@ -18,6 +18,7 @@ from sie.profiles.slope import Slope
 from .pieces import Pieces
 
 Array = NDArray[np.float64]
+Index = NDArray[np.int64]
 
 # Periods: patches are found from one cut to the next, wherever that is.
 COPIES = (-1.0, 0.0, 1.0, 2.0)
@@ -74,6 +75,7 @@ def _between(slope: Slope, window: tuple[float, float], tol: float, cuts: Array 
 
 def _with_walls(pieces: Pieces, walls: tuple[tuple[float, float], ...], profile: Profile) -> Pieces:
     first_end, last_end = pieces.domain
+    crossed = []
     for lo, hi in walls:
         repeated = profile.period < np.inf
         if not repeated and (hi <= first_end or lo >= last_end):
@@ -94,9 +96,12 @@ def _with_walls(pieces: Pieces, walls: tuple[tuple[float, float], ...], profile:
             pieces.void[first:last] = True
             if lo < first_end or hi > last_end:
                 continue  # nothing solid is in the window on the other side
-        after, before = _height_after(pieces, last, profile), _height_before(pieces, first, profile)
+        crossed.append((first, last))
+    if crossed:
+        first, last = np.array(crossed).T
+        after, before = _height(pieces, last, profile, 1.0), _height(pieces, first, profile, -1.0)
         pieces.across[first] = after - before
-        pieces.blur[first] = EPS * (abs(after) + abs(before))
+        pieces.blur[first] = EPS * (np.abs(after) + np.abs(before))
     return pieces
 
 
@@ -113,18 +118,12 @@ def _inserted(pieces: Pieces, k: int, end: float) -> Pieces:
     )
 
 
-def _height_after(pieces: Pieces, k: int, profile: Profile) -> float:
-    """h at the lower end of piece k, from inside."""
-    x = float(pieces.ends[k])
-    inner = x + min(float(pieces._half[k]), 1.0)
-    return float(profile.height(inner)) - float(pieces.rise(k, (x, 0.0), (inner, 0.0)))
-
-
-def _height_before(pieces: Pieces, k: int, profile: Profile) -> float:
-    """h at the upper end of the piece before k, from inside."""
-    x = float(pieces.ends[k])
-    inner = x - min(float(pieces._half[k - 1]), 1.0)
-    return float(profile.height(inner)) + float(pieces.rise(k - 1, (inner, 0.0), (x, 0.0)))
+def _height(pieces: Pieces, k: Index, profile: Profile, side: float) -> Array:
+    """h at the lower ends of pieces k, from inside; of those before k at the upper ends (-1)."""
+    x = pieces.ends[k]
+    k = k if side > 0.0 else k - 1
+    inner = x + side * np.minimum(pieces._half[k], 1.0)
+    return np.asarray(profile.height(inner) - pieces.rise(k, (x, 0.0), (inner, 0.0)))
 
 
 def from_slope(slope: Slope, window: tuple[float, float], tol: float) -> Pieces:

@@ -43,6 +43,7 @@ class PatchCertificate:
 
     residual          of the integral equation
     force, moment     of equilibrium
+    gap               of the gap, relative to the largest one
     lowest_pressure   the lowest bound of p over its root, relative to the largest, 0 if positive
     patches           how many there are
     condition         relative change of the narrowest patch or gap per relative change of the load;
@@ -68,13 +69,14 @@ class PatchCertificate:
     overlap: tuple[tuple[float, float], ...] = ()
     notes: tuple[str, ...] = ()
     shear: OfShear | None = None
+    gap: float = 0.0
     resolution: float = 0.0
     lowest_gap: float = 0.0
 
     @property
     def error(self) -> float:
-        """The estimated relative error of the pressure."""
-        return max(LEAST, self.residual, self.force, self.moment, self.resolution)
+        """The estimated relative error of the pressure and of the gap."""
+        return max(LEAST, self.residual, self.force, self.moment, self.gap, self.resolution)
 
     @property
     def ok(self) -> bool:
@@ -95,6 +97,7 @@ class PatchCertificate:
             ("integral equation (1), residual / peak", f"{self.residual:.1e}"),
             ("equilibrium of forces, |∫p - P| / P", f"{self.force:.1e}"),
             ("equilibrium of moments, |∫px - M| / (P r)", f"{self.moment:.1e}"),
+            ("gap, by a sum of its own / largest gap", f"{self.gap:.1e}"),
             ("lowest bound of p / root, over the largest", f"{self.lowest_pressure:+.1e}"),
             ("lowest gap outside / the largest beside it", f"{self.lowest_gap:+.1e}"),
             ("a function's difference from its resolution / peak", f"{self.resolution:.1e}"),
@@ -119,6 +122,7 @@ def worst_of(found: Sequence[PatchCertificate]) -> PatchCertificate:
         residual=max(c.residual for c in found),
         force=max(c.force for c in found),
         moment=max(c.moment for c in found),
+        gap=max(c.gap for c in found),
         condition=max(c.condition for c in found),
         measured_to=max(c.measured_to for c in found),
         resolution=max(c.resolution for c in found),

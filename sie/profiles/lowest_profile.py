@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from bisect import bisect_right
+from collections.abc import Iterator
 from itertools import pairwise
+from operator import itemgetter
 from typing import Any
 
 import numpy as np
@@ -17,13 +20,27 @@ INF = float("inf")
 
 SAMPLES = 33  # points between two breaks at which the heights of functions are compared
 FAR = 1e6  # how far beyond the breaks two functions may cross, in lengths of what is between
-BISECTIONS = 200
+NEAR = 1e-6  # of its distance: by which the root of a polynomial may be off
+ULPS = 4.0  # by which the ends of a domain may be off
 
 
 def finite_ends(profile: Profile) -> tuple[float, ...]:
     """The ends of a profile and of its walls, without infinite ones."""
     ends = (*profile.domain, *(x for wall in profile.walls for x in wall))
     return tuple(x for x in ends if abs(x) < INF)
+
+
+def inside(profiles: tuple[Profile, ...], x: Array) -> Iterator[tuple[int, slice]]:
+    """The profiles, and which of the places x (ascending) are on the domain of each."""
+    lo, hi = np.array([profile.domain for profile in profiles]).T
+    # the ends are rounded, and a height tells them
+    beyond = [ULPS * np.spacing(np.where(np.isfinite(v), v, 0.0)) for v in (lo, hi)]
+    lo, hi = lo - np.abs(beyond[0]), hi + np.abs(beyond[1])
+    start, stop = np.searchsorted(x, lo), np.searchsorted(x, hi, side="right")
+    for k in np.flatnonzero(start < stop).tolist():
+        # the rounding of a function depends on the places that are asked for together
+        whole = bool(profiles[k].pieces.functions)
+        yield k, slice(0, len(x)) if whole else slice(start[k], stop[k])
 
 
 def lowest_of(profiles: tuple[Profile, ...]) -> Runs:
@@ -36,10 +53,14 @@ def lowest_of(profiles: tuple[Profile, ...]) -> Runs:
         np.concatenate([s.breaks for s in slopes] + [finite_ends(p) for p in profiles])
     )
     found: Runs = []
-    for lo, hi in pairwise(ends.tolist()):
-        inner = _inner(lo, hi)
-        active = [k for k, p in enumerate(profiles) if float(p.height(inner)) < INF]
-        runs: list[Runs] = [[(lo, hi, k)] for k in active]
+    pieces = list(pairwise(ends.tolist()))
+    inner = np.array([_inner(lo, hi) for lo, hi in pieces])
+    active: list[list[int]] = [[] for _ in pieces]
+    for k, some in inside(profiles, inner):
+        for j in np.flatnonzero(np.asarray(profiles[k].height(inner[some])) < INF).tolist():
+            active[some.start + j].append(k)
+    for (lo, hi), here in zip(pieces, active, strict=True):
+        runs: list[Runs] = [[(lo, hi, k)] for k in here]
         while len(runs) > 1:  # in pairs, so that few heights are compared
             pairs = zip(runs[::2], runs[1::2], strict=False)
             merged = [_lower(profiles, slopes, one, other) for one, other in pairs]
@@ -53,7 +74,7 @@ def _lower(profiles: tuple[Profile, ...], slopes: list[Slope], one: Runs, other:
     found: Runs = []
     ends = sorted({x for lo, hi, _ in one + other for x in (lo, hi)})
     for lo, hi in pairwise(ends):
-        i, j = (next(k for a, b, k in runs if a <= lo and hi <= b) for runs in (one, other))
+        i, j = (runs[bisect_right(runs, lo, key=itemgetter(0)) - 1][2] for runs in (one, other))
         cuts = [lo, *sorted(_crossings(profiles, slopes, (i, j), lo, hi)), hi]
         for a, b in pairwise(cuts):
             if a == b:
@@ -100,6 +121,11 @@ def _crossings(
         return []
     roots = np.roots(np.trim_zeros(difference[::-1], "f"))
     real = roots[np.abs(roots.imag) <= 1e-9 * np.abs(roots)].real + inner
+    # from the heights themselves: about a far place their difference is rounding of its terms
+    with np.errstate(all="ignore"):
+        steep = slopes[one](real) - slopes[other](real)
+        step = (profiles[one].height(real) - profiles[other].height(real)) / steep
+    real = real - np.where(np.abs(step) <= NEAR * np.abs(real - inner), step, 0.0)
     return [float(x) for x in real if lo < x < hi]
 
 

@@ -24,7 +24,7 @@ from sie.messages import listed
 from .base import Profile, of_any_x
 from .closed_trace import closed, open_seams
 from .derived import joined
-from .lowest_profile import finite_ends, lowest_of
+from .lowest_profile import finite_ends, inside, lowest_of
 from .slope import FunctionTerm, Slope
 
 Array = NDArray[np.float64]
@@ -144,7 +144,14 @@ class Row(Profile):
     @override
     def height(self, x: ArrayLike) -> Array:
         x = arguments.reals("x", x)
-        return np.asarray(np.minimum.reduce([profile.height(x) for profile in self.profiles]))
+        flat = x.ravel()
+        order = np.argsort(flat, kind="stable")
+        least = np.full(flat.shape, INF)
+        for k, some in inside(self.profiles, flat[order]):
+            least[some] = np.minimum(least[some], self.profiles[k].height(flat[order[some]]))
+        out = np.empty(flat.shape)
+        out[order] = least
+        return out.reshape(x.shape)
 
     @cached_property
     def ends_are_corners(self) -> tuple[bool, bool]:

@@ -11,6 +11,7 @@ from strategies import between, log_between
 
 import sie
 from analytic import flat_row, two_parabolas, wavy
+from sie.patches import certificate
 from sie.patches.chord import Chord, Points
 from sie.patches.of_scene import problem_of
 from sie.patches.operator import Operator
@@ -217,6 +218,39 @@ def test_the_gap_opens_as_the_potential_says(name):
     H = solution.scene.profile.slope(x) - 2.0 * solution.pressure.hilbert(x)
     finite = np.isfinite(opened) & np.isfinite(H)
     assert opened[finite] == pytest.approx(H[finite], abs=1e-6)
+
+
+PARABOLAS = sie.Row([sie.Parabola(1.0).shifted(1.3 * k).raised(0.01 * (k % 3)) for k in range(10)])
+
+
+@pytest.mark.parametrize(("row", "load"), [(TWO, 0.4), (PARABOLAS, 1.5)])
+def test_the_gap_over_a_concave_corner_is_as_exact_as_elsewhere(row, load):
+    """From the first edge on it is ∫(H - F) dx, F by the potential, H on both sides by heights."""
+    solution = solved(profile=row, normal_load=load)
+    lo, hi = solution.patches[0][1], solution.patches[1][0]
+    g, w = np.polynomial.legendre.leggauss(40)
+    for part in (0.1, 0.3, 0.45, 0.55, 0.8):
+        root = np.sqrt(part * (hi - lo)) * 0.5 * (g + 1.0)
+        pulled = (solution.pressure.hilbert(lo + root**2) * root * w).sum() * (root[-1] + root[0])
+        x = np.array([lo, lo + part * (hi - lo)])
+        expected = np.diff(row.height(x))[0] - 2.0 * pulled
+        assert float(solution.gap(x[1])) == pytest.approx(expected, rel=3e-14, abs=0.0)
+
+
+@pytest.mark.parametrize(("row", "load"), [(TWO, 0.4), (PARABOLAS, 1.5)])
+@pytest.mark.parametrize("wrong", [1e-8, 2e-12])
+def test_a_wrong_gap_is_not_certified(row, load, wrong, monkeypatch):
+    solution, right = solved(profile=row, normal_load=load), certificate.gap
+    assert solution.check().gap < 1e-14
+    middle = np.mean((solution.patches[0][1], solution.patches[1][0]))
+
+    def beside(o, x):
+        return right(o, x) * np.where(x > middle, 1.0 + wrong, 1.0)
+
+    monkeypatch.setattr(certificate, "gap", beside)
+    again = solved(profile=row, normal_load=load).check()
+    assert 0.1 * wrong < again.gap < 2.0 * wrong
+    assert not again.ok
 
 
 @pytest.mark.parametrize("load", [1e-4, 1e-2])

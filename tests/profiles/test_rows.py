@@ -1,5 +1,6 @@
 """Rows of indenters and periodic ones: values, the least of their heights, what is refused."""
 
+import itertools
 import math
 import pickle
 
@@ -114,3 +115,33 @@ def test_raising_moves_a_profile_away(profile, dz):
 def test_what_is_no_row_is_refused(build, words):
     with pytest.raises(ValueError, match=words):
         build()
+
+
+def test_each_flat_of_a_row_is_asked_only_where_it_stands(monkeypatch):
+    asked, height = [], Flat.height
+
+    def counted(profile, x):
+        asked.append(np.size(x))
+        return height(profile, x)
+
+    monkeypatch.setattr(Flat, "height", counted)
+    row = Row([Flat(0.3).shifted(float(k)) for k in range(100)])
+    assert len(row.walls) == 99
+    row.height(np.linspace(0.0, 99.0, 5000))
+    assert len(asked) < 500
+    assert sum(asked) < 20_000
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_profiles_are_equally_high_where_they_cross(seed):
+    rng = np.random.default_rng(seed)
+    row = Row(
+        [
+            Parabola(float(10.0 ** rng.uniform(-0.7, 0.7))).shifted(float(x)).raised(float(z))
+            for x, z in zip(rng.uniform(0.0, 8.0, 8), rng.uniform(0.0, 0.1, 8), strict=True)
+        ]
+    )
+    for (_, x, one), (_, _, other) in itertools.pairwise(row.lowest):
+        z1, z2 = (float(row.profiles[k].height(x)) for k in (one, other))
+        steep = np.ptp([float(row.profiles[k].slope(x)) for k in (one, other)])
+        assert abs(z1 - z2) < 4.0 * (np.spacing(z1) + steep * np.spacing(abs(x)))
