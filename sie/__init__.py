@@ -30,14 +30,10 @@ Units are free: any consistent set works, and nothing depends on scale.
 131.935
 """
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from . import interrupt as interrupt
-from .cauchy.equation import CauchyEquation
-from .certificate.trace_noise import TraceReport
 from .errors import ContactError, InequalityError, LoadError, ResolutionError
-from .history import History, follow
-from .plan import Plan, plan
 from .problem.load_path import Path
 from .problem.material import RIGID, Elastic
 from .problem.scene import Scene
@@ -47,17 +43,30 @@ from .profiles.polynomials import Piecewise, Polynomial
 from .profiles.row import Periodic, Row
 from .profiles.sampled import Sampled
 from .profiles.shapes import Flat, Parabola, Power, RoundedFlat, Wedge
-from .smoothing_search import least_smoothing
 from .solution import Solution, solve
-from .steady_cycle import SteadyCycle, steady_cycle
-from .stress.fatigue import CriticalPlane
-from .stress.fretting import Cycle
-from .stress.half_plane import Stress
-from .stress.yield_limit import Peak, YieldPoint
-from .sweep import Interrupted, sweep
-from .sweep_work import QUANTITIES
 from .traction.base import ZERO, Density
 from .traction.combination import scaled, superposed
+
+if TYPE_CHECKING:
+    from .later import (
+        QUANTITIES,
+        CauchyEquation,
+        CriticalPlane,
+        Cycle,
+        History,
+        Interrupted,
+        Peak,
+        Plan,
+        SteadyCycle,
+        Stress,
+        TraceReport,
+        YieldPoint,
+        follow,
+        least_smoothing,
+        plan,
+        steady_cycle,
+        sweep,
+    )
 
 __version__ = "0.3.0.dev0"
 
@@ -109,13 +118,20 @@ __all__ = [
 
 
 def __getattr__(name: str) -> Any:
-    """The public modules, such as `sie.plots` with Matplotlib, imported when they are asked for."""
+    """What a contact under its normal load does not need, imported when it is asked for.
+
+    Of the public modules `sie.plots` needs Matplotlib.
+    """
     if name == "charts":
-        import sie.charts  # noqa: PLC0415
+        import sie.charts
     elif name == "plots":
-        import sie.plots  # noqa: PLC0415
+        import sie.plots
     elif name == "teaching":
-        import sie.teaching  # noqa: F401, PLC0415
+        import sie.teaching  # noqa: F401
+    elif name in __all__:
+        from . import later
+
+        return getattr(later, name)
     else:
         raise AttributeError(f"module 'sie' has no attribute {name!r}")
     return globals()[name]

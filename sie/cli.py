@@ -28,24 +28,16 @@ import pathlib
 import sys
 from collections.abc import Iterable, Sequence
 from importlib.util import find_spec
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from . import __version__, files, interrupt
 from .command_parser import STANDARD, TOL, parse
 from .command_requests import outputs_of, picture_style, refuse_overwriting, scene_of
 from .errors import ContactError
-from .history import follow
 from .interrupt import INTERRUPTED
-from .io import export, scene_file
-from .io.cycle_answer import cycle_of, start_of_cycle
-from .io.mesh_comparison import compare
-from .io.mesh_difference import Comparison
-from .io.mesh_result import read_mesh
-from .io.report import summary
+from .io import scene_file
 from .io.scene_file import SceneFile
-from .io.stress_grid import Grid, file_bytes
 from .messages import WIDE, with_short_words
-from .plan import plan
 from .problem.request import GRID, refuse_unknown_poisson
 from .progress_bar import Progress
 from .solution import Solution, solve
@@ -58,6 +50,9 @@ from .streams import (
     print_text,
     terminal_width,
 )
+
+if TYPE_CHECKING:  # a command imports what it does when it runs
+    from .io.mesh_difference import Comparison
 
 CERTIFIED, NOT_CERTIFIED, REFUSED, UNREAD = 0, 1, 2, 141
 
@@ -114,7 +109,7 @@ def _solve(arguments: argparse.Namespace) -> int:
         refuse_unknown_poisson(file.scene)
     with _progress(arguments):
         solution = _solution(file, arguments.tol)
-        cycle = cycle_of(solution, file) if "cycle" in file.want else None
+        cycle = _cycle(solution, file) if "cycle" in file.want else None
         contents = {
             path: _content(kind, path, solution, file, arguments, cycle=cycle)
             for kind, path in outputs.items()
@@ -133,11 +128,17 @@ def _solve(arguments: argparse.Namespace) -> int:
 
 def _solution(file: SceneFile, tol: float) -> Solution:
     """The solution of the scene, or of the last point of its path."""
-    return (
-        follow(file.scene, file.load_path, tol=tol)[-1]
-        if file.load_path
-        else solve(file.scene, tol=tol)
-    )
+    if not file.load_path:
+        return solve(file.scene, tol=tol)
+    from .history import follow
+
+    return follow(file.scene, file.load_path, tol=tol)[-1]
+
+
+def _cycle(solution: Solution, file: SceneFile) -> dict[str, Any]:
+    from .io.cycle_answer import cycle_of
+
+    return cycle_of(solution, file)
 
 
 def _progress(arguments: argparse.Namespace) -> Progress:
@@ -146,6 +147,9 @@ def _progress(arguments: argparse.Namespace) -> Progress:
 
 
 def _compare(arguments: argparse.Namespace) -> int:
+    from .io.mesh_comparison import compare
+    from .io.mesh_result import read_mesh
+
     if arguments.mesh is None:
         raise ValueError(
             "give the mesh result after the scene: "
@@ -184,8 +188,10 @@ def _compared(
     kind: str, path: pathlib.Path, solution: Solution, comparison: Comparison, file: SceneFile
 ) -> bytes:
     if kind == "json":
+        from .io import export
+
         return export.strict_json(comparison.as_dict()).encode()
-    from .plots.comparison_plot import overlay  # noqa: PLC0415
+    from .plots.comparison_plot import overlay
 
     figure = overlay(solution, comparison, file.units, file.title)
     return picture_style().picture_bytes(figure, path.suffix[1:].lower())
@@ -195,6 +201,8 @@ def _plan(arguments: argparse.Namespace) -> int:
     file = scene_of(arguments)
     _refuse_open_path(file)
     _solution(file, TOL)  # computes nothing, but refuses a scene that is not covered
+    from .planning import plan
+
     print_text(f"{broken(str(plan(file.scene, file.want)), terminal_width())}\n")
     return CERTIFIED
 
@@ -207,9 +215,9 @@ def _live(arguments: argparse.Namespace) -> int:
     if find_spec("bokeh") is None:
         raise ValueError('the live page is drawn by Bokeh: pip install "plane-contact[live]"')
     # They take a second, and only this command needs them.
-    import webbrowser  # noqa: PLC0415
+    import webbrowser
 
-    from .live.server import serve  # noqa: PLC0415
+    from .live.server import serve
 
     def announce(address: str) -> None:
         print_text(f"{address}  (Ctrl-C ends it)\n")
@@ -233,7 +241,8 @@ def _example(arguments: argparse.Namespace) -> int:
 
 def _benchmark_set(arguments: argparse.Namespace) -> int:
     """Write the set into a new or an empty folder: all of its files, or none."""
-    from .io.benchmark_set import benchmark_set  # noqa: PLC0415
+    from .io import export
+    from .io.benchmark_set import benchmark_set
 
     folder = files.empty_folder(arguments.folder)
     texts = benchmark_set({"csv": export.csv_text, "json": export.json_text})
@@ -244,14 +253,14 @@ def _benchmark_set(arguments: argparse.Namespace) -> int:
 
 
 def _schema(_arguments: argparse.Namespace) -> int:
-    from .io.scene_schema import schema_text  # noqa: PLC0415
+    from .io.scene_schema import schema_text
 
     print_text(schema_text())
     return CERTIFIED
 
 
 def _completion(arguments: argparse.Namespace) -> int:
-    from .shell_completion import script  # noqa: PLC0415
+    from .shell_completion import script
 
     print_text(script(arguments.shell))
     return CERTIFIED
@@ -272,6 +281,8 @@ COMMANDS = {
 def _refuse_open_path(file: SceneFile) -> None:
     """ValueError if a cycle is wanted of a path that does not close."""
     if "cycle" in file.want:
+        from .io.cycle_answer import start_of_cycle
+
         start_of_cycle(file.load_path)
 
 
@@ -288,6 +299,8 @@ def _content(
     cycle: dict[str, Any] | None,
 ) -> bytes:
     if kind == "field":
+        from .io.stress_grid import Grid, file_bytes
+
         units, (x1, x2) = file.units, solution.edges
         head = (
             f"{file.title or 'plane contact'} (sie {__version__})",
@@ -296,6 +309,8 @@ def _content(
             f"contact from x1 = {x1!r} to x2 = {x2!r}",
         )
         return file_bytes(Grid(solution, *(arguments.grid or GRID)), path.suffix[1:].lower(), head)
+    if kind in ("csv", "json"):
+        from .io import export
     if kind == "csv":
         return export.csv_text(solution, file, arguments.points).encode()
     if kind == "json":
@@ -306,10 +321,10 @@ def _content(
 def _picture(solution: Solution, file: SceneFile, suffix: str) -> bytes:
     """The picture of the contact; contours of the stress if that is wanted."""
     if {"stress", "yield"} & set(file.want):
-        from .plots.stress_plot import contours  # noqa: PLC0415
+        from .plots.stress_plot import contours
 
         return picture_style().picture_bytes(contours(solution, file.units, file.title), suffix)
-    from .plots.contact_plot import picture  # noqa: PLC0415
+    from .plots.contact_plot import picture
 
     return picture_style().picture_bytes(picture(solution, file.units, file.title), suffix)
 
@@ -320,6 +335,8 @@ def _report(
     written: Iterable[pathlib.Path],
     cycle: dict[str, Any] | None,
 ) -> str:
+    from .io.report import summary
+
     paragraphs = [
         summary(solution, file, cycle, terminal_width()),
         "\n".join(f"wrote {path}" for path in written),

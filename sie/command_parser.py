@@ -10,8 +10,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any, NoReturn
 
 from . import __version__
-from .io.mesh_files.names import QUANTITIES
-from .io.mesh_result import BODIES
+from .io.mesh_files.names import BODIES, QUANTITIES
 from .messages import nearest
 from .problem.request import GRID, POINTS, UNASKED, WANTS
 from .streams import print_text

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Collection
 from dataclasses import replace
+from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
@@ -15,14 +16,17 @@ from .contact.known_contact import Normal
 from .contact.normal import falls_somewhere, normal_contact, of_one_patch, one_series
 from .contact.pressure import pressure
 from .errors import ContactError, InequalityError, LoadError, ResolutionError
-from .patches.answer import SeveralPatches, asks_for_patches, several_patches
-from .patches.full import FullContact
 from .problem.request import ECONOMY
 from .problem.scene import Scene
 from .profiles.placed_traces import explained, smoothing_remedy
+from .profiles.row import asks_for_patches
 from .profiles.slope import Slope
 from .stages import stage as cached_property  # its first reading is logged
 from .traction.of_slope import SlopeDensity
+
+if TYPE_CHECKING:  # patches are imported where one patch is no answer
+    from .patches.answer import SeveralPatches
+    from .patches.full import FullContact
 
 # of a patch: the pressure on more of them is more exact as that of several patches
 MOST_PANELS = 128
@@ -81,6 +85,8 @@ class Frictionless:
 
     def _in_patches(self, one_patch: ContactError | None = None) -> SeveralPatches | FullContact:
         """Contact in several patches; `one_patch` is why it is not one."""
+        from .patches.answer import several_patches
+
         try:
             return several_patches(self.scene)
         except ContactError as error:
@@ -145,6 +151,8 @@ class Frictionless:
             sliding=0,
             bulk_stress=0.0,
         )
+        from .patches.answer import several_patches
+
         return several_patches(plain)
 
     @cached_property
@@ -159,6 +167,8 @@ class Frictionless:
         may_be = self._may_be_in_patches and scene.profile.pieces.functions and scene.normal_load
         if not may_be or self._of_one_series is not None or not falls_somewhere(scene):
             return None
+        from .patches.answer import several_patches
+
         try:
             return several_patches(scene)
         except ContactError:  # why there is no one patch may say more
@@ -166,15 +176,15 @@ class Frictionless:
 
     @property
     def _is_one_patch(self) -> bool:
-        found = self._of_waves
-        if not isinstance(found, SeveralPatches) or len(found.patches) > 1:
+        if self._of_waves is None or len(self._of_waves.patches) > 1:
             return False
+        found = cast("SeveralPatches", self._of_waves)  # no function has a period of its own
         return any(found.edges.sharp) or len(found.found.operator.panels.piece) <= MOST_PANELS
 
     @property
     def _several(self) -> SeveralPatches | FullContact | None:
         """The contact, if it is in several patches or per period."""
-        return self.normal if isinstance(self.normal, (SeveralPatches, FullContact)) else None
+        return None if isinstance(self.normal, Normal) else self.normal
 
     @cached_property
     def unverified(self) -> Normal:
@@ -244,7 +254,7 @@ class Frictionless:
         A fluid would fill this volume per length of the line of contact.
         """
         several = self._several
-        return several.gap_volume if isinstance(several, SeveralPatches) else 0.0
+        return several.gap_volume if several is not None else 0.0
 
     @property
     def half_width(self) -> float:

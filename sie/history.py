@@ -51,7 +51,7 @@ from .patches.answer import SeveralPatches
 from .patches.full import FullContact
 from .patches.path_energy import PathEnergy
 from .path_contacts import PathContacts
-from .plan import Plan, Step
+from .planning import Plan, Step
 from .problem.load_path import Path
 from .problem.path_scene import one_after_the_other, unsheared
 from .problem.request import ECONOMY
@@ -277,6 +277,8 @@ class PathSolution(Solution):
     """The solution at one point of a path."""
 
     route = "layers: contacts superposed"
+
+    history: History
 
     def __init__(self, history: History, index: int) -> None:
         self.history, self.index = history, index

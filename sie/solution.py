@@ -10,48 +10,18 @@ import math
 from collections.abc import Collection, Sequence
 from dataclasses import replace
 from functools import partial
-from typing import Any, cast
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import arguments
-from .cauchy.density import JacobiDensity
-from .certificate.coupled_check import coupled_certificate
-from .certificate.coupled_shear_check import sheared_certificate
-from .certificate.full_stick_check import full_stick_certificate
-from .certificate.patch_shear_check import shear_certificate as shear_on_patches
-from .certificate.pressure_check import certificate
-from .certificate.result import RETREAT, Certificate, ShearCertificate
-from .certificate.shear_check import goodman_certificate, shear_certificate
-from .certificate.trace_noise import TraceReport, trace_reports
-from .contact.gap import gap
 from .contact.known_contact import Edges, Normal
 from .contact.normal import contact_under
 from .contact.pressure import pressure
 from .errors import ContactError, InequalityError, LoadError
-from .friction.contact_growth import ContactGrowth
-from .friction.coupled.contact import CoupledContact
-from .friction.coupled.energy import tangential_energy
-from .friction.coupled.load_path import found_state, sheared_contact
-from .friction.coupled.normal import coupled_contact
-from .friction.coupled.sheared import ShearedContact
-from .friction.coupled.shift import tangential_shift
-from .friction.coupled.tangential import TangentialSearch, tangential_search
-from .friction.coupled.traction import OnHalves
-from .friction.coupled.uneven_contact import UnevenContact
-from .friction.dissipation import dissipated
-from .friction.full_stick import Component, full_stick_contact
-from .friction.goodman.departure import departure
-from .friction.goodman.slip import GoodmanSlip, goodman_slip
-from .friction.partial_slip import slip
-from .friction.slip_state import Slip, Step
 from .frictionless import Frictionless
 from .numerics.interval import Interval
-from .patches.answer import SeveralPatches
-from .patches.friction import PatchesUnder, PatchSlip
-from .patches.full import FullContact
-from .patches.result import PatchCertificate, worst_of
 from .problem.coverage import held_moment, refuse_uncovered, uneven_under_shear
 from .problem.request import ECONOMY, sheared
 from .problem.scene import Scene
@@ -61,6 +31,24 @@ from .stress_answers import StressAnswers
 from .traction.base import ZERO, Density, on_line
 from .traction.combination import scaled
 from .traction.of_slope import SlopeDensity
+
+if TYPE_CHECKING:  # what a stage needs is imported when it is computed
+    from .cauchy.density import JacobiDensity
+    from .certificate.result import Certificate, ShearCertificate
+    from .certificate.trace_noise import TraceReport
+    from .friction.coupled.contact import CoupledContact
+    from .friction.coupled.sheared import ShearedContact
+    from .friction.coupled.tangential import TangentialSearch
+    from .friction.coupled.traction import OnHalves
+    from .friction.coupled.uneven_contact import UnevenContact
+    from .friction.full_stick import Component
+    from .friction.goodman.slip import GoodmanSlip
+    from .friction.slip_state import Slip, Step
+    from .history import History
+    from .patches.answer import SeveralPatches
+    from .patches.friction import PatchesUnder
+    from .patches.full import FullContact
+    from .patches.result import PatchCertificate
 
 Array = NDArray[np.float64]
 
@@ -91,6 +79,8 @@ class Solution(Frictionless, StressAnswers):
     contact. An attribute computes what it needs when it is read, and keeps it.
     """
 
+    history: History | None = None  # the path that this is a point of
+
     def __getstate__(self) -> dict[str, Any]:
         """The stages; the question alone where they hold functions, which no pickle takes."""
         scene, state = self.scene, vars(self)
@@ -111,12 +101,16 @@ class Solution(Frictionless, StressAnswers):
     @cached_property
     def bonded(self) -> tuple[Edges, JacobiDensity]:
         """The edges of a flat punch in full stick, and p + i q."""
+        from .friction.full_stick import full_stick_contact
+
         return full_stick_contact(self.scene, self.tol)
 
     @cached_property
     def coupled(self) -> tuple[Edges, CoupledContact | UnevenContact | ShearedContact]:
         """The edges and the state of dissimilar bodies in partial slip."""
         if self.scene.tangential_load:
+            from .friction.coupled.load_path import sheared_contact
+
             edges, state = sheared_contact(self._upright, self.tangential_search)
             return replace(edges, tilt=self.scene.tilt), state
         return self.pressed
@@ -124,6 +118,8 @@ class Solution(Frictionless, StressAnswers):
     @cached_property
     def pressed(self) -> tuple[Edges, CoupledContact | UnevenContact]:
         """The same under the normal load alone."""
+        from .friction.coupled.normal import coupled_contact
+
         scene = self._upright
         if not scene.profile.convex:
             P, b = scene.normal_load, scene.half_width
@@ -144,6 +140,9 @@ class Solution(Frictionless, StressAnswers):
     @cached_property
     def tangential_search(self) -> TangentialSearch:
         """The search for the zones of dissimilar bodies under any tangential load after that."""
+        from .friction.coupled.tangential import tangential_search
+        from .friction.coupled.uneven_contact import UnevenContact
+
         pressed = self.pressed[1]
         if isinstance(pressed, UnevenContact):
             raise uneven_under_shear(self.scene)
@@ -178,6 +177,8 @@ class Solution(Frictionless, StressAnswers):
             If the profile carries no such load in one patch.
         """
         if self.scene.bonded:
+            from .friction.full_stick import Component
+
             return Component(self.normal_and_shear, imaginary=False)
         _ = self.normal
         if self.scene.coupled:
@@ -215,6 +216,9 @@ class Solution(Frictionless, StressAnswers):
                     f"contact {where} with coupling = 'goodman': the shear in it follows from how "
                     "one patch grew; give a convex profile, or dundurs = 0 to neglect β"
                 )
+            from .friction.contact_growth import ContactGrowth
+            from .friction.goodman.slip import goodman_slip
+
             growth = ContactGrowth(self.scene, self.as_one_patch, self.economy)
             return goodman_slip(self.load_step(self.scene.tangential_load, 0.0), growth.search)
         return self.first_loading(self._loads, self.patches_under)
@@ -251,11 +255,15 @@ class Solution(Frictionless, StressAnswers):
             If Q exceeds f P, or no zones of stick and slip meet all conditions.
         """
         if self._several is None:
+            from .friction.partial_slip import slip
+
             try:
                 return slip(self.load_step(*loads, near), one_sign)
             except (InequalityError, LoadError):  # the stick zones may be several
                 if self.scene.profile.convex:
                     raise
+        from .patches.friction import PatchSlip
+
         state = PatchSlip(self.scene, self.in_patches, loads, under)
         _ = state.corrective
         return state
@@ -278,6 +286,8 @@ class Solution(Frictionless, StressAnswers):
         Step
             What the states of slip are found from.
         """
+        from .friction.slip_state import Step
+
         scene, tol, economy, normal = self.scene, self.tol, self.economy, self.as_one_patch
         under = partial(
             contact_under, scene=scene, tol=tol, economy=economy, near=near, seen=normal.seen
@@ -288,46 +298,68 @@ class Solution(Frictionless, StressAnswers):
     @cached_property
     def dissipated(self) -> float:
         """The energy dissipated by slip."""
+        from .friction.coupled.energy import tangential_energy
+        from .friction.coupled.load_path import found_state
+        from .friction.dissipation import dissipated
+
         if not self.scene.coupled:
             return dissipated(self.tangential)
-        state, pressed = self.coupled[1], self.pressed[1].energy
-        if not isinstance(state, ShearedContact):
+        pressed = self.pressed[1].energy
+        if not self.scene.tangential_load:
             return pressed
-        search = self.tangential_search
-        return pressed + tangential_energy(state, partial(found_state, search))
+        state = cast("ShearedContact", self.coupled[1])
+        return pressed + tangential_energy(state, partial(found_state, self.tangential_search))
 
     @cached_property
     def certificate(self) -> Certificate | PatchCertificate:
         """The certificate that `check` returns, measured once."""
         if self.scene.bonded:
+            from .certificate.full_stick_check import full_stick_certificate
+
             return full_stick_certificate(
                 self.normal.edges, self.normal_and_shear, self.scene, self.tol
             )
         if self.scene.coupled:
-            state = self.coupled[1]
-            if isinstance(state, CoupledContact):
-                return coupled_certificate(state, self._upright, self.tol)
-            return sheared_certificate(state, self._upright, self.tol)
+            return self._coupled_certificate
         others = self.tangential.contacts if self.sheared else ()
         if others or self._several is not None:
+            from .patches.result import worst_of
+
             each = [c.certificate(self.tol) for c in (self.in_patches, *others)]
             return replace(worst_of(each), shear=self._shear_of_patches(each))
+        from .certificate.pressure_check import certificate
+
         found = certificate(self.slope_density, self._slope, self.tol)
         if not self.sheared:
             return found
         return replace(found, shear=self._shear_certificate)
 
+    @property
+    def _coupled_certificate(self) -> Certificate:
+        from .certificate.coupled_check import coupled_certificate
+        from .certificate.coupled_shear_check import sheared_certificate
+        from .friction.coupled.contact import CoupledContact
+
+        state = self.coupled[1]
+        if isinstance(state, CoupledContact):
+            return coupled_certificate(state, self._upright, self.tol)
+        return sheared_certificate(state, self._upright, self.tol)
+
     def _shear_of_patches(self, found: Sequence[PatchCertificate]) -> ShearCertificate | None:
         """The certificate of the shear; `found` are those of the pressures that it is made of."""
         if not self.sheared:
             return None
+        from .certificate.patch_shear_check import shear_certificate as shear_on_patches
+
         p = self.in_patches.pressure
         return shear_on_patches(self.tangential, p, self._loads, self._slope, found)
 
     @property
     def _shear_certificate(self) -> ShearCertificate:
-        if isinstance(self.tangential, GoodmanSlip):
-            return goodman_certificate(self.tangential, self.tol)
+        from .certificate.shear_check import goodman_certificate, shear_certificate
+
+        if self.scene.goodman:
+            return goodman_certificate(cast("GoodmanSlip", self.tangential), self.tol)
         return shear_certificate(
             self.tangential, self.slope_density, self._loads, self._slope, self.tol
         )
@@ -369,9 +401,9 @@ class Solution(Frictionless, StressAnswers):
             when they are smaller than the rounding of the edges; 0 below 1e-15 of the half-width,
             where that is full stick.
         """
-        state = self.coupled[1] if self.scene.coupled else None
-        if isinstance(state, CoupledContact | UnevenContact):
-            return state.slip_width, state.slip_width
+        if self.scene.coupled and not self.scene.tangential_load:
+            width = self.pressed[1].slip_width
+            return width, width
         x1, x2 = self.edges
         stick = self.stick or ((x2, x1),)
         return stick[0][0] - x1, x2 - stick[-1][1]
@@ -386,6 +418,8 @@ class Solution(Frictionless, StressAnswers):
             As for `pressure`; zero everywhere without friction.
         """
         if self.scene.bonded:
+            from .friction.full_stick import Component
+
             return Component(self.normal_and_shear, imaginary=True)
         if self.scene.epsilon:
             return scaled(self.scene.slides * self.scene.friction, self.pressure)
@@ -488,8 +522,10 @@ class Solution(Frictionless, StressAnswers):
         """
         self._refuse_unknown_slip()
         if self.scene.coupled:
-            state = self.coupled[1]
-            return tangential_shift(state) if isinstance(state, ShearedContact) else 0.0
+            from .friction.coupled.shift import tangential_shift
+
+            sheared = self.scene.tangential_load != 0.0
+            return tangential_shift(cast("ShearedContact", self.coupled[1])) if sheared else 0.0
         return self.tangential.shift if self.sheared else 0.0
 
     def _refuse_unknown_slip(self) -> None:
@@ -524,6 +560,8 @@ class Solution(Frictionless, StressAnswers):
             return self.coupled[1].gap(x, self._upright.profile)
         if self._several is not None:
             return self._several.gap(x.ravel()).reshape(x.shape)
+        from .contact.gap import gap
+
         return gap(x.ravel(), self.slope_density, self._slope).reshape(x.shape)
 
     @property
@@ -543,12 +581,16 @@ class Solution(Frictionless, StressAnswers):
         """A sentence on what is approximated in the slip, or ()."""
         if self.scene.neglects_beta or not self.sheared or self.tangential.advancing:
             return ()
+        from .certificate.result import RETREAT
+
         return (f"note: slip is found in total displacements: {RETREAT}",)
 
     @cached_property
     def coupling_notes(self) -> tuple[str, ...]:
         """A sentence on what is neglected where β, or β q, is left out, or ()."""
         if self.scene.neglects_beta:
+            from .friction.goodman.departure import departure
+
             return (departure(self.scene, self.tol),)
         beta = self.scene.neglected_beta
         if not beta:
@@ -563,6 +605,8 @@ class Solution(Frictionless, StressAnswers):
         measured = self.scene.bonded or self.scene.coupled or self._several is not None
         if measured or "certificate" in self.__dict__:
             return self.certificate.notes
+        from .certificate.pressure_check import certificate
+
         return certificate(self.slope_density, self._slope, self.tol).notes
 
     def check(self) -> Certificate | PatchCertificate:
@@ -596,12 +640,18 @@ class Solution(Frictionless, StressAnswers):
         tuple of TraceReport
             One for each trace, () if the profile has none.
         """
+        from .certificate.trace_noise import trace_reports
+
         several = self._several
-        if isinstance(several, SeveralPatches):
-            return trace_reports(self.scene, several.edges, several)
-        if self.scene.bonded or self.scene.coupled or several is not None:
+        if several is None:
+            if self.scene.bonded or self.scene.coupled:
+                return ()
+            return trace_reports(self.scene, self.as_one_patch.edges, self.slope_density)
+        from .patches.answer import SeveralPatches
+
+        if not isinstance(several, SeveralPatches):
             return ()
-        return trace_reports(self.scene, self.as_one_patch.edges, self.slope_density)
+        return trace_reports(self.scene, several.edges, several)
 
     def plot(self, ax: Any = None, what: str = "pressure", units: Any = None) -> Any:
         """One panel of the picture of the contact, on axes of Matplotlib.
@@ -633,12 +683,12 @@ class Solution(Frictionless, StressAnswers):
         >>> scene = sie.Scene(profile=sie.Parabola(1.0), modulus=1.0, normal_load=1.0)
         >>> axes = sie.solve(scene).plot(what="gap")    # doctest: +SKIP
         """
-        from sie.plots.one_axes import of_solution  # noqa: PLC0415 -- a higher layer
+        from sie.plots.one_axes import of_solution
 
         return of_solution(self, ax, what, units)
 
     def _repr_html_(self) -> str:
-        from sie.io.html_report import html  # noqa: PLC0415 -- a higher layer
+        from sie.io.html_report import html
 
         return html(self)
 

@@ -15,6 +15,7 @@ import pytest
 import analytic
 import oracles
 import sie
+from sie.io import scene_file
 
 ORACLES = Path(oracles.__file__).parent
 HOUSES = {"sie": Path(sie.__file__).parent, "analytic": Path(analytic.__file__).parent}
@@ -32,10 +33,6 @@ LAYERS = (
         "arguments",
         "workers",
         "progress_bar",
-        "unit_labels",
-        "sweep_chunks",
-        "sweep_file",
-        "sweep_result",
     ),
     ("numerics",),
     ("profiles",),
@@ -44,11 +41,11 @@ LAYERS = (
     ("friction",),
     ("patches",),
     ("certificate",),
-    ("plan", "stages"),
+    ("planning", "stages"),
     ("frictionless", "stress_answers", "solution", "path_contacts"),
     ("smoothing_search", "history"),
-    ("sweep_work",),
-    ("sweep", "charts", "steady_cycle", "teaching"),
+    ("sweeps", "charts", "steady_state", "teaching"),
+    ("later",),
     ("io",),
     ("plots", "live"),
     ("command_parser", "command_requests", "shell_completion", "cli", "__main__"),
@@ -62,6 +59,7 @@ HANDED_UP = {
     ("sie.io.html_report", "sie.plots.contact_plot"),
     ("sie.problem.scene", "sie.io.scene_writing"),
     ("sie.profiles.base", "sie.profiles.derived"),
+    ("sie.solution", "sie.history"),
     ("sie.solution", "sie.io.html_report"),
     ("sie.solution", "sie.plots.one_axes"),
 }
@@ -209,6 +207,27 @@ def loaded_after(statement):
 
 def test_importing_the_solver_loads_neither_mpmath_nor_matplotlib_nor_scipy():
     assert not loaded_after("import sie") & {"mpmath", "matplotlib", "scipy", "analytic"}
+
+
+def modules_after(statement):
+    code = (
+        f"import sys; {statement}; print(*sorted(m for m in sys.modules if m.startswith('sie.')))"
+    )
+    command = [sys.executable, "-c", code]
+    return subprocess.run(command, capture_output=True, text=True, check=True).stdout.split()
+
+
+UNNEEDED = {"cauchy", "friction", "history", "live", "patches", "plots", "steady_state", "sweeps"}
+
+
+def test_a_contact_without_friction_imports_what_it_needs(tmp_path):
+    """Of the command too: no friction, no patches, no report that it does not write."""
+    assert not {parts(m) for m in modules_after("import sie")} & {*UNNEEDED, "certificate", "io"}
+    scene = tmp_path / "scene.toml"
+    scene.write_text(scene_file.example("rounded-flat"))
+    loaded = modules_after(f"from sie.cli import main; main(['solve', {str(scene)!r}, '--quiet'])")
+    assert not {parts(m) for m in loaded} & UNNEEDED
+    assert "sie.io.export" not in loaded and "sie.io.mesh_result" not in loaded
 
 
 def test_a_normal_contact_needs_numpy_only():

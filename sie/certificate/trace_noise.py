@@ -31,7 +31,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import asdict, dataclass, replace
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -39,7 +39,6 @@ from numpy.typing import NDArray
 from sie.contact.known_contact import Edges
 from sie.messages import named_rows
 from sie.numerics.interval import EPS, Interval
-from sie.patches.noise import Answer, PatchErrors, changes
 from sie.problem.scene import Scene
 from sie.profiles.fitting import Gap
 from sie.profiles.placed_traces import PlacedTrace, traces_in
@@ -47,6 +46,9 @@ from sie.profiles.sampled import Sampled
 from sie.profiles.splines import slope_deviations
 from sie.profiles.trace_values import Mended
 from sie.traction.of_slope import SlopeDensity
+
+if TYPE_CHECKING:
+    from sie.patches.noise import Answer, PatchErrors
 
 Array = NDArray[np.float64]
 
@@ -197,6 +199,8 @@ def trace_reports(
 
 
 def _drawn(placed: PlacedTrace, reference: Sampled, scene: Scene, several: Answer) -> PatchErrors:
+    from sie.patches.noise import changes  # noqa: PLC0415 -- for contact in several patches only
+
     trace, period = placed.trace, scene.profile.period
     x, noise = reference.points, reference.misfit
     known = trace.height(trace.points) - reference.height(np.clip(trace.points, x[0], x[-1]))

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie.errors import ContactError
-from sie.history import History, PathSolution, follow
+from sie.history import History, follow
 from sie.problem.load_path import Path
 from sie.problem.material import Elastic
 from sie.progress_bar import reported
@@ -57,7 +57,7 @@ def start_of_cycle(path: Path | None) -> int:
 def cycle_of(solution: Solution, file: SceneFile) -> dict[str, Any]:
     """What JSON and the report say of the last cycle of a path."""
     start = start_of_cycle(file.load_path)
-    assert isinstance(solution, PathSolution)
+    assert solution.history is not None
     history, parts = solution.history, file.fatigue.parts
     states = _states(history, start, parts)
     cycle = Cycle(states)

@@ -51,13 +51,12 @@ from __future__ import annotations
 
 import json
 import math
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from sie import __version__
-from sie.history import History, PathSolution
 from sie.problem.request import POINTS
 from sie.problem.scene import Scene
 from sie.progress_bar import counted
@@ -68,6 +67,9 @@ from .sample_points import abscissae, beside, inside, peak
 from .scene_file import SceneFile
 from .scene_writing import tables_of
 
+if TYPE_CHECKING:
+    from sie.history import History
+
 Array = NDArray[np.float64]
 
 TRACTIONS = ("x", "p", "gap", "q", "slip")  # columns of CSV, those of ...
@@ -76,7 +78,7 @@ STRESSES, LENGTHS = ("p", "q"), ("x", "gap", "slip")
 
 def csv_text(solution: Solution, file: SceneFile, points: int = POINTS) -> str:
     """x, pressure and gap, always, as the module's docstring describes; of a path at each point."""
-    if isinstance(solution, PathSolution):
+    if solution.history is not None:
         return history_text(solution.history, file, points)
     (x1, x2), load = solution.edges, solution.normal_load
     where = f"contact from x1 = {x1!r} to x2 = {x2!r}, load {load!r}"
@@ -177,7 +179,7 @@ def as_dict(
     sections |= {"stress": _stress, "yield": _yield, "tension": _tension}
     if cycle:
         out["cycle"] = cycle
-    if isinstance(solution, PathSolution):
+    if solution.history is not None:
         out["path"] = solution.history.rows()
     if "check" in wanted(file) and (reports := solution.trace_reports()):
         out["traces"] = [report.as_dict() for report in reports]

@@ -28,7 +28,6 @@ from sie.io.mesh_files.raw import Group, Raw, row_means
 
 Array = NDArray[np.float64]
 
-BODIES = ("below", "above")
 # Parts of the largest distance in the file: points as near as this coincide, and heights as near
 # as this are one. A .frd file has six digits.
 COINCIDENT = 1e-8

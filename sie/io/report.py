@@ -6,20 +6,21 @@ import math
 import textwrap
 from collections.abc import Callable, Iterator, Sequence
 from functools import partial
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from sie.history import PathSolution
 from sie.messages import WIDE, named_rows
 from sie.problem.request import energy_costs
 from sie.profiles.placed_traces import traces_in
 from sie.solution import Solution
 
 from .answers import energy_of, notes_of, slipping, wanted
-from .cycle_report import cycle_summary
 from .sample_points import SAME_PEAK, ceiling, full, peak, reach
 from .scene_file import SceneFile, Units
+
+if TYPE_CHECKING:
+    from sie.history import History
 
 SAME_PLACE = 1e-7  # of the half-width: rounding of p leaves a smooth peak uncertain by as much
 NOTHING = 1e-13  # of its scale: a smaller number is rounding, and is printed as 0
@@ -53,6 +54,8 @@ def summary(
         names.discard("energy")  # it is printed with the shear
     parts = [section(solution, file.units) for name, section in sections.items() if name in names]
     if cycle:
+        from .cycle_report import cycle_summary  # noqa: PLC0415
+
         parts.append(cycle_summary(cycle, file))
     printed = solution.check().notes if "check" in wanted(file) else ()
     notes = "\n".join(note for note in notes_of(solution, file) if note not in printed)
@@ -179,7 +182,7 @@ def shear_summary(solution: Solution, units: Units) -> str:
         ("energy lost", f"{_number(energy)} {units.moment}")
         for energy in energy_of(solution).values()
     ]
-    table = [_path_table(solution, units)] if isinstance(solution, PathSolution) else []
+    table = [_path_table(solution.history, units)] if solution.history else []
     return "\n\n".join([named_rows(*rows), *table])
 
 
@@ -211,9 +214,9 @@ def _zones(
     ] or [(name, "none")]
 
 
-def _path_table(solution: PathSolution, units: Units) -> str:
+def _path_table(history: History, units: Units) -> str:
     """The turning points, as wide as a terminal at most."""
-    rows = solution.history.rows()
+    rows = history.rows()
     turned = [name for name in ("tilt", "moment") if name in rows[0]]
     head = ["P", "Q", "σ", *turned, "stick from", "to", f"energy ({units.moment})"]
     cells: list[list[float | str]] = []

@@ -13,8 +13,7 @@ from sie.errors import ContactError, LoadError
 from sie.numerics.interval import Interval
 from sie.problem.scene import Scene
 from sie.profiles.base import Profile
-from sie.profiles.derived import Derived
-from sie.profiles.row import Periodic, Row
+from sie.profiles.row import Periodic
 from sie.profiles.slope import Slope
 
 from .certificate import certificate
@@ -75,16 +74,6 @@ class SeveralPatches:
         missed = unseen(self.found, self.problem)
         found = certificate(self.found, self.pressure, asked, tol, missed)
         return replace(found, notes=found.notes + self.notes)
-
-
-def asks_for_patches(profile: Profile) -> bool:
-    """Whether a profile is a row or periodic, or made of rows: one patch is then not sought."""
-    parts = profile.placed if isinstance(profile, Derived) else ()
-    return (
-        profile.period < np.inf
-        or isinstance(profile, Row)
-        or any(isinstance(part.profile, Row) for part in parts)
-    )
 
 
 OUT_OF_RANGE = f"the search for the patches left the range of doubles: {arguments.REMEDY}"

@@ -266,6 +266,7 @@ class FullContact:
     edges: Edges
     pressure: FullPressure
     symmetric: bool = False
+    gap_volume: float = 0.0
 
     def slope(self, profile: Any) -> Any:
         return profile.pieces

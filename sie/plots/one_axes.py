@@ -10,7 +10,7 @@ from sie.history import History
 from sie.io.scene_file import Units
 from sie.messages import suggestion
 from sie.solution import Solution
-from sie.unit_labels import labels
+from sie.sweeps.unit_labels import labels
 
 from . import contact_plot, loop_plot, stress_plot, style
 

@@ -23,7 +23,7 @@ from sie.messages import listed
 
 from .base import Profile, of_any_x
 from .closed_trace import closed, open_seams
-from .derived import joined
+from .derived import Derived, joined
 from .lowest_profile import finite_ends, inside, lowest_of
 from .slope import FunctionTerm, Slope
 
@@ -366,3 +366,13 @@ class Periodic(Profile):
     @override
     def raised(self, dz: float) -> Profile:
         return Periodic(self.profile.raised(dz), self.repeats)
+
+
+def asks_for_patches(profile: Profile) -> bool:
+    """Whether a profile is a row or periodic, or made of rows: one patch is then not sought."""
+    parts = profile.placed if isinstance(profile, Derived) else ()
+    return (
+        profile.period < np.inf
+        or isinstance(profile, Row)
+        or any(isinstance(part.profile, Row) for part in parts)
+    )

@@ -11,7 +11,8 @@ import numpy as np
 import pytest
 
 import sie
-from sie import sweep_chunks, sweep_work
+from sie.sweeps import chunks as sweep_chunks
+from sie.sweeps import work as sweep_work
 
 SCENE = sie.Scene(
     profile=sie.Parabola(1.0), modulus=1.0, normal_load=1.0, friction=0.5, tangential_load=0.1

@@ -17,7 +17,10 @@ import pytest
 from sweep_cases import LOADS, SCENE, TILTS, plain, single
 
 import sie
-from sie import progress_bar, sweep_chunks, sweep_result, sweep_work, workers
+from sie import progress_bar, workers
+from sie.sweeps import chunks as sweep_chunks
+from sie.sweeps import result as sweep_result
+from sie.sweeps import work as sweep_work
 
 module = sys.modules["sie.sweep"]  # `sie.sweep` is the function
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import sie
-from sie import sweep_file
+from sie.sweeps import file as sweep_file
 
 xarray = pytest.importorskip("xarray", reason='needs the extra "sweep"')
 

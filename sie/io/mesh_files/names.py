@@ -16,6 +16,7 @@ Meaning = Callable[[str], str]  # of the name of a column: what it holds, "" for
 TRACTIONS = ("p", "q")
 STRESSES = ("sxx", "syy", "sxy", "szz", "mises")
 QUANTITIES = (*TRACTIONS, *STRESSES)
+BODIES = ("below", "above")
 
 # Coordinates are numbered from 1 in Abaqus and from 0 in VTK; Code_Aster and Ansys name the axes.
 _AXES = (

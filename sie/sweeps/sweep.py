@@ -24,14 +24,17 @@ from typing import Any, cast
 
 import numpy as np
 
-from . import arguments
-from .problem.scene import Scene
-from .progress_bar import Progress
-from .solution import Solution
-from .sweep_chunks import Chunks
-from .sweep_file import SweepFile
-from .sweep_result import Answer, labelled
-from .sweep_work import (
+from sie import arguments
+from sie.problem.scene import Scene
+from sie.progress_bar import Progress
+from sie.solution import Solution
+from sie.workers import Outcome, outcomes
+
+from .chunks import Chunks
+from .file import SweepFile
+from .result import Answer, labelled
+from .unit_labels import labels
+from .work import (
     DEFAULT,
     QUANTITIES,
     Part,
@@ -42,8 +45,6 @@ from .sweep_work import (
     answers_of,
     reason,
 )
-from .unit_labels import labels
-from .workers import Outcome, outcomes
 
 NOT_YET: Answer = ({}, "not computed yet")
 INTERRUPTED: Answer = ({}, "interrupted")

@@ -10,9 +10,9 @@ from dataclasses import dataclass
 from html import escape
 
 from .contact.pressure import upright_law
-from .patches.answer import asks_for_patches
 from .problem.request import ECONOMY, sheared, wanted
 from .problem.scene import Scene, refuse_no_scene
+from .profiles.row import asks_for_patches
 
 BODY = ("stress", "yield", "tension", "cycle")  # what is asked of the stress in the body
 

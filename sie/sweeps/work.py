@@ -15,12 +15,13 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from .errors import ContactError
-from .problem.scene import Scene
-from .progress_bar import Progress
-from .solution import Solution, solve
-from .sweep_result import Answer
-from .workers import is_death
+from sie.errors import ContactError
+from sie.problem.scene import Scene
+from sie.progress_bar import Progress
+from sie.solution import Solution, solve
+from sie.workers import is_death
+
+from .result import Answer
 
 Point = dict[str, Any]
 Wanted = Callable[[Solution], Any]

@@ -16,7 +16,7 @@ from tempfile import TemporaryDirectory
 from time import perf_counter
 from typing import Any
 
-from . import files
+from sie import files
 
 PERIOD = 5.0  # seconds between two writes, at least
 SHARE = 20.0  # the time between two writes over the time that the last one took, at least

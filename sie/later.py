@@ -1,0 +1,37 @@
+"""The public names that a contact under its normal load does not need.
+
+`import sie` does not import them; the first use of one of them imports this module.
+"""
+
+from .cauchy.equation import CauchyEquation
+from .certificate.trace_noise import TraceReport
+from .history import History, follow
+from .planning import Plan, plan
+from .smoothing_search import least_smoothing
+from .steady_state import SteadyCycle, steady_cycle
+from .stress.fatigue import CriticalPlane
+from .stress.fretting import Cycle
+from .stress.half_plane import Stress
+from .stress.yield_limit import Peak, YieldPoint
+from .sweeps.sweep import Interrupted, sweep
+from .sweeps.work import QUANTITIES
+
+__all__ = [
+    "QUANTITIES",
+    "CauchyEquation",
+    "CriticalPlane",
+    "Cycle",
+    "History",
+    "Interrupted",
+    "Peak",
+    "Plan",
+    "SteadyCycle",
+    "Stress",
+    "TraceReport",
+    "YieldPoint",
+    "follow",
+    "least_smoothing",
+    "plan",
+    "steady_cycle",
+    "sweep",
+]

@@ -1,0 +1,1 @@
+"""Many scenes: a grid of parameters, its work in chunks, and the labelled result."""
