@@ -91,7 +91,6 @@ class Frictionless:
             return several_patches(self.scene)
         except ContactError as error:
             told = one_patch if isinstance(one_patch, LoadError) and not error.reached else error
-            told = error if self.scene.half_width is not None else told
             raise explained(told, self.scene.profile) from None
 
     @property

@@ -625,8 +625,8 @@ class Solution(Frictionless, StressAnswers):
         >>> sie.solve(scene).check().ok
         True
         """
-        found = self.certificate
-        return replace(found, notes=(*found.notes, *self.coupling_notes))
+        found, neglected = self.certificate, self.coupling_notes
+        return replace(found, notes=(*found.notes, *neglected)) if neglected else found
 
     def trace_reports(self) -> tuple[TraceReport, ...]:
         """The measured traces in the profile, with their treatment and what their noise implies.

@@ -205,7 +205,7 @@ def test_solution_keeps_its_contact_only_while_nothing_of_it_changes():
 @pytest.mark.parametrize(
     ("changes", "words"),
     [
-        ({"moment": 0.01}, "in place of the moment"),
+        ({"moment": 0.01}, "give a tilt in its place"),
         ({"bulk_stress": 0.01}, "bulk_stress"),
     ],
 )
@@ -218,7 +218,7 @@ def test_what_is_not_solved_is_refused_with_what_to_do(changes, words):
     ("profile", "words"),
     [
         (sie.Row([sie.Parabola(1.0).shifted(x) for x in (-2.0, 2.0)]), "in 2 patches"),
-        (sie.Periodic(sie.Parabola(1.0), 4.0), "without its period"),
+        (sie.Periodic(sie.Parabola(1.0), 4.0), "give the profile without period"),
         (sie.Polynomial((0.0, 0.0, -0.5, 0.0, 0.5)), "patches"),
     ],
 )

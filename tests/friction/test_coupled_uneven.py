@@ -283,8 +283,8 @@ def test_a_smooth_profile_takes_one_panel_and_few_searches(monkeypatch):
         (sie.RoundedFlat(0.5, 1.0), {"tilt": 0.05}, "to the right 0.646 times as fast"),
         (sie.Flat(1.0), {"tilt": 0.05}, "touches first at x = -1"),
         (sie.Flat(0.5) + SKEW, {}, "reaches a corner of the indenter at x = -0.5"),
-        (SKEW, {"moment": 0.1}, "give a tilt, which is held while the load grows"),
-        (SKEW, {"moment": 0.0}, "give a tilt, which is held while the load grows"),
+        (SKEW, {"moment": 0.1}, "give a tilt in its place"),
+        (SKEW, {"moment": 0.0}, "give a tilt in its place"),
         (sie.Parabola(1.0).shifted(0.5), {"moment": 0.0}, "give a tilt"),
     ],
 )
