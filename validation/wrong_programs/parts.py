@@ -29,6 +29,7 @@ from sie.friction import memory, partial_slip
 from sie.numerics import cauchy_sums
 from sie.patches import path_energy
 from sie.profiles import sampled
+from sie.profiles.splines import Spline
 from sie.stress import half_plane
 from sie.traction import piece_quadrature, potential
 
@@ -173,7 +174,8 @@ def _true_stuck() -> Any:
 
 
 def _natural(x: Any, h: Any) -> Any:
-    return x, CubicSpline(x, h, bc_type="natural").c.T[:, ::-1].copy()
+    c = CubicSpline(x, h, bc_type="natural").c.T[:, ::-1].copy()
+    return Spline(x, c, np.zeros(len(c)))
 
 
 def _trace() -> Any:
