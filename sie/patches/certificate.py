@@ -197,7 +197,8 @@ def _charge_of_closed_corners(o: Operator) -> float:
     meets = np.abs(ends - pieces.ends[at]) <= SHORT * length
     ulp = np.spacing(np.maximum(np.abs(ends), o.patches.r[k.patch]))
     charge = np.where(meets, concave[at] * ulp, 0.0) / np.pi
-    return float((charge / (SHORT * length)).max(initial=0.0))
+    long = length > 0.0  # rounding may leave a panel no length: no place is on it
+    return float((charge[:, long] / (SHORT * length[long])).max(initial=0.0))
 
 
 class Measure(NamedTuple):

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import sie
+import sie.patches.answer
 
 NAN, INF = float("nan"), float("inf")
 PUNCH = sie.RoundedFlat(1.0, 2.0)
@@ -447,7 +448,7 @@ def test_the_height_of_a_function_is_taken_at_the_smallest_doubles(x):
 @pytest.mark.parametrize("bodies", [{}, {"dundurs": 0.3, "friction": 0.3}])
 def test_no_patches_are_sought_under_a_profile_without_lowest_point(monkeypatch, given, bodies):
     sought = []
-    monkeypatch.setattr(sie.frictionless, "several_patches", sought.append)
+    monkeypatch.setattr(sie.patches.answer, "several_patches", sought.append)
     scene = sie.Scene(profile=sie.Polynomial((0.0, 0.0, 0.5, 1e-3)), modulus=2.0, **given, **bodies)
     with pytest.raises(sie.LoadError, match="falls without bound to the left"):
         _ = sie.solve(scene).edges

@@ -12,9 +12,9 @@ from command_scenes import KINDS, example, sentence
 
 import sie
 from sie import cli as command
-from sie import solution
 from sie.certificate.result import Certificate
 from sie.cli import main
+from sie.friction.coupled import energy
 from sie.io import report, sample_points, scene_file
 from sie.problem.request import WANTS
 
@@ -124,7 +124,7 @@ def test_the_energy_of_dissimilar_bodies_under_q_is_answered_only_if_asked_for(
     path, costs = tmp_path / "sheared.toml", []
     path.write_text(SHEARED_DISSIMILAR)
     monkeypatch.setattr(
-        solution, "tangential_energy", lambda state, _: costs.append(state) or state.Q
+        energy, "tangential_energy", lambda state, _: costs.append(state) or state.Q
     )
     more = ["--want", "shear", "energy"] if asked else []
     assert main(["solve", str(path), *more]) == 0

@@ -228,11 +228,6 @@ def test_long_work_tells_its_steps(work, name, least, told):
     assert told[name] >= least, told
 
 
-def test_a_half_width_counts_its_trials(told):
-    _ = sie.solve(sie.Scene(profile=ROW, modulus=1.0, half_width=1.6)).normal_load
-    assert told["load of the half-width, trial"] >= 2
-
-
 # -- on a terminal --------------------------------------------------------------------------------
 
 SEVERAL_TOML = """

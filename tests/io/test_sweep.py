@@ -22,7 +22,7 @@ from sie.sweeps import chunks as sweep_chunks
 from sie.sweeps import result as sweep_result
 from sie.sweeps import work as sweep_work
 
-module = sys.modules["sie.sweep"]  # `sie.sweep` is the function
+module = sys.modules["sie.sweeps.sweep"]
 
 
 def peak(solution):
