@@ -1,5 +1,8 @@
-"""How hard hypothesis tries: "default" in minutes for the whole of the tests, "deep" for a long run
-by hand.
+"""What runs, and how hard hypothesis tries: "default" in minutes for the whole of the tests, "deep"
+for a long run by hand.
+
+`python -m pytest` leaves out what is marked slow, `python -m pytest -m ""` runs everything. The
+first cases of a slow test with many, `@pytest.mark.slow(but=2)`, are its fast siblings.
 
 HYPOTHESIS_PROFILE=deep pytest tests       or       pytest --hypothesis-profile=deep tests
 
@@ -8,7 +11,9 @@ only is no law. A failure prints what reproduces it (--hypothesis-seed, and a bl
 """
 
 import os
+from collections import Counter
 
+import pytest
 from hypothesis import HealthCheck, Phase, settings
 
 COMMON = {
@@ -24,3 +29,18 @@ QUICK = (Phase.explicit, Phase.reuse, Phase.generate)
 settings.register_profile("default", max_examples=30, phases=QUICK, **COMMON)
 settings.register_profile("deep", max_examples=2000, **COMMON)
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "default"))
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_collection_modifyitems(items):
+    """The first cases of a slow test lose the mark, before pytest selects by marks."""
+    cases = Counter()
+    for item in items:
+        mark = item.get_closest_marker("slow")
+        if mark is None:
+            continue
+        name = item.nodeid.partition("[")[0]
+        cases[name] += 1
+        if cases[name] <= mark.kwargs.get("but", 0):
+            item.own_markers = [m for m in item.own_markers if m.name != "slow"]
+            item.keywords = {k: v for k, v in item.keywords.items() if k != "slow"}

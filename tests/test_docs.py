@@ -113,6 +113,7 @@ def drawn(script):
     return names, [ax for ax in axes if ax.get_label() != "<colorbar>"]
 
 
+@pytest.mark.slow(but=3)
 @pytest.mark.parametrize("script", GALLERY, ids=lambda path: path.stem)
 def test_every_script_of_the_gallery_draws_a_labelled_picture(script):
     names, axes = drawn(script)
@@ -145,6 +146,7 @@ def test_a_rounded_punch_is_stronger_than_hertz_up_to_the_ratio_that_the_gallery
     assert loads[1] > loads[0] > loads[2]
 
 
+@pytest.mark.slow
 def test_the_class_sheet_runs_and_answers_its_third_question():
     pytest.importorskip("marimo", reason="the class sheet needs the extra `teach`")
     pytest.importorskip("matplotlib").use("Agg")
@@ -170,6 +172,7 @@ GUIDES = sorted({*(ROOT / "docs" / "how-to").glob("*.md")} - {*PAGES})
 NEEDED = {"cluster": "xarray"}
 
 
+@pytest.mark.slow(but=1)
 @pytest.mark.parametrize("guide", GUIDES, ids=lambda path: path.stem)
 def test_the_snippets_and_commands_of_a_guide_run_in_order(guide, tmp_path, monkeypatch, capsys):
     """Python, scene files ("Save this as `name`") and commands, beside the guide's data."""
@@ -203,6 +206,7 @@ def test_every_refusal_of_a_path_that_is_listed_is_one_that_is_raised():
         assert phrase in raised, phrase
 
 
+@pytest.mark.slow(but=6)
 @pytest.mark.parametrize("page", PAGES, ids=lambda path: path.stem)
 def test_the_cells_of_a_page_run_in_order(page, tmp_path, monkeypatch, capsys):
     matplotlib = pytest.importorskip("matplotlib")

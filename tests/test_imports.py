@@ -80,6 +80,7 @@ def imported(path):
             yield from ((package + dot + alias.name, node.lineno) for alias in node.names)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("house", "other"), [("sie", "analytic"), ("analytic", "sie")])
 def test_the_solver_and_the_closed_forms_share_no_code(house, other):
     for path in modules(house):
@@ -93,6 +94,7 @@ def test_a_reference_shares_no_code_with_what_is_measured_against_it(path):
         assert name.split(".")[0] not in {*HOUSES, "validation"}, f"{path.name}:{line}"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("house", HOUSES)
 def test_what_is_installed_imports_neither_references_nor_validation(house):
     for path in modules(house):
@@ -134,12 +136,14 @@ def every_dependency():
                 yield ".".join(inside).removesuffix(".__init__"), full, line
 
 
+@pytest.mark.slow
 def test_an_import_in_the_solver_points_only_downward():
     level = {name: k for k, row in enumerate(LAYERS) for name in row}
     for module, target, line in dependencies():
         assert level[parts(target)] <= level[parts(module)], f"{module}:{line} imports {target}"
 
 
+@pytest.mark.slow
 def test_no_module_of_the_solver_imports_itself_by_way_of_others():
     below = {}
     for module, target, _ in dependencies():
@@ -148,6 +152,7 @@ def test_no_module_of_the_solver_imports_itself_by_way_of_others():
     graph.prepare()
 
 
+@pytest.mark.slow
 def test_every_import_that_is_listed_as_upward_is_made():
     assert {(module, target) for module, target, _ in every_dependency()} >= HANDED_UP
 
@@ -165,6 +170,7 @@ def deepest_chain():
     return max(map(chain, sorted(below)), key=len)
 
 
+@pytest.mark.slow
 def test_the_imports_of_the_solver_have_at_most_fourteen_levels():
     chain = deepest_chain()
     assert len(chain) <= 14, " > ".join(chain)
@@ -183,6 +189,7 @@ def needed_by(module):
     return found
 
 
+@pytest.mark.slow
 def test_reading_a_scene_file_imports_no_module_of_the_solver():
     """The names of the imports are followed, as `import sie` itself loads the whole package."""
     needed = needed_by("sie.io.scene_file")
@@ -220,6 +227,7 @@ def modules_after(statement):
 UNNEEDED = {"cauchy", "friction", "history", "live", "patches", "plots", "steady_state", "sweeps"}
 
 
+@pytest.mark.slow
 def test_a_contact_without_friction_imports_what_it_needs(tmp_path):
     """Of the command too: no friction, no patches, no report that it does not write."""
     assert not {parts(m) for m in modules_after("import sie")} & {*UNNEEDED, "certificate", "io"}

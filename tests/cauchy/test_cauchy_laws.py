@@ -122,6 +122,7 @@ def test_the_potential_next_to_a_gap_is_that_of_40_digits(gap):
         assert abs(found - expected) <= size * abs(expected), where
 
 
+@pytest.mark.slow(but=3)
 @pytest.mark.parametrize("gap", [1e-2, 1e-4])
 @pytest.mark.parametrize(
     "ends",

@@ -163,6 +163,7 @@ ROUGH = {
 }
 
 
+@pytest.mark.slow(but=2)
 @pytest.mark.parametrize("k", ROUGH.values(), ids=ROUGH)
 def test_a_kernel_with_a_kink_or_a_weak_singularity_is_refused_before_large_systems(k, monkeypatch):
     largest, system_of = 0, solver.System

@@ -49,6 +49,7 @@ def test_the_manufactured_integrals_agree_with_quadrature(a, ends):
 # -- manufactured solutions ------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 @given(problems())
 def test_a_manufactured_density_is_found_with_few_more_nodes_than_it_needs(problem):
     manufactured, a, b, ends, kernels = problem
@@ -83,6 +84,7 @@ def peak_of(d):
     return float(np.abs(exact(d.value, x)).max()) * float(d.r)
 
 
+@pytest.mark.slow
 @settings(max_examples=15)
 @given(problems(intervals=2))
 def test_manufactured_densities_on_two_intervals_are_found(problem):
@@ -111,6 +113,7 @@ def reach(d, z):
     return float(abs(d.W((mp.mpf(z) - d.m) / d.r) / mp.sinpi(d.alpha)) * peak)
 
 
+@pytest.mark.slow(but=10)
 @pytest.mark.parametrize("gap", [1e-1, 1e-3, 1e-6])
 @pytest.mark.parametrize(
     ("a", "ends"),
@@ -229,6 +232,7 @@ def test_the_coefficients_at_a_gap_have_the_error_of_rounding_of_g_and_state_it(
         assert error <= 10.0 * (reach if i in (1, 2) else 1e-12)
 
 
+@pytest.mark.slow(but=17)
 @pytest.mark.parametrize("at", [0.0, 0.3])
 @pytest.mark.parametrize("gap", [1e-1, 1e-3, 1e-6])
 @pytest.mark.parametrize(

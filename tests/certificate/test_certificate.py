@@ -186,6 +186,7 @@ UNDECLARED = {
 }
 
 
+@pytest.mark.slow(but=3)
 @pytest.mark.parametrize("load", [0.3, 0.2871])
 @pytest.mark.parametrize("name", UNDECLARED)
 def test_undeclared_features_are_found_and_resolved(name, load):
@@ -227,6 +228,7 @@ def test_the_certificate_detects_a_feature_that_the_solver_missed(name, monkeypa
     assert found.error >= error / SHARE
 
 
+@pytest.mark.slow(but=2)
 @pytest.mark.parametrize("side", [-1.0, 1.0])
 @pytest.mark.parametrize("part", [3e-3, 1.7e-4, 1.9e-5, 1e-6, 1.3e-8])
 def test_a_kink_just_inside_an_edge_is_found(part, side):

@@ -45,6 +45,7 @@ def test_pressures_whose_edges_are_rounded_apart_are_no_excess_of_friction():
     assert measured(solution, more).excess > 1e-11
 
 
+@pytest.mark.slow(but=5)
 @each
 @pytest.mark.parametrize("part", [-0.4, 0.99])
 def test_a_shear_is_certified_to_rounding(profile, part):
@@ -62,6 +63,7 @@ def test_a_small_shear_is_certified_to_what_it_is_a_difference_of(profile):
     assert shear.ok and shear.residual < 1e-9 and shear.equilibrium < 1e-8
 
 
+@pytest.mark.slow(but=5)
 @each
 @pytest.mark.parametrize("part", [1e-6, 0.4])
 def test_a_shear_with_another_load_fails(profile, part):
@@ -69,6 +71,7 @@ def test_a_shear_with_another_load_fails(profile, part):
     assert not measured(solution, Q=solution.tangential_load * (1.0 + 1e-6)).ok
 
 
+@pytest.mark.slow(but=2)
 @pytest.mark.parametrize("profile", [TWO, WAVES], ids=["row", "period"])
 @pytest.mark.parametrize("part", [1e-6, 0.4])
 def test_a_shear_in_stick_zones_at_another_place_fails(profile, part):

@@ -82,6 +82,7 @@ def test_where_hertz_sticks_nothing_stretches_and_where_it_slips_the_slip_follow
         assert abs(strain - mp.mpf(3) / 2 * slope) < 1e-20
 
 
+@pytest.mark.slow
 def test_hertz_carries_its_tangential_load_in_every_state() -> None:
     c = cattaneo.stick_half_width(**with_load(HERTZ, 0.6), lib=mp)
     loads = {**HERTZ, "largest_load": 0.36, "lib": mp}

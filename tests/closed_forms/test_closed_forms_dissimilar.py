@@ -316,6 +316,7 @@ def test_thin_rims_leave_the_sliding_flat(k: float, load: float) -> None:
     )
 
 
+@pytest.mark.slow(but=1)
 @pytest.mark.parametrize(("k", "a"), [(0.49, 0.5), (-0.49, 0.0)])
 def test_sliding_rounded_flat_keeps_its_digits_everywhere(k: float, a: float) -> None:
     """Relative to the exact value on the whole contact: the last points are where an edge's own

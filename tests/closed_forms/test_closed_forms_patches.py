@@ -32,6 +32,7 @@ def test_two_flats_solve_their_equation(x: float, moment: float) -> None:
     assert abs(own + other - mp.mpf(3) / 2 * tilt) < 1e-22
 
 
+@pytest.mark.slow(but=1)
 @pytest.mark.parametrize(
     ("inner", "outer", "part"), [(1.0, 2.0, 0.2), (0.01, 2.0, 0.7), (1.0, 1.001, 0.7)]
 )

@@ -48,6 +48,7 @@ def test_the_load_of_a_parabola_is_that_of_the_table(beta, f, ratio, pressure, m
     assert found == pytest.approx(0.25 / moment, rel=2e-11)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("beta", "f"), [(0.24, 0.016), (0.5, 0.01), (0.5, 0.004)])
 def test_a_stick_zone_however_narrow_is_that_of_the_solver(beta, f):
     found = spence.stick_half_width(half_width=1.0, friction=f, dundurs=beta)
@@ -93,6 +94,7 @@ def test_thin_slip_zones_keep_their_relative_accuracy():
     assert found == pytest.approx(1.76e-10, rel=3e-3)  # of three digits
 
 
+@pytest.mark.slow
 def test_a_context_of_more_digits_continues_the_double():
     context = mpmath.MPContext()
     context.dps = 20
@@ -111,6 +113,7 @@ def test_slip_zones_that_doubles_do_not_resolve_are_refused():
         spence.slip_width(half_width=1.0, friction=0.3, dundurs=1e-4)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("beta", "friction"), [(0.05, 0.62), (0.1, 1.9)])
 def test_slip_zones_of_a_few_roundings_of_the_contact_are_the_solvers(beta, friction):
     found = spence.slip_width(half_width=1.0, friction=friction, dundurs=beta)
@@ -145,6 +148,7 @@ def test_the_load_tends_to_that_of_a_bonded_contact_in_proportion_to_the_slip_zo
         assert abs(spence.load(**law, **given) / bonded - 1.0) < rest
 
 
+@pytest.mark.slow
 def test_more_digits_take_few_systems(monkeypatch):
     """Power iteration took a product with a matrix of many digits for a part of a digit."""
     context, solved, solve = mpmath.MPContext(), [], np.linalg.solve

@@ -58,6 +58,7 @@ def test_the_solver_has_the_stresses_of_the_closed_form(f):
             assert ours == pytest.approx(theirs, abs=1e-13)
 
 
+@pytest.mark.slow(but=2)
 @pytest.mark.parametrize("at", [(0.3, 0.2), (-1.0, 0.01), (0.5, 3.0)])
 def test_the_closed_forms_are_in_equilibrium_and_compatible_to_thirty_digits(at):
     parameters = {**{k: mp.mpf(v) for k, v in PUNCH.items()}, "friction": mp.mpf("0.3"), "lib": mp}

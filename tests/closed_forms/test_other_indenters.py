@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 from analytic import flat, hertz, power, rounded_flat, wedge
 
 
+@pytest.mark.slow(but=5)
 @pytest.mark.parametrize(
     "m", [1.0, 1.0 + 1e-9, 1.2, 1.7, 2.0, 2.5, 3.0, 3.0 + 1e-10, 4.0, 7.3, 40.0]
 )
@@ -71,6 +72,7 @@ LOADED = [
 every_loaded = pytest.mark.parametrize("case", LOADED, ids=lambda case: case.module.__name__)
 
 
+@pytest.mark.slow(but=3)
 @every_loaded
 def test_load_is_the_integral_of_the_pressure(case: Loaded) -> None:
     given = {**case.shape, "modulus": 3.0, "half_width": 1.0, "lib": coarse}

@@ -60,6 +60,7 @@ def test_potential_decays_like_the_load_over_z(case: Potential) -> None:
     assert abs(far * case.potential(far) * np.pi / case.load - 1).max() <= 16 * EPS
 
 
+@pytest.mark.slow(but=1)
 @every_potential
 @pytest.mark.parametrize("z", [0.3 + 0.4j, 1.2 + 0j])
 def test_potential_is_the_cauchy_integral_of_the_pressure(case: Potential, z: complex) -> None:

@@ -192,6 +192,7 @@ def calls_for(jumps):
     return len(calls)
 
 
+@pytest.mark.slow
 def test_jumps_are_looked_for_all_at_once():
     assert calls_for(41) <= 2 * calls_for(5)
 

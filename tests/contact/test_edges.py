@@ -20,6 +20,7 @@ def asked(scene):
     return sie.solve(scene).edges
 
 
+@pytest.mark.slow(but=9)
 @pytest.mark.parametrize("case", CASES, ids=str)
 def test_edges_load_and_moment_agree_with_the_40_digit_reference(case: Case):
     solution, truth = solved(case), exact(case)
@@ -99,6 +100,7 @@ def test_a_half_width_beyond_that_of_the_indenter_has_no_answer():
         )
 
 
+@pytest.mark.slow
 @given(strategies.scenes())
 def test_the_contact_grows_with_the_load(scene):
     light, heavy = sie.solve(scene), sie.solve(scene).with_(normal_load=1.25 * scene.normal_load)

@@ -85,6 +85,7 @@ def test_a_search_that_begins_far_from_its_tilt_is_not_barred_by_the_smaller_rou
     assert max(found.edges, found.pressure) <= kinks.PROMISE
 
 
+@pytest.mark.slow(but=1)
 @pytest.mark.parametrize(("kind", "asked"), ASKED, ids=lambda v: v.replace(" ", "-"))
 @settings(max_examples=4)
 @given(seed=st.integers(0, 2**32))
@@ -95,6 +96,7 @@ def test_no_edge_on_a_kink_is_refused_or_wrong(kind, asked, seed):
     assert found.pressure <= kinks.PROMISE
 
 
+@pytest.mark.slow
 @given(seed=st.integers(0, 2**32), kind=st.sampled_from([*KINDS]), inside=st.booleans())
 @settings(max_examples=30)
 def test_the_search_ends_within_its_bound_at_the_rounding_of_its_residual(seed, kind, inside):
@@ -124,6 +126,7 @@ def test_the_search_ends_within_its_bound_at_the_rounding_of_its_residual(seed, 
     assert len(evaluations) <= edge_refinement.MAX_POLISHING
 
 
+@pytest.mark.slow
 def test_the_rounding_of_a_residual_is_its_difference_from_exact_integrals():
     """Two-sided: within the rounding allowed for, and not below a hundredth of it everywhere."""
     shares = []
@@ -315,6 +318,7 @@ def test_a_flat_base_wider_than_the_contact_is_pressed_by_its_rim():
     assert turned.tilt == pytest.approx(-0.05, rel=1e-12)
 
 
+@pytest.mark.slow(but=15)
 @pytest.mark.parametrize("moment", [-1e16, 1e20, 1e100, -1e200])
 @pytest.mark.parametrize(
     "given", [{"normal_load": 0.3}, {"half_width": 0.8}], ids=["load", "half-width"]

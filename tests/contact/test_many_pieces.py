@@ -100,6 +100,7 @@ def both_ways(monkeypatch, build, value):
     return out
 
 
+@pytest.mark.slow(but=3)
 @pytest.mark.parametrize("n", [30, 200])
 @pytest.mark.parametrize("epsilon", [0.0, 0.06], ids=["similar", "sliding"])
 @pytest.mark.parametrize("roughness", [0.0, 1e-3], ids=["smooth", "rough"])
@@ -139,6 +140,7 @@ def test_pairs_give_the_values_of_piece_by_piece(n, epsilon, roughness, monkeypa
     assert (np.abs(plane - dense) <= 2e-14 * np.abs(dense)).all()
 
 
+@pytest.mark.slow
 def test_pairs_of_a_rough_spline_are_exact_to_rounding():
     slope = spline_slope(200, 1e-3)
     exact = ExactSpline(slope, CONTACT.x1, CONTACT.x2)
@@ -243,6 +245,7 @@ class ExactSpline:
         return G / mp.pi * w * total
 
 
+@pytest.mark.slow
 def test_a_spline_through_a_thousand_samples_has_its_exact_pressure():
     """The promise is 1e-11. The edges are tried by the conditions that they meet, whose slopes in r
     are of the size of H.

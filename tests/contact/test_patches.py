@@ -301,6 +301,7 @@ def wave_in_contact(part):
     return half, shape, solved(profile=sie.Periodic(profile, 1.0), normal_load=load)
 
 
+@pytest.mark.slow
 @given(between(0.02, 0.98))
 @settings(max_examples=25, deadline=None)
 def test_a_wave_from_first_touch_to_nearly_full_contact(part):
@@ -324,6 +325,7 @@ def test_a_row_of_flats(part):
     assert solution.pressure(x) == pytest.approx(exact, rel=1e-11)
 
 
+@pytest.mark.slow
 @given(between(0.05, 0.95))
 @settings(max_examples=15, deadline=None)
 def test_the_derivative_of_the_potential_of_a_wave(part):
@@ -447,6 +449,7 @@ def test_what_is_not_covered_is_refused_with_the_reason(asked, words):
         _ = solution.check(), solution.stick
 
 
+@pytest.mark.slow
 @given(st.integers(0, 10**9))
 @settings(max_examples=20, deadline=None)
 def test_a_random_row_is_certified_or_refused(seed):

@@ -64,6 +64,7 @@ def test_a_row_of_parabolas(part, radius):
     assert solution.pressure(x) == pytest.approx(exact, rel=1e-10)
 
 
+@pytest.mark.slow
 @given(log_between(0.01, 5.0), log_between(0.05, 5.0))
 @settings(max_examples=20, deadline=None)
 def test_two_flats(inner, width):

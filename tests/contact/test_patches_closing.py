@@ -63,6 +63,7 @@ def test_a_row_of_parabolas_with_a_gap_that_closes(gap):
     assert solution.check().ok
 
 
+@pytest.mark.slow(but=2)
 @pytest.mark.parametrize("gap", GAPS)
 def test_the_ridge_between_two_parabolas_that_close_in_stands_off_as_its_pressure_says(gap):
     """g(0) = h(0) - h(c) - 2/(πE*) ∫_c^b p ln(t²/(t² - c²)) dt, patches [c, b] and [-b, -c]."""
@@ -112,6 +113,7 @@ def resolved(solution):
     return 64.0 * np.finfo(float).eps * solution.check().condition
 
 
+@pytest.mark.slow(but=4)
 @pytest.mark.parametrize("second", [0.0, -0.0625, 0.0625])
 @pytest.mark.parametrize("gap", [1e-2, 1e-4, 1e-5, 1e-6])
 def test_a_wave_under_a_load_closes_as_far_as_the_load_resolves(gap, second):
@@ -122,6 +124,7 @@ def test_a_wave_under_a_load_closes_as_far_as_the_load_resolves(gap, second):
     assert solution.check().ok
 
 
+@pytest.mark.slow(but=2)
 @pytest.mark.parametrize("gap", [1e-1, 1e-2, 1e-3, 1e-4, 1e-5])
 def test_two_wells_under_a_load_close_as_far_as_the_load_resolves(gap):
     profile, load = quartic_wells(gap)

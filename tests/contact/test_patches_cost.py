@@ -36,6 +36,7 @@ def operator(count, period):
     return Operator(patches, of_profile(profile, window, 1e-15), np.zeros(2 * count))
 
 
+@pytest.mark.slow(but=1)
 @pytest.mark.parametrize("period", [np.inf, 120.0])
 def test_poles_at_centres_act_on_far_gaps_as_their_plain_sum_says(period):
     o = operator(110, period)
@@ -89,6 +90,7 @@ def test_charges_at_the_edges_change_the_conditions_as_asked(period, moment, gap
     np.testing.assert_allclose(reached, asked, rtol=0.0, atol=1e-13 / min(gap, 0.1))
 
 
+@pytest.mark.slow(but=1)
 @pytest.mark.parametrize("period", [np.inf, 120.0])
 def test_roots_off_the_surface_are_the_plain_product(period):
     o = operator(110, period)

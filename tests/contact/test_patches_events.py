@@ -48,6 +48,7 @@ def parabolas(gap):
     return float(parabola_row.mean_pressure(half_width=0.5 - 0.5 * gap, **shape))
 
 
+@pytest.mark.slow(but=1)
 @pytest.mark.parametrize(
     ("profile", "load"),
     [

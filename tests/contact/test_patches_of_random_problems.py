@@ -82,6 +82,7 @@ def test_the_pressure_beside_a_sharp_edge_carries_the_load_to_rounding(tilt):
     assert certificate.force < 3e-14
 
 
+@pytest.mark.slow(but=3)
 @pytest.mark.parametrize("height", [0.0, 0.1, 0.2])
 @pytest.mark.parametrize("load", [10.0, 12.0, 14.0, 17.0, 20.0])
 def test_two_parabolas_that_nearly_fill_their_period_meet_the_equation(load, height):
@@ -195,6 +196,7 @@ def test_waves_without_end_are_answered(load):
     assert solution.check().ok
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("lever", [-0.1, 0.0, 0.2])
 def test_a_moment_between_two_waves_is_answered_by_both(lever):
     load = 1e-3
@@ -203,6 +205,7 @@ def test_a_moment_between_two_waves_is_answered_by_both(lever):
     assert solution.check().ok
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("load", [1e-4, 1e-3])
 def test_a_moment_that_jumps_from_wave_to_wave_ends_the_search_for_one_patch(load, monkeypatch):
     calls, original = [], normal._edges_at

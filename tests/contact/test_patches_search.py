@@ -46,6 +46,7 @@ def by_integral(solution, x):
     return total
 
 
+@pytest.mark.slow(but=2)
 @pytest.mark.parametrize(("seed", "load"), [(1, 0.002), (2, 0.02), (3, 0.1)])
 def test_all_gaps_of_a_period_are_those_of_its_pressure(seed, load):
     """The last gap reaches into the next period, where 1/d has the other sign."""
@@ -109,6 +110,7 @@ def test_a_patch_missing_beyond_a_concave_corner_is_found_where_the_edge_beside_
     assert solution.check().ok
 
 
+@pytest.mark.slow(but=1)
 @pytest.mark.parametrize("period", [None, 26.0])
 def test_more_flats_than_are_searched_roughly_keep_their_edges(period):
     """Edges that stay where they are while their charges are found are no search that repeats."""

@@ -44,6 +44,7 @@ def pressure_of_unit_width(m, x):
     return 2 * m * 0.75 * wallis * m / DIGITS.pi * superposed(m, abs(x))
 
 
+@pytest.mark.slow(but=1)
 @pytest.mark.parametrize("m", EXPONENTS)
 def test_the_pressure_keeps_1e_14_of_its_peak(m):
     pressure = sie.solve(scene(m, normal_load=None, half_width=1.0)).pressure
@@ -53,6 +54,7 @@ def test_the_pressure_keeps_1e_14_of_its_peak(m):
     assert max(errors) <= 1e-14 * max(exact)
 
 
+@pytest.mark.slow(but=1)
 @pytest.mark.parametrize("m", EXPONENTS)
 def test_the_pressure_keeps_its_relative_accuracy_to_the_edge(m):
     pressure = sie.solve(scene(m, normal_load=None, half_width=1.0)).pressure
@@ -122,6 +124,7 @@ def test_a_load_beyond_the_range_of_doubles_is_refused_with_a_reason():
             _ = sie.solve(sie.Scene(profile=sie.Power(1.01, 1e-20), modulus=1e-20, **asked)).edges
 
 
+@pytest.mark.slow(but=2)
 @pytest.mark.parametrize("m", NEAR_ONE)
 @pytest.mark.parametrize("given", [{"tilt": 0.1}, {"moment": 0.02}, NARROW])
 def test_a_tilted_power_next_to_a_wedge_is_right_on_its_axis(m, given):
@@ -200,6 +203,7 @@ def potentials_of_unit_width(m, y):
     return F, ((m - 1) * F - m * flat) / y
 
 
+@pytest.mark.slow(but=4)
 @pytest.mark.parametrize("m", CUSPS)
 @pytest.mark.parametrize("axis", [0.0, 0.35, -40.0])
 def test_the_potential_of_a_cusp_is_right_at_every_depth_beneath_it(m, axis):
@@ -229,6 +233,7 @@ def test_a_wedge_on_the_axis_of_a_cusp_keeps_its_infinite_pressure(axis):
         assert both.pressure.cauchy(axis + 1j * d).real == pytest.approx(0.0, abs=1e-13 * exact)
 
 
+@pytest.mark.slow(but=6)
 @pytest.mark.parametrize("rise", [1e-6, 0.01, 0.7])
 @pytest.mark.parametrize("place", [-0.3, 0.109375, 1e-3])
 @pytest.mark.parametrize("m", [1.05, 1.5, 1.9, 2.5])
@@ -256,6 +261,7 @@ def test_powers_about_one_axis_add_up(other):
     assert np.abs(both - one - two).max() <= 1e-13 * both.max()
 
 
+@pytest.mark.slow
 def test_a_jump_of_curvature_on_the_axis_of_a_cusp_is_resolved_at_every_distance():
     """p = E*/2 w(x)/π ∫ (H(t) - H(x))/(w(t) (t - x)) dt between the edges that were found."""
     profile = sie.Power(1.3, 0.3) + sie.Piecewise((0.0,), ((0.0, 1.0), (0.0, 5.0)))

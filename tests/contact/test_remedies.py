@@ -122,6 +122,7 @@ SCENES = {
 }  # fmt: skip
 
 
+@pytest.mark.slow(but=27)
 @pytest.mark.parametrize("name", SCENES)
 def test_a_scene_that_follows_its_refusal_s_remedy_is_solved(name):
     asked, words, followed = SCENES[name]
@@ -270,6 +271,7 @@ PATHS = {
 }
 
 
+@pytest.mark.slow(but=2)
 @pytest.mark.parametrize("name", PATHS)
 def test_a_path_that_follows_its_refusal_s_remedy_is_answered(name):
     asked, words, followed = PATHS[name]

@@ -238,6 +238,7 @@ def test_solve_and_with_refuse_unknown_names():
 BUMP = sie.FromFunction(lambda x: x * np.exp(-x * x / 2), domain=(-INF, INF))
 
 
+@pytest.mark.slow
 def test_the_refusal_of_a_load_names_it_and_the_largest_load():
     """The slope of a Gauss bump falls again: P has a largest value in one patch."""
     with pytest.raises(sie.ContactError, match="50") as caught:
@@ -260,6 +261,7 @@ def wave(height, number, shift=0.0):
     )
 
 
+@pytest.mark.slow(but=3)
 @pytest.mark.parametrize("shift", [0.0, 0.3, -1.7])
 @pytest.mark.parametrize(("height", "number", "load"), [(0.8, 8, 0.5), (0.5, 11, 0.2), (1.2, 5, 1)])
 def test_one_patch_that_lifts_off_names_the_place_wherever_the_profile_lies(
@@ -271,6 +273,7 @@ def test_one_patch_that_lifts_off_names_the_place_wherever_the_profile_lies(
     assert len(caught.value.reached["tension"]) == 2
 
 
+@pytest.mark.slow(but=4)
 @pytest.mark.parametrize("shift", [0.0, 0.3, -1.7])
 @pytest.mark.parametrize(
     ("height", "number", "load"), [(0.8, 8, 1), (0.5, 11, 0.5), (0.3, 30, 0.5)]

@@ -35,6 +35,7 @@ def agree(one, other):
     assert one.moment == pytest.approx(other.moment, abs=1e-13 * other.normal_load * farthest)
 
 
+@pytest.mark.slow(but=1)
 @pytest.mark.parametrize("name", SLOPES)
 @pytest.mark.parametrize("domain", [(-INF, INF), (-30.0, 30.0), (-6.0, 5.0)])
 @given(size=st.floats(-2.0, 0.7), by_load=st.booleans(), tilt=st.sampled_from([0.0, 0.1, -0.3]))
@@ -70,6 +71,7 @@ def test_a_series_is_certified():
         assert solution.check().ok, name
 
 
+@pytest.mark.slow(but=1)
 @pytest.mark.parametrize(
     ("slope", "domain"),
     [

@@ -36,6 +36,7 @@ EQUAL = {
 }
 
 
+@pytest.mark.slow(but=3)
 @pytest.mark.parametrize("load", [1e-9, 1e-11, 1e-12])
 @pytest.mark.parametrize(("profile", "valleys"), EQUAL.values(), ids=EQUAL)
 def test_equal_valleys_all_touch_however_light_the_load(profile, valleys, load):

@@ -191,6 +191,7 @@ def test_bulk_stress_alone_holds_the_mirror_image_of_a_tilted_punch_by_the_mirro
     assert here.check().ok
 
 
+@pytest.mark.slow(but=1)
 @pytest.mark.parametrize(("fraction", "strain"), [(0.0, 100.0), (0.5, 1e4), (-0.7, 300.0)])
 def test_a_bulk_stress_that_leaves_a_point_of_stick(fraction, strain):
     """q = ± f p on either side of c, where they balance Q, and slip(x) = 1/(π G) ∫q ln|(x - t)/(c -
@@ -231,6 +232,7 @@ def test_a_bulk_stress_that_leaves_a_point_of_stick(fraction, strain):
     assert solution.check().ok
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "profile", [sie.RoundedFlat(0.5, 1.0), sie.Flat(1.0), sie.Wedge(0.3)], ids=repr
 )
@@ -282,6 +284,7 @@ def test_the_certificate_of_a_stick_zone_at_a_sharp_edge_raises_no_false_alarm(l
         assert sheared(profile, 1.0 - left, tilt=tilt).check().ok
 
 
+@pytest.mark.slow
 @settings(max_examples=25)
 @given(
     st.floats(1.1, 6.0),
@@ -325,6 +328,7 @@ def fields(scene):
     }
 
 
+@pytest.mark.slow
 @settings(max_examples=40)
 @given(strategies.scenes(), PAIRS, st.floats(0.05, 1.5), st.booleans())
 def test_every_shear_obeys_its_law(scene, loads, f, bulk):
@@ -341,6 +345,7 @@ def test_every_shear_obeys_its_law(scene, loads, f, bulk):
         assert solution.energy_lost >= 0.0
 
 
+@pytest.mark.slow
 @settings(max_examples=25)
 @given(strategies.scenes(), PAIRS, st.floats(0.05, 1.5))
 def test_the_mirror_image_of_a_contact_shears_the_other_way(scene, loads, f):

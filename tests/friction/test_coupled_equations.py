@@ -62,6 +62,7 @@ def test_both_equations_hold_in_stick_by_mpmaths_quadrature(beta, friction, part
     assert abs(principal(q, -1.0) + beta * p(x, 1.0 - x)) < 1e-8 * p(x, 1.0 - x)
 
 
+@pytest.mark.slow(but=12)
 @pytest.mark.parametrize("name", PROFILES)
 @pytest.mark.parametrize(("beta", "friction"), [(0.3, 0.3), (0.07, 0.3), (0.5, 0.1)])
 def test_certificate_holds_for_every_profile(name, beta, friction):
@@ -77,6 +78,7 @@ def test_certificate_is_not_ok_for_another_mismatch(name):
     assert not wrong.ok
 
 
+@pytest.mark.slow(but=5)
 @pytest.mark.parametrize("narrow", [1e-12, 1e-9, 3.3e-8, 1e-5])
 @pytest.mark.parametrize(("beta", "friction"), [(0.2, 0.3), (0.05, 0.5)])
 def test_certificate_is_as_strict_in_a_narrow_strip_beside_a_flat_base(narrow, beta, friction):
@@ -105,6 +107,7 @@ def test_certificate_takes_each_pressure_once(monkeypatch):
     assert len(places) <= 4  # at the nodes and where it looks, and as many under a lighter load
 
 
+@pytest.mark.slow
 def test_certificate_of_a_trace_takes_few_places_between_its_points(monkeypatch):
     x = np.linspace(-1.5, 1.5, 41)
     contact = solved(sie.Sampled(x, x**2 / 2.0 + x**4 / 10.0), 0.2, normal_load=1.0)

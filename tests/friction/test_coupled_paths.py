@@ -14,6 +14,7 @@ def scene(profile=None, beta=0.3, friction=0.3, load=1.0):
     return dissimilar(profile, beta, friction, normal_load=load)
 
 
+@pytest.mark.slow(but=1)
 @pytest.mark.parametrize(
     "points",
     [
@@ -40,6 +41,7 @@ def test_the_beginning_of_the_path_has_no_contact():
         _ = history[0].edges
 
 
+@pytest.mark.slow
 def test_points_where_the_normal_load_grows_and_then_the_tangential_one_are_those_of_scenes():
     path = sie.Path([(0.0, 0.0), (0.5, 0.0), (1.0, 0.0), (1.0, -0.15), (1.0, -0.2)])
     history = sie.follow(scene(), path)

@@ -79,6 +79,7 @@ def test_the_width_of_a_zone_below_rounding_is_not_named():
     assert "half-widths" not in refused(sie.Flat(1.0), 1e-3, 0.3, 0.4)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("profile", "beta", "friction"),
     [
@@ -102,6 +103,7 @@ def test_refusal_of_a_small_load_names_the_least_that_is_certified(profile, beta
     assert "what the contact gains sticks" in refused(profile, beta, friction, below / friction)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("profile", "beta", "friction"),
     [
@@ -127,6 +129,7 @@ def test_certificate_is_not_ok_where_slip_would_oppose_the_load():
     assert not sheared_certificate(state, scene(None, 0.3, 2.0, 0.5), 1e-13).ok
 
 
+@pytest.mark.slow(but=1)
 @pytest.mark.parametrize("part", [1e-3, 0.5])
 @pytest.mark.parametrize("edge", range(4))
 def test_certificate_is_not_ok_with_an_edge_moved(edge, part):
@@ -137,6 +140,7 @@ def test_certificate_is_not_ok_with_an_edge_moved(edge, part):
     assert not sheared_certificate(wrong, right.scene, 1e-13).ok
 
 
+@pytest.mark.slow(but=2)
 @pytest.mark.parametrize(
     ("profile", "beta", "friction", "part", "load"),
     [
@@ -152,6 +156,7 @@ def test_certificate_holds_next_to_both_ends_of_the_loads(profile, beta, frictio
     assert solved(profile, beta, friction, part, load).check().ok
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("part", [0.0, 0.5])
 def test_certificate_holds_where_hardly_anything_sticks_under_the_normal_load(part):
     assert solved(sie.RoundedFlat(0.5, 1.0), 0.3, 1e-3, part).check().ok
@@ -160,6 +165,7 @@ def test_certificate_holds_where_hardly_anything_sticks_under_the_normal_load(pa
 CORNERS = sie.Piecewise((-9.0, -0.4, 0.4, 9.0), ((-0.8, 1.0), (0.0, 0.5), (0.8, 1.0)))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("profile", "beta", "friction", "part", "load"),
     [
@@ -186,6 +192,7 @@ def test_certificate_holds_next_to_corners_and_kinks(profile, beta, friction, pa
     assert solved(profile, beta, friction, part, load).check().ok
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("beta", "friction", "part", "load"),
     [
@@ -201,6 +208,7 @@ def test_zones_are_found_above_the_loads_under_which_an_edge_passes_a_corner(
     assert keeps_friction_law(solution.coupled[1])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("part", [0.668, 0.845])
 def test_a_corner_that_sticks_while_slip_begins_beside_it_is_refused(part):
     message = refused(CORNERS, 0.06213, 0.2169, part, 0.2881)
@@ -255,6 +263,7 @@ def test_zones_beside_an_almost_flat_base_are_found_from_incipient_sliding(monke
     assert e1 < -1.0 < e2
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("part", [0.3, 0.99])
 def test_a_load_beside_an_almost_flat_base_is_refused_where_zones_begin_late(part):
     """Slip opposes Q up to 0.97 f P."""

@@ -20,6 +20,7 @@ from sie.friction.coupled.slip_rate import SlipRate
 # -- the state -------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow(but=2)
 @pytest.mark.parametrize("name", PROFILES)
 def test_shear_is_friction_times_pressure_in_slip_and_less_in_stick(name):
     solution = solved(PROFILES[name])
@@ -30,6 +31,7 @@ def test_shear_is_friction_times_pressure_in_slip_and_less_in_stick(name):
     assert (np.abs(solution.shear(stick)) < 0.3 * solution.pressure(stick)).all()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["wedge", "parabola", "rounded flat"])
 def test_potentials_are_those_of_the_tractions(name):
     solution = solved(PROFILES[name])
@@ -124,6 +126,7 @@ def growth(solution):
     return Growth(solution.coupled[1], partial(found_state, solution.tangential_search))
 
 
+@pytest.mark.slow
 def test_energy_finds_each_state_from_those_next_to_it(monkeypatch):
     profile = sie.RoundedFlat(1.0, 50.0)
     punch = solved(profile, beta=0.06, friction=0.1, part=0.5, load=0.01)
@@ -132,6 +135,7 @@ def test_energy_finds_each_state_from_those_next_to_it(monkeypatch):
     assert trials_of(monkeypatch, lambda: _integral(states, START)) < states.states * alone / 2
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("profile", "beta", "friction"),
     [(sie.Parabola(1.0), 0.2, 0.5), (sie.RoundedFlat(0.5, 1.0), 0.1, 0.3)],
@@ -153,6 +157,7 @@ def test_energy_is_certified_where_the_edges_pass_kinks_and_next_to_sliding(
     assert _integral(states, START)[0] == pytest.approx(total, rel=CERTIFIED)
 
 
+@pytest.mark.slow(but=1)
 @pytest.mark.parametrize("part", [0.05, 0.5, 0.99])
 def test_energy_and_shift_tend_to_those_of_similar_bodies(part):
     similar, nearly = solved(beta=0.0, part=part), solved(beta=1e-5, part=part)

@@ -329,6 +329,7 @@ def test_full_stick_is_said_where_the_slip_zone_is_narrower_than_rounding(beta, 
 NARROW = [(0.05, 0.6), (0.05, 0.5), (-0.05, 0.5), (0.02, 0.205), (0.005, 0.6)]
 
 
+@pytest.mark.slow(but=8)
 @pytest.mark.parametrize(("beta", "friction"), NARROW)
 @pytest.mark.parametrize("profile", [sie.Flat(1.0), sie.Parabola(1.0), sie.RoundedFlat(0.5, 1.0)])
 def test_potentials_beside_narrow_slip_zones_have_the_loads(profile, beta, friction):

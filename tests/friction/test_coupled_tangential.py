@@ -45,6 +45,7 @@ def test_another_program_finds_the_same_edges(case, near):
     assert other == pytest.approx(np.array(oblique_edges.EDGES.get(case, other)), abs=1e-12)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", PROFILES)
 def test_certificate_holds_for_every_profile(name):
     certificate = solved(PROFILES[name]).check()
@@ -53,6 +54,7 @@ def test_certificate_holds_for_every_profile(name):
     assert certificate.shear.error < 1e-10
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("beta", "friction", "part"),
     [(0.1, 0.6, 0.5), (0.07, 0.3, 0.2), (0.001, 0.3, 0.5), (0.5, 0.5, 0.99), (0.3, 0.3, 1e-3)],
@@ -63,6 +65,7 @@ def test_certificate_holds_from_narrow_slip_zones_to_incipient_sliding(beta, fri
     assert max(certificate.error, certificate.shear.equilibrium) < 1e-11
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("profile", "beta", "friction", "part"),
     [

@@ -81,6 +81,7 @@ def test_energy_under_a_symmetric_profile_is_that_of_the_other_method(profile, b
     assert as_uneven(solution.scene).energy == pytest.approx(solution.energy_lost, rel=1e-12)
 
 
+@pytest.mark.slow(but=3)
 @pytest.mark.parametrize("name", UNEVEN)
 def test_both_equations_hold_by_a_quadrature_that_the_solver_does_not_use(name):
     profile, load = UNEVEN[name]
@@ -110,6 +111,7 @@ def test_equations_of_a_trial_that_moves_an_edge_back_are_finite():
     assert np.isfinite(equations.missed).all()
 
 
+@pytest.mark.slow
 def test_profiles_that_are_not_symmetric_in_a_narrow_strip_are_told_from_symmetric_ones():
     sides = sie.RoundedFlat(0.5, 1.0) + sie.RoundedFlat(0.5, 2.0).shifted(1e-3)
     assert isinstance(solved(sides, 0.06, 1.9, load=0.8).coupled[1], UnevenContact)

@@ -24,6 +24,7 @@ def followed(name, *points, tilt=()):
     return sie.follow(scene, sie.Path([(0.0, 0.0, 0.0), *points], tilt=tilt))
 
 
+@pytest.mark.slow(but=1)
 @pytest.mark.parametrize("name", ["parabola", "wedge", "power"])
 def test_a_contact_that_grows_and_sticks_has_the_shear_of_its_pressure_and_the_place(name):
     Q, sigma = 0.1, 0.1
@@ -52,10 +53,12 @@ def test_a_contact_that_rolls_while_it_grows_and_sticks_has_a_closed_form():
     assert last.shear(x) == pytest.approx(np.array(due), abs=1e-11)
 
 
+@pytest.mark.slow
 def test_slip_while_a_contact_grows_from_nothing_is_certified():
     assert followed("parabola", SHEARED)[-1].check().ok
 
 
+@pytest.mark.slow
 def test_a_step_from_nothing_is_that_of_its_parts():
     first = tuple(0.3 * load for load in SHEARED)
     whole, parts = followed("parabola", SHEARED)[-1], followed("parabola", first, SHEARED)[-1]

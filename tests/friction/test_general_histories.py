@@ -74,6 +74,7 @@ def test_opposite_slip_under_a_falling_load_is_that_of_the_end_loads():
     assert path.energy_lost == pytest.approx(4.183032e-4, abs=5e-11)
 
 
+@pytest.mark.slow
 @settings(max_examples=4)
 @given(
     st.tuples(st.floats(0.6, 1.0), st.floats(0.1, 0.5), st.floats(-0.2, 0.2), st.floats(-0.1, 0.1)),
@@ -223,6 +224,7 @@ def test_the_shift_is_the_mean_slip_under_a_flat_punch_on_the_contact_of_the_tim
     assert followed(HERTZ, GROWING)[1].shift == pytest.approx(total, rel=1e-9)
 
 
+@pytest.mark.slow(but=1)
 @pytest.mark.parametrize("scene", [HERTZ, LOPSIDED], ids=["hertz", "lopsided"])
 def test_the_loop_of_shear_over_shift_encloses_the_energy_while_the_normal_load_changes(scene):
     """∮Q dδ with dδ = dshift - 2/(π E*) ln r dQ, which the elastic compliance adds; by Simpson."""
@@ -264,6 +266,7 @@ def test_the_shift_while_a_front_passes_an_earlier_one_is_that_of_the_step_in_pa
     assert whole[-1].shift == pytest.approx(parts[-1].shift, rel=1e-10)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("moments", [(0.0, 0.02), (0.0, 0.0)], ids=["given", "none"])
 def test_energy_and_shift_at_a_given_moment_are_those_of_the_tilts_that_carry_it(moments):
     """A path of so many straight parts in the tilt is off by their square: extrapolated."""
@@ -302,6 +305,7 @@ GENERAL = {
 }
 
 
+@pytest.mark.slow(but=3)
 @pytest.mark.parametrize("case", GENERAL)
 def test_a_history_agrees_with_a_mesh_to_its_error(case):
     """Mean error of q over f p0 on two meshes: half the element and increment, half the error."""
@@ -318,6 +322,7 @@ def test_a_history_agrees_with_a_mesh_to_its_error(case):
     assert errors[1] < 0.75 * errors[0] < 3e-3
 
 
+@pytest.mark.slow(but=2)
 @pytest.mark.parametrize("case", ["falling", "opposite", "tilt"])
 def test_the_energy_of_a_history_agrees_with_a_mesh_to_its_error(case):
     scene, points = GENERAL[case]

@@ -74,6 +74,7 @@ def test_contact_without_symmetry_is_refused_and_answered_as_the_message_says():
     assert solved(SKEW, 0.0, 0.3, tangential_load=0.1).check().ok
 
 
+@pytest.mark.slow(but=1)
 @pytest.mark.parametrize("load", [0.0, 0.3])
 def test_symmetric_trace_is_answered_as_the_profile_that_it_samples(load):
     x = np.linspace(-2.0, 2.0, 41)
@@ -85,6 +86,7 @@ def test_symmetric_trace_is_answered_as_the_profile_that_it_samples(load):
     assert trace.check().ok
 
 
+@pytest.mark.slow
 def test_tangential_load_moves_an_end_of_the_stick_zone_past_a_corner():
     solution = solved(CORNERS, 0.03, 0.3, normal_load=0.05, tangential_load=0.012)
     assert solution.stick[0][1] < 0.1 < solution.half_width

@@ -65,6 +65,7 @@ def test_a_closed_loop_closes_after_the_first_cycle_and_leaves_no_memory():
     assert len(again.history.turning_points[4].memory.layers) == 1
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("scene", [PUNCH, *CORNERED], ids=["smooth", "left corner", "right corner"])
 def test_the_loop_of_load_over_shift_encloses_the_energy_lost(scene):
     """∮Q dδ: by Simpson on one branch, which the other mirrors."""
@@ -79,6 +80,7 @@ def test_the_loop_of_load_over_shift_encloses_the_energy_lost(scene):
     assert area == pytest.approx(2.0 * (history[-1].energy_lost - history[0].energy_lost), rel=1e-7)
 
 
+@pytest.mark.slow
 @settings(max_examples=30)
 @given(
     st.lists(st.integers(-50, 50).map(lambda k: k / 50), min_size=2, max_size=6),
@@ -197,6 +199,7 @@ def test_a_normal_load_that_grows_at_a_given_moment_locks_the_shear_in():
 RETREAT = (P, 0.6 * FP, 0.5)
 
 
+@pytest.mark.slow
 def test_zones_that_retreat_on_the_way_to_the_first_point_are_followed():
     """As from (P, 0, 0), and on from there; a scene has the state in total displacements."""
     first, then = sie.follow(HERTZ, sie.Path([RETREAT, (P, 0.0, 0.0)]))

@@ -49,6 +49,7 @@ LAYERED = {
 }
 
 
+@pytest.mark.slow(but=1)
 @pytest.mark.parametrize("case", LAYERED)
 @pytest.mark.parametrize("scene", [HERTZ, LOPSIDED], ids=["Hertz", "lopsided"])
 def test_marching_gives_what_layers_give(case, scene):
@@ -61,6 +62,7 @@ def test_marching_gives_what_layers_give(case, scene):
     assert marched.check().ok
 
 
+@pytest.mark.slow(but=1)
 @pytest.mark.parametrize("case", ["Q falls and rises", "all fall", "both directions", "in turn"])
 def test_the_energy_of_a_march_is_that_of_layers(case):
     by_layers, marched = (run(HERTZ, LAYERED[case])[-1] for run in (followed, all_marched))
@@ -95,6 +97,7 @@ def test_a_stick_zone_that_travels_has_the_width_of_its_rates():
     assert c2 - c1 == pytest.approx(2.0 * Q / (np.pi * 0.25 * sigma), rel=1e-12)
 
 
+@pytest.mark.slow
 def test_slip_from_one_edge_while_it_goes_on_at_the_other_is_that_of_the_path_in_parts():
     whole, parts = (followed(LOPSIDED, FROM_THE_EDGE, n)[-1] for n in (1, 2))
     assert whole.check().ok
@@ -128,6 +131,7 @@ def kinds(solution):
     return [type(part).__name__ for part in parts]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("scene", "points", "due"),
     [
@@ -161,12 +165,14 @@ def test_an_end_advances_by_as_much_as_its_equation_says():
 # -- laws ------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow(but=1)
 @pytest.mark.parametrize("points", GROWING)
 def test_what_sticks_at_a_growing_edge_satisfies_its_equation_to_rounding(points):
     certificate = followed(HERTZ, points)[-1].check()
     assert certificate.shear.residual <= 1e-12 and certificate.shear.equilibrium <= 1e-13
 
 
+@pytest.mark.slow
 def test_a_moment_along_a_path_is_the_tilt_that_it_causes():
     """In each of short parts the tilt that follows from the moment is nearly linear."""
     scene = replace(LOPSIDED, moment=0.0)
@@ -181,6 +187,7 @@ def test_a_moment_along_a_path_is_the_tilt_that_it_causes():
     assert whole.energy_lost == pytest.approx(by_moment[-1].energy_lost, rel=1e-9)
 
 
+@pytest.mark.slow(but=2)
 @pytest.mark.parametrize("points", [*ALL, TOGETHER])
 def test_a_marched_state_satisfies_its_equations(points):
     for solution in followed(HERTZ, points):
@@ -189,6 +196,7 @@ def test_a_marched_state_satisfies_its_equations(points):
         assert certificate.shear.residual <= 1e-10 and certificate.shear.equilibrium <= 1e-12
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("points", ALL)
 def test_a_marched_path_in_parts_ends_in_the_same_state(points):
     whole, parts = (followed(LOPSIDED, points, n)[-1] for n in (1, 2))
@@ -201,6 +209,7 @@ def test_a_marched_path_in_parts_ends_in_the_same_state(points):
     assert parts.energy_lost == pytest.approx(whole.energy_lost, rel=1e-7)
 
 
+@pytest.mark.slow(but=1)
 @pytest.mark.parametrize("points", ALL)
 def test_a_marched_path_of_mirrored_loads_has_the_mirrored_answer(points):
     mirrored = replace(LOPSIDED, profile=LOPSIDED.profile.mirrored())
@@ -215,6 +224,7 @@ def test_a_marched_path_of_mirrored_loads_has_the_mirrored_answer(points):
 PERCENT = st.integers(-100, 100)
 
 
+@pytest.mark.slow
 @settings(max_examples=6, deadline=None)
 @given(
     st.lists(
@@ -253,6 +263,7 @@ NEAR_A_MARK = [(1, 0, 0), (1, 0.637, 0.205), (1, 0.63, 0.435), (1, 0.693, 0.23)]
 FROM_THE_RIGHT = [(P, -Q, sigma) for P, Q, sigma in NEAR_A_MARK]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("scene", "points"),
     [
@@ -277,6 +288,7 @@ def test_an_end_that_has_arrived_at_an_edge_leaves_no_zone_of_slip_there():
     )
 
 
+@pytest.mark.slow
 def test_the_energy_of_a_closed_march_is_the_area_of_its_loop():
     """∮Q dδ at constant σ, by Gauss' rule in an angle on one branch, which the other mirrors."""
     node, weight = np.polynomial.legendre.leggauss(5)

@@ -35,6 +35,7 @@ APART = [(1, 0, 0), (1.1, 0.05, 0.9)]
 IN_PHASE = [(1, 0, 0), (0.73, 0.28, -0.112), (1, 0, 0), (0.73, 0.28, -0.112)]
 
 
+@pytest.mark.slow
 def test_loads_that_return_in_phase_bring_back_the_shear_that_they_left():
     """An edge that grew and stuck slips as it retreats, until it is where it was."""
     first, grown, again = followed(HERTZ, IN_PHASE)[1:]
@@ -59,6 +60,7 @@ RETURNS = [(1, 0, 0), (1.15, 0.135, 0.08), (1.015, 0.0135, 0.008), (1.15, 0.135,
 RETURNS_UNDER_MEAN = [(1, 0, 0), (1.45, 0.44, 0.35), (1, 0.1, 0.06), (1.45, 0.44, 0.35)]
 
 
+@pytest.mark.slow
 def test_a_second_zone_of_slip_joins_the_first_one_as_loads_return_in_phase():
     state = followed(HERTZ, RETURNS)[-1]
     before, after = parts_of(state)
@@ -78,6 +80,7 @@ def test_zones_that_join_leave_the_same_state_from_whenever_it_is_sought(earlier
     assert again.shear(x) == pytest.approx(after.shear(x), abs=1e-9 * f)
 
 
+@pytest.mark.slow
 def test_a_mesh_tends_to_the_shear_after_two_zones_of_slip_have_joined(monkeypatch):
     """For so long a part only the force of what came into contact is known well."""
     monkeypatch.setattr(marching, "SOON", (0.01,))
@@ -101,6 +104,7 @@ def caught_up():
     return followed(HERTZ, CAUGHT_UP)[-1]
 
 
+@pytest.mark.slow
 def test_slip_turns_where_an_edge_of_contact_catches_up_with_its_zone(caught_up):
     before, after = caught_up.history.turning_points[2].marched
     assert before.signs == (-1.0, 1.0) and after.signs == (1.0, 1.0)
@@ -108,6 +112,7 @@ def test_slip_turns_where_an_edge_of_contact_catches_up_with_its_zone(caught_up)
     assert caught_up.check().ok
 
 
+@pytest.mark.slow
 def test_a_mesh_tends_to_the_energy_where_an_edge_catches_up_with_a_slip_zone(caught_up):
     """Twice the elements and increments, less than half the error."""
     errors = []
@@ -124,6 +129,7 @@ def test_a_mesh_tends_to_the_energy_where_an_edge_catches_up_with_a_slip_zone(ca
 DETOUR = [(1, 0, 0), (1.2, 0.1, 0.05), (0.9, -0.05, -0.025)]
 
 
+@pytest.mark.slow
 def test_a_detour_that_sticks_costs_no_energy_and_few_states(monkeypatch):
     """The rest of the way slips as the straight way does, which layers answer."""
     states, power = [], SlipRates.power
@@ -139,6 +145,7 @@ def test_a_detour_that_sticks_costs_no_energy_and_few_states(monkeypatch):
     assert len(states) < 300
 
 
+@pytest.mark.slow
 def test_an_end_next_to_the_mark_where_loads_return_balances_them_to_rounding():
     """What the equations miss there has another slope beyond the mark."""
     profile = sie.Polynomial((0.0, 0.05, 1.0, 0.4, 0.6))
@@ -152,6 +159,7 @@ def test_an_end_next_to_the_mark_where_loads_return_balances_them_to_rounding():
 # -- a mesh ----------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow(but=7)
 @pytest.mark.parametrize("points", [*ALL, TOGETHER])
 def test_a_mesh_comes_near_the_marched_shear_and_energy(points):
     """To the first order of its elements and increments."""
@@ -219,18 +227,21 @@ def test_a_path_says_which_steps_are_marched():
     assert "marched: the contact grows and sticks" in plan
 
 
+@pytest.mark.slow
 def test_a_second_zone_of_slip_is_refused_with_the_loads_at_which_it_opens():
     with pytest.raises(sie.ContactError, match=r"step 2 .*second zone of slip opens") as refused:
         followed(HERTZ, [*TRAVELLING, (1, -0.5, -3)])
     assert 0.0 < refused.value.reached["share"] < 0.01 and refused.value.reached["step"] == 2
 
 
+@pytest.mark.slow
 def test_a_second_zone_of_slip_that_does_not_join_the_first_one_soon_is_refused():
     with pytest.raises(sie.ContactError, match=r"second zone .* an edge sticks and grows") as told:
         followed(HERTZ, RETURNS_UNDER_MEAN)
     assert told.value.reached["step"] == 3 and 0.9 < told.value.reached["share"] < 1.0
 
 
+@pytest.mark.slow
 def test_the_loads_at_which_a_second_zone_opens_are_told_to_a_millionth_of_the_step():
     """Up to there one zone sticks, and beyond it two do."""
     points = [(1, -0.29, 0.13), (1, 0.04, -0.17), (1, -0.24, 0.37), (1, 0.32, -0.26)]

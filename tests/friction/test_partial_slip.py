@@ -78,6 +78,7 @@ def rounded_energy(a, b, c):
     )
 
 
+@pytest.mark.slow(but=2)
 @pytest.mark.parametrize("fraction", FRACTIONS)
 @pytest.mark.parametrize("a", [0.0, 0.5, 1.0 - 1e-9], ids=["hertz", "0.5", "1-1e-9"])
 def test_the_rounded_punch_and_hertz_in_partial_slip(a, fraction):

@@ -29,6 +29,7 @@ def both(answer):
     return answer(ONE), answer(sie.Row([ONE]))
 
 
+@pytest.mark.slow(but=2)
 @pytest.mark.parametrize(
     ("points", "tilt"),
     [
@@ -70,6 +71,7 @@ def test_a_steady_cycle_of_a_row_of_one_is_that_of_its_profile(A, B):
     assert row.slip_range(x) == pytest.approx(one.slip_range(x), abs=1e-12)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "points",
     [

@@ -60,6 +60,7 @@ def places(solution):
     return np.concatenate([np.linspace(a, b, 23)[1:-1] for a, b in solution.patches])
 
 
+@pytest.mark.slow(but=2)
 @each
 def test_a_path_of_one_point_is_the_scene(scene):
     followed = at_constant_load(scene, 0.8)[0]
@@ -75,6 +76,7 @@ def test_a_path_is_certified_also_where_nothing_is_sheared_yet(name):
     assert at_constant_load(SCENES[name], 0.0, 0.5)[0].check().ok
 
 
+@pytest.mark.slow(but=2)
 @each
 def test_unloading_is_half_of_the_first_loading_twice(scene):
     """q = q(Q_max) - 2 q((Q_max - Q)/2), Mindlin & Deresiewicz 1953, and so is the slip."""
@@ -87,6 +89,7 @@ def test_unloading_is_half_of_the_first_loading_twice(scene):
     assert np.array(unloaded.stick) == pytest.approx(np.array(half.stick), abs=1e-13)
 
 
+@pytest.mark.slow(but=3)
 @each
 def test_a_closed_loop_closes(scene):
     history = at_constant_load(scene, 0.8, -0.3, 0.5, -0.3, 0.8)
@@ -95,6 +98,7 @@ def test_a_closed_loop_closes(scene):
     assert last.shear(x) == pytest.approx(first.shear(x), abs=1e-13 * first.pressure(x).max())
 
 
+@pytest.mark.slow(but=6)
 @each
 @pytest.mark.parametrize("part", [0.05, 0.7, 0.995])
 def test_friction_obeys_its_laws_on_every_patch(scene, part):
@@ -114,6 +118,7 @@ def test_patches_that_have_merged_stick_in_several_zones():
     assert len(solution.patches) < len(solution.stick)
 
 
+@pytest.mark.slow
 @settings(max_examples=4)
 @given(st.sampled_from(["row", "wavy punch", "merged patches", "period"]), st.integers(0, 999))
 def test_histories_agree_with_a_mesh_to_its_error(name, seed):
@@ -157,6 +162,7 @@ def oblique(P):
     return sie.Path(points)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["row", "wavy punch", "merged patches", "full contact"])
 def test_energy_of_a_path_is_that_of_the_path_cut_into_parts(name):
     scene = SCENES[name]
@@ -186,6 +192,7 @@ def test_the_loop_of_load_over_shift_encloses_the_energy_lost():
     assert area == pytest.approx(2.0 * lost, rel=1e-6)
 
 
+@pytest.mark.slow(but=1)
 @pytest.mark.parametrize("name", ["row", "wavy punch"])
 def test_normal_and_tangential_loads_that_change_together_agree_with_a_mesh(name):
     """In small steps; patches of the wavy punch appear on the way."""
@@ -209,6 +216,7 @@ def test_normal_and_tangential_loads_that_change_together_agree_with_a_mesh(name
     assert lost == pytest.approx(history[-1].energy_lost, rel=3e-2)
 
 
+@pytest.mark.slow(but=5)
 @each
 def test_slip_at_incipient_sliding_is_the_limit_of_slip(scene):
     nearly, sliding = (sheared(scene, part) for part in (1 - 1e-7, 1.0))
@@ -258,6 +266,7 @@ def test_a_cycle_of_bulk_stress_in_a_contact_that_repeats_is_refused_as_such():
         sie.steady_cycle(scene, (1e-3, 1e-4, 1e-4), (1e-3, -1e-4, 0.0))
 
 
+@pytest.mark.slow(but=1)
 @pytest.mark.parametrize("name", [name for name in SCENES if SCENES[name].moment is None])
 def test_a_steady_cycle_of_patches_is_that_of_the_path_that_settles(name):
     scene = SCENES[name]

@@ -83,6 +83,7 @@ TURNING = [
 ]
 
 
+@pytest.mark.slow(but=8)
 @pytest.mark.parametrize("name", KINDS)
 def test_energy_of_a_path_is_that_of_the_path_cut_into_many_parts(name):
     scene = sie.Scene(profile=KINDS[name], modulus=1.0, normal_load=0.3, friction=0.5)
@@ -203,6 +204,7 @@ def test_energy_while_an_edge_passes_a_jump_is_that_of_the_mirrored_path():
         assert one.energy_lost == pytest.approx(other.energy_lost, rel=1e-12)
 
 
+@pytest.mark.slow
 def test_the_energy_of_small_loads_has_as_many_digits_as_that_of_large_ones():
     """A front from 0.3 down to a load 450 times as small: what a panel may miss is measured by the
     loads that it is for.

@@ -71,6 +71,7 @@ CASES = [
 ]  # fmt: skip
 
 
+@pytest.mark.slow
 @settings(max_examples=12)
 @given(st.sampled_from(SHRINKING), st.sampled_from(CASES))
 def test_random_histories_agree_with_a_mesh_to_its_error(steps, case):

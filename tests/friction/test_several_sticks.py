@@ -45,6 +45,7 @@ def end(path):
     return solution
 
 
+@pytest.mark.slow
 def test_two_stick_zones_satisfy_their_equations(end):
     certificate = end.check()
     assert certificate.ok
@@ -59,6 +60,7 @@ def test_no_point_of_one_stick_zone_moves_from_those_of_the_other(end):
     assert middle != 0.0 and abs(last) <= 1e-10 * abs(middle)
 
 
+@pytest.mark.slow
 def test_a_path_to_two_stick_zones_in_parts_ends_in_the_same_state():
     path = PATHS["at the end of an earlier zone"]
     end = followed(path)[-1]
@@ -80,12 +82,14 @@ def test_a_mesh_has_the_same_two_stick_zones_and_energy(path, end):
     assert end.energy_lost == pytest.approx(found.energy, rel=5e-3)
 
 
+@pytest.mark.slow
 def test_one_stick_zone_is_left_after_a_larger_return():
     history = followed([*PATHS["at the end of an earlier zone"], (-0.6, 0.6)])
     assert [len(solution.stick) for solution in history] == [1, 2, 1]
     assert history[-1].check().ok
 
 
+@pytest.mark.slow
 def test_a_gap_opens_inside_the_stick_zone_and_joins_the_slip_beside_it():
     """Q held while σ is reversed: the gap opens behind an earlier end and takes over the zone."""
     start, turned = (0.4, 0.25), (0.4, -0.25)
@@ -106,6 +110,7 @@ def test_a_short_stick_zone_that_a_guess_lacks_is_found_where_slip_would_oppose(
     assert len(found.sticks) == 2 and found.opposing <= 1e-10
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("P", [P0, 1.2 * P0], ids=("constant P", "P grows"))
 def test_bulk_stress_that_leaves_no_stick_zone_on_the_grid_is_refused(P):
     path = sie.Path([(P0, 0.0, 0.0), (P, 0.5 * F, 30.0 * S)])
@@ -113,6 +118,7 @@ def test_bulk_stress_that_leaves_no_stick_zone_on_the_grid_is_refused(P):
         sie.follow(HERTZ, path)
 
 
+@pytest.mark.slow
 def test_energy_is_refused_where_slip_turned_beside_several_stick_zones_and_the_state_is_not():
     turned = followed([(0.0, 0.0), (-0.72, 0.07), (-0.56, 0.79), (0.08, 0.08)])[-1]
     assert turned.check().ok

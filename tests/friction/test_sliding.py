@@ -209,6 +209,7 @@ GIVEN = (
 )
 
 
+@pytest.mark.slow(but=27)
 @pytest.mark.parametrize("given", GIVEN, ids=str)
 @pytest.mark.parametrize("name", PROFILES)
 @pytest.mark.parametrize("coupling", [0.3, -0.49])

@@ -19,6 +19,7 @@ def after(points, tilt=(), scene=HERTZ):
     return sie.follow(scene, sie.Path(points, tilt=tilt))[-1]
 
 
+@pytest.mark.slow(but=1)
 @pytest.mark.parametrize("size", [1e-7, 1e-12])
 @pytest.mark.parametrize("direction", [(0, 0, 1), (0, 0, -1)])
 def test_an_end_that_recedes_moves_in_proportion_to_a_small_step(direction, size):
@@ -32,6 +33,7 @@ def test_an_end_that_recedes_moves_in_proportion_to_a_small_step(direction, size
     assert moved(size)[k] / size == pytest.approx(moved(1e-5)[k] / 1e-5, rel=1e-3, abs=4e-16 / size)
 
 
+@pytest.mark.slow(but=1)
 @pytest.mark.parametrize("size", [1e-6, 1e-9])
 def test_a_small_first_loading_and_its_reversal_leave_zones_in_proportion_to_them(size):
     edge = np.array(after([(1, 0, 0)]).edges)
@@ -50,6 +52,7 @@ def test_a_small_turn_moves_the_end_of_slip_that_goes_on_in_proportion(size):
     assert moved(size) / size == pytest.approx(moved(1e-3) / 1e-3, rel=1e-2)
 
 
+@pytest.mark.slow
 def test_unloading_by_a_ten_millionth_moves_an_end_by_as_little():
     small = after([*BEFORE, (1 - 1e-7, 0.1 - 1e-7, 0.05 + 1e-7)])
     assert small.stick[0][0] == pytest.approx(after(BEFORE).stick[0][0], abs=1e-7)

@@ -84,6 +84,7 @@ def test_an_edge_that_holds_up_the_slip_at_first_leaves_the_state_at_the_end_rig
         assert solution.stick[0] == pytest.approx(stick, abs=1e-13)
 
 
+@pytest.mark.slow
 def test_a_front_that_is_held_up_is_that_of_the_step_in_parts():
     """At the cut it has not passed all that slipped on beside the old stick zone."""
     start, end = (1.3, 0.55, 0.2), (0.8, -0.3, -0.15)
@@ -100,6 +101,7 @@ def test_a_front_that_is_held_up_passes_slip_that_went_on_outside_the_old_stick_
     assert "layers" in history.plan.steps[2].reason
 
 
+@pytest.mark.slow
 def test_a_trial_of_an_advancing_end_that_leaves_the_contact_gives_no_warning():
     points = [(1, 0, 0), (1.4031, 0.7101, 0.16746), (0.89323, -0.28385, -0.26637)]
     with pytest.raises(sie.ContactError, match="advance"):

@@ -40,6 +40,7 @@ def typed(row):
     return [float(cell) for cell in line[1].split("|")]
 
 
+@pytest.mark.slow
 def test_a_mesh_comes_near_the_exact_pressure_and_nearer_if_it_is_finer(tmp_path):
     errors = []
     for count in (10, 20):
@@ -50,6 +51,7 @@ def test_a_mesh_comes_near_the_exact_pressure_and_nearer_if_it_is_finer(tmp_path
     assert errors == pytest.approx(typed("p, without friction")[:2], rel=0.1)
 
 
+@pytest.mark.slow
 def test_a_mesh_comes_near_the_exact_contact_with_friction(tmp_path):
     scene = replace(PUNCH, friction=0.3, tangential_load=343.0)
     results = ran(scene, 10, tmp_path)

@@ -56,6 +56,7 @@ def arrays(found):
     return {name: np.asarray(found[name]) for name in found}
 
 
+@pytest.mark.slow
 def test_two_thousand_scenes_on_two_processes_give_bitwise_the_serial_answers(cluster):
     want = {"half_width": "half_width", "stick": stick}
     serial, parallel = (
@@ -180,6 +181,7 @@ def test_a_worker_gives_back_what_it_has_not_begun_in_time(monkeypatch):
     assert 0 < len(part.answers) < 5
 
 
+@pytest.mark.slow
 def test_what_a_worker_gives_back_is_taken_again():
     chunks = sweep_chunks.Chunks(10, 5)
     chunks.measured(chunks.take(), 2, 0.1)

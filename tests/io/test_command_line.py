@@ -211,6 +211,7 @@ def test_examples_are_listed_with_a_line_each(capsys):
 # -- as a program ----------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_the_program_solves_a_scene_and_refuses_one(scene):
     good = run("solve", scene, "--want", "edges", "check")
     assert (good.returncode, good.stderr) == (0, "") and "\ncertified to " in good.stdout

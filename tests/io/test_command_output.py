@@ -202,6 +202,7 @@ def rig(tmp_path, monkeypatch):
     return sie.follow(file.scene, file.load_path)
 
 
+@pytest.mark.slow
 def test_the_turning_points_of_a_rig_are_a_table_with_its_tilts(rig, capsys):
     assert main(["solve", "rig.toml", "--want", "shear"]) == 0
     rows = [line.split() for line in capsys.readouterr().out.splitlines()][-len(rig) - 1 :]
@@ -212,6 +213,7 @@ def test_the_turning_points_of_a_rig_are_a_table_with_its_tilts(rig, capsys):
         assert [float(cell) for cell in row] == pytest.approx(expected, rel=1e-5, abs=1e-12)
 
 
+@pytest.mark.slow
 def test_every_turning_point_is_written_with_its_tractions(rig, capsys):
     assert main(["solve", "rig.toml", "--csv", "all.csv", "--points", "20"]) == 0
     written = [line for line in Path("all.csv").read_text().splitlines() if line[0] != "#"]

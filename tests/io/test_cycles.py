@@ -57,6 +57,7 @@ def cycle():
     return sie.Cycle(sie.follow(file.scene, file.load_path)[1:])
 
 
+@pytest.mark.slow(but=1)
 @pytest.mark.parametrize("want", ["edges", "shear", "check"])
 def test_an_exceeded_yield_stress_is_a_note_of_the_report_and_of_json(want):
     """The largest Mises stress over the path is found on a grid, too."""
@@ -73,6 +74,7 @@ def test_an_exceeded_yield_stress_is_a_note_of_the_report_and_of_json(want):
         assert any("above yield_stress" in note for note in notes) == exceeded
 
 
+@pytest.mark.slow
 def test_json_has_slip_energy_stresses_and_parameters_of_the_last_cycle(solve, cycle):
     status, out, _ = solve(CYCLE + MATERIAL, "--json")
     found = json.loads(out)["cycle"]
@@ -101,6 +103,7 @@ def test_json_has_slip_energy_stresses_and_parameters_of_the_last_cycle(solve, c
         assert (surface["y"], below["y"]) == (0.0, 0.02)
 
 
+@pytest.mark.slow
 def test_the_report_fits_in_eighty_columns(solve):
     _, out, _ = solve(CYCLE + MATERIAL, "shear")
     assert max(map(len, out.splitlines())) <= 80
@@ -122,6 +125,7 @@ def test_without_constants_of_the_material_no_parameter_is_named(solve):
     assert not {"SWT", "Findley", "Fatemi-Socie"} & set(out.split())
 
 
+@pytest.mark.slow
 def test_without_tension_the_report_says_so_in_place_of_a_plane(solve):
     pressed = CYCLE[: CYCLE.index("friction")] + "path = [[50.0, 0.0], [80.0, 0.0], [50.0, 0.0]]\n"
     status, out, _ = solve(pressed + "[fatigue]\nparts = 1\n")

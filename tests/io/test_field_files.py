@@ -159,6 +159,7 @@ def test_the_picture_marks_the_contact_and_the_weakest_points():
         assert axes.get_ylim()[0] > 0.0 > axes.get_ylim()[1]  # depth runs downwards
 
 
+@pytest.mark.slow(but=1)
 @pytest.mark.parametrize(
     "title",
     [

@@ -100,6 +100,7 @@ def test_the_field_is_no_exception(folder, capsys):
     )
 
 
+@pytest.mark.slow
 @posix
 def test_a_scene_on_standard_input_is_not_overwritten(folder):
     before = listing(folder)
@@ -218,6 +219,7 @@ files.write_files({Path("out.csv"): b"new" * 10**6, Path("out.json"): b"new"})
 """
 
 
+@pytest.mark.slow(but=1)
 @posix
 @pytest.mark.parametrize(
     "place", ["files, '_write_part'", "os, 'fsync'", "os, 'replace'", "files, '_discard'"]
@@ -266,6 +268,7 @@ def test_a_full_device_is_reported_and_nothing_else_is_written(folder, capsys):
     assert listing(folder) == before
 
 
+@pytest.mark.slow
 @posix
 def test_standard_output_that_is_full_or_closed_is_reported_and_nothing_is_written(folder):
     before = listing(folder)
@@ -287,6 +290,7 @@ def test_standard_output_that_is_full_or_closed_is_reported_and_nothing_is_writt
     assert listing(folder) == before
 
 
+@pytest.mark.slow(but=1)
 @posix
 @pytest.mark.parametrize(
     "argv", [["example"], ["--help"], ["solve", "--help"], ["--version"], ["plan", "scene.toml"]]
@@ -301,6 +305,7 @@ def test_a_pipe_closed_early_is_exit_code_141(argv, folder):
     assert (found.returncode, found.stderr) == (141, b"")
 
 
+@pytest.mark.slow
 @posix
 @pytest.mark.parametrize("unbuffered", ["", "1"])
 def test_a_pipe_closed_in_the_midst_is_exit_code_141(unbuffered, folder):
@@ -324,6 +329,7 @@ def test_a_pipe_closed_in_the_midst_is_exit_code_141(unbuffered, folder):
         assert (process.wait(), process.stderr.read()) == (141, b"")
 
 
+@pytest.mark.slow
 @posix
 def test_a_pipe_closed_early_costs_no_file_and_is_reported_for_devices_too(folder):
     read, write = os.pipe()
@@ -350,6 +356,7 @@ sys.meta_path.insert(0, Interrupting())
 """
 
 
+@pytest.mark.slow(but=3)
 @posix
 @pytest.mark.parametrize("module", ["numpy", "sie.traction.base", "sie.solution", "sie.io.report"])
 @pytest.mark.parametrize("start", ["-m sie", "as a script"])

@@ -38,6 +38,7 @@ def test_what_is_drawn_is_the_pressure(axes):
     np.testing.assert_allclose(p, PUNCH.pressure(x), rtol=1e-12, atol=1e-10)
 
 
+@pytest.mark.slow
 def test_a_history_is_drawn_on_given_axes(axes):
     assert HISTORY.plot(axes) is axes
     assert axes.get_ylabel() == "$Q$ (N/mm)"
@@ -139,6 +140,7 @@ CELLS = [
 ]
 
 
+@pytest.mark.slow
 def test_a_kernel_shows_the_table_the_pictures_and_the_bars():
     nbclient, nbformat = pytest.importorskip("nbclient"), pytest.importorskip("nbformat")
     pytest.importorskip("ipykernel")

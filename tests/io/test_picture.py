@@ -66,6 +66,7 @@ def test_both_edges_run_through_both_panels_and_are_named(scene):
     assert [word.split("$")[1] for word in words(upper) if word.startswith("$x_")] == ["x_1", "x_2"]
 
 
+@pytest.mark.slow(but=4)
 @EVERY
 def test_nothing_that_is_written_leaves_the_picture_or_overlaps(scene):
     figure = plot.picture(sie.solve(scene), title="A title")
@@ -158,6 +159,7 @@ def test_dollars_in_titles_and_units_are_letters():
     assert style.picture_bytes(figure, "svg").startswith(b"<?xml")
 
 
+@pytest.mark.slow(but=1)
 @pytest.mark.parametrize("suffix", ["png", "pdf", "svg"])
 def test_the_same_picture_is_the_same_file(suffix):
     solution = sie.solve(SCENES["wedge"])
@@ -200,6 +202,7 @@ def test_the_shear_lies_between_its_limits_with_the_stick_zones_shaded(solution)
     assert len(shaded) == len(solution.stick)
 
 
+@pytest.mark.slow(but=1)
 @pytest.mark.parametrize("solution", SHEARED.values(), ids=SHEARED)
 def test_a_limit_of_friction_is_drawn_where_it_fits_and_not_in_stubs(solution):
     axes = plot.picture(solution).axes[2]
@@ -231,6 +234,7 @@ LOOPS = {
 }
 
 
+@pytest.mark.slow(but=1)
 @pytest.mark.parametrize("points", LOOPS.values(), ids=LOOPS)
 def test_the_loop_is_smooth_at_any_zoom(points):
     """Between the points that are solved the drawn curve passes through points that are not."""
@@ -247,6 +251,7 @@ def test_the_loop_is_smooth_at_any_zoom(points):
         assert between[-1].shift * factor == pytest.approx(drawn[0], abs=1e-4 * width)
 
 
+@pytest.mark.slow(but=1)
 @pytest.mark.parametrize("solution", SHEARED.values(), ids=SHEARED)
 def test_a_picture_of_shear_can_be_written(solution):
     assert style.picture_bytes(plot.picture(solution, title="A title"), "png").startswith(
@@ -298,6 +303,7 @@ def test_of_many_patches_the_outermost_edges_are_marked():
     assert edge_lines(plot.picture(solution).axes[0]) == list(solution.edges)
 
 
+@pytest.mark.slow(but=1)
 @pytest.mark.parametrize(
     "scene",
     [ROW, parse(example("dissimilar")).scene, parse(example("partial-slip")).scene],
@@ -406,6 +412,7 @@ def test_the_limit_of_friction_is_drawn_over_the_shear():
     assert drawn["$f p$"].get_zorder() > drawn["$q$"].get_zorder()
 
 
+@pytest.mark.slow(but=1)
 @pytest.mark.parametrize("width", [3.35, 7.0])
 @pytest.mark.parametrize("draw", [plot.picture, stress.contours])
 def test_a_picture_is_as_wide_as_asked_with_its_words_inside(draw, width):

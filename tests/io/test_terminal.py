@@ -63,6 +63,7 @@ def planned(tmp_path, capsys):
     return of
 
 
+@pytest.mark.slow(but=3)
 @pytest.mark.parametrize("name", SHOWN)
 def test_a_report_of_all_quantities_fits_in_80_columns_which_ascii_keeps(name, printed):
     fancy = printed(name, "--want", *(want for want in WANTS if want not in SHOWN[name]))

@@ -83,6 +83,7 @@ CASES = [(profile, "load") for profile in PROFILES] + [
 ]
 
 
+@pytest.mark.slow(but=1)
 @pytest.mark.parametrize(("profile", "asked"), CASES)
 def test_the_stated_error_covers_the_true_one_and_is_no_multiple_of_it(profile, asked):
     """Noise of 1e-4 of the height; 2.5 standard deviations cover 9 of 10 cases with much to
@@ -106,6 +107,7 @@ def test_the_stated_error_covers_the_true_one_and_is_no_multiple_of_it(profile, 
     assert np.median(ratio_of_edges) <= 10.0
 
 
+@pytest.mark.slow(but=2)
 @pytest.mark.parametrize(
     ("points", "size", "smoothing"), [(31, 3e-4, 0.0), (15, 1e-3, "gcv"), (401, 1e-4, 1e-3)]
 )
@@ -265,6 +267,7 @@ def test_lines_of_a_file_without_a_value_count_as_left_out(tmp_path):
     assert trace.gaps[0].missing == trace.mended.left_out
 
 
+@pytest.mark.slow(but=1)
 @pytest.mark.parametrize("sign", [-1.0, 1.0])
 def test_the_report_notes_only_a_pad_that_was_not_levelled(sign):
     h = np.maximum(np.abs(X) - 0.4, 0.0) ** 2 / 0.8
@@ -308,6 +311,7 @@ def test_the_reports_of_a_scene_file_keep_noise_and_certificate_apart():
 # -- several patches -------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("smoothing", [0.0, "gcv"])
 @pytest.mark.parametrize("seed", [1, 2, 3])
 def test_the_error_stated_for_several_patches_covers_that_of_the_noise(smoothing, seed):

@@ -40,6 +40,7 @@ def test_the_pressure_solves_the_integral_equation(scene, seed):
         assert off <= PROMISE * peak + 4 * laws.rounding_of_principal_value(*at)
 
 
+@pytest.mark.slow(but=2)
 @pytest.mark.parametrize("case", CASES, ids=str)
 def test_the_pressure_agrees_with_the_40_digit_reference(case: Case):
     solution, truth = solved(case), exact(case)
@@ -85,6 +86,7 @@ def places(case: Case) -> list[complex]:
     return z
 
 
+@pytest.mark.slow(but=12)
 @pytest.mark.parametrize("case", CASES, ids=str)
 def test_the_potential_agrees_with_the_40_digit_reference(case: Case):
     """Relative to the peak near the contact, to itself beyond."""
@@ -113,6 +115,7 @@ def test_the_potential_is_the_integral_of_its_pressure(scene, seed, angle):
         assert solution.pressure.cauchy(z) == pytest.approx(direct, rel=PROMISE + 100 * rounding)
 
 
+@pytest.mark.slow
 @given(strategies.scenes(), st.integers(0, 2**32 - 1))
 def test_the_potential_jumps_by_the_pressure_across_the_contact(scene, seed):
     """Plemelj: F(x ± i0) = E*/2 h' ∓ i p."""
@@ -151,6 +154,7 @@ def test_the_potential_reaches_its_limit_at_the_surface_continuously(scene, seed
             ).all()
 
 
+@pytest.mark.slow
 @given(strategies.scenes(), st.integers(0, 2**32 - 1))
 def test_the_potential_of_the_mirrored_point_is_the_conjugate(scene, seed):
     solution = sie.solve(scene)
@@ -239,6 +243,7 @@ SAMPLED = (
 GAP_CASES = [case for case in CASES if str(case) in SAMPLED]
 
 
+@pytest.mark.slow(but=2)
 @pytest.mark.parametrize("case", GAP_CASES, ids=str)
 def test_the_gap_agrees_with_the_40_digit_reference(case: Case):
     solution, truth = solved(case), exact(case)

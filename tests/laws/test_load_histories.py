@@ -93,6 +93,7 @@ def loop_area(scene, path):
     return area
 
 
+@pytest.mark.slow
 @settings(max_examples=20)
 @given(paths())
 def test_the_shear_never_exceeds_f_p(case):
@@ -104,6 +105,7 @@ def test_the_shear_never_exceeds_f_p(case):
         assert state.shear.resultant == pytest.approx(carried, abs=1e-12 * Q_UNIT)
 
 
+@pytest.mark.slow
 @settings(max_examples=15)
 @given(paths())
 def test_the_mirror_image_of_a_path_has_the_mirrored_answer(case):
@@ -158,6 +160,7 @@ def test_energy_and_shift_of_a_path_cut_into_parts_are_the_same(case, parts):
         assert other.shift == pytest.approx(one.shift, abs=1e-9 * size)
 
 
+@pytest.mark.slow
 @settings(max_examples=12)
 @given(paths(), st.floats(0.1, 0.9), st.floats(0.1, 0.9))
 def test_a_loop_within_a_step_is_forgotten(case, first, second):
@@ -186,6 +189,7 @@ def test_the_energy_of_a_loop_is_its_area(case):
     assert area == pytest.approx(lost, rel=1e-9, abs=1e-11 * Q_UNIT**2 / MODULUS)
 
 
+@pytest.mark.slow
 @settings(max_examples=8)
 @given(paths())
 def test_a_steady_cycle_is_that_of_the_path_that_settles(case):

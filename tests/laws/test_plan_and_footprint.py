@@ -93,6 +93,7 @@ def footprint(solution):
     return frozenset(STAGES & vars(solution).keys())
 
 
+@pytest.mark.slow(but=67)
 @pytest.mark.parametrize("name", SCENES)
 @pytest.mark.parametrize("want", ASK)
 @pytest.mark.parametrize("economy", [ECONOMIES, ()], ids=["economical", "wasteful"])
@@ -134,6 +135,7 @@ def test_a_want_that_is_no_name_is_refused(want):
         sie.plan(SCENES["flat"], want=want)
 
 
+@pytest.mark.slow
 @given(strategies.scenes())
 def test_the_footprint_is_the_plan_for_random_scenes(scene):
     for want, ask in ASK.items():
@@ -183,6 +185,7 @@ def test_a_plan_computes_nothing():
     assert len(calls) == built
 
 
+@pytest.mark.slow
 @given(strategies.scenes())
 def test_every_economy_leaves_the_answer_as_it_is(scene):
     thrifty = sie.solve(scene)

@@ -79,6 +79,7 @@ def no_warnings():
         yield
 
 
+@pytest.mark.slow(but=93)
 @EVERY
 def test_nan_gives_nan_and_leaves_the_others_alone(query, far_away):
     alone = query(ORDINARY)
@@ -87,6 +88,7 @@ def test_nan_gives_nan_and_leaves_the_others_alone(query, far_away):
     assert np.isnan(query(np.nan)) and np.isnan(query([np.nan, np.nan])).all()
 
 
+@pytest.mark.slow(but=92)
 @EVERY
 def test_infinitely_far_away_it_has_its_limit_and_leaves_the_others_alone(query, far_away):
     mixed = query(np.concatenate(([-np.inf], ORDINARY, [np.inf])))
@@ -94,6 +96,7 @@ def test_infinitely_far_away_it_has_its_limit_and_leaves_the_others_alone(query,
     assert (mixed[[0, -1]] == far_away).all() and query(np.inf) == far_away
 
 
+@pytest.mark.slow(but=84)
 @EVERY
 def test_shapes_are_kept_and_whole_numbers_are_positions(query, far_away):
     assert query([]).shape == (0,) and query(np.zeros((0, 3))).shape == (0, 3)

@@ -118,6 +118,7 @@ def answered(build):
     return solution
 
 
+@pytest.mark.slow(but=90)
 @pytest.mark.parametrize("value", [*MAGNITUDES, *EXTREME])
 @pytest.mark.parametrize("name", INPUTS)
 def test_every_magnitude_of_every_input_is_answered_or_refused_with_a_sentence(name, value):
@@ -152,6 +153,7 @@ SCALED = {
 }
 
 
+@pytest.mark.slow(but=13)
 @pytest.mark.parametrize("name", SCALED)
 @pytest.mark.parametrize("length", [10.0**e for e in range(-300, 301, 100)])
 @pytest.mark.parametrize("stress", [1e-200, 1e-100, 1.0, 1e100, 1e200])
@@ -189,6 +191,7 @@ SIZED = {
 }
 
 
+@pytest.mark.slow(but=4)
 @pytest.mark.parametrize("name", SIZED)
 @pytest.mark.parametrize("length", [1e-100, 1e-60, 1.0, 1e60, 1e100])
 @pytest.mark.parametrize("modulus", [1e-100, 1.0, 1e100])

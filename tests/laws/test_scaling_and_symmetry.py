@@ -44,6 +44,7 @@ SCALED = {
 SCALES = (1e-100, 1e-6, 1e12, 1e100)
 
 
+@pytest.mark.slow(but=13)
 @pytest.mark.parametrize("name", SCALED)
 @pytest.mark.parametrize("tilt", [0.0, 0.0625])
 def test_a_unit_of_length_changes_no_dimensionless_answer(name, tilt):

@@ -129,6 +129,7 @@ def test_a_query_that_is_no_setting_is_a_bad_request(server):
     assert refusal.value.code == 400
 
 
+@pytest.mark.slow
 def test_the_command_serves_the_scene_of_a_file_until_it_is_interrupted(tmp_path):
     scene = tmp_path / "scene.toml"
     scene.write_text(example("wedge"), encoding="utf-8")
@@ -193,6 +194,7 @@ def moved(page, name, key="ArrowRight"):
     return page.inner_text("#numbers") + page.inner_text("#status")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("width", [390, 1280])
 def test_every_slider_moves_the_answer_by_the_keyboard(server, browser, width):
     page = opened(browser, server.address, width)
@@ -211,6 +213,7 @@ def test_every_slider_moves_the_answer_by_the_keyboard(server, browser, width):
     page.close()
 
 
+@pytest.mark.slow
 def test_a_saved_page_works_from_a_file_and_is_small(browser, tmp_path):
     first = {control.name: control.start for control in SAVED}
     name = "|".join(["rounded flat", *(f"{value:g}" for value in first.values())])

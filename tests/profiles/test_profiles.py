@@ -250,6 +250,7 @@ def right_handed(terms):
     return total
 
 
+@pytest.mark.slow(but=1)
 @pytest.mark.parametrize("build", DEEP.values(), ids=DEEP)
 def test_a_profile_nested_thousands_deep_is_a_value_that_solves(build):
     profile = build()

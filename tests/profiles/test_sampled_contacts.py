@@ -23,6 +23,7 @@ def cosine(x):
     return 0.01 * np.cos(2.0 * np.pi * x) + 0.002 * np.sin(6.0 * np.pi * x)
 
 
+@pytest.mark.slow(but=2)
 @pytest.mark.parametrize("last", [1.0, 0.995], ids=["ends in the same place", "ends a step before"])
 @pytest.mark.parametrize(
     "made",
@@ -174,6 +175,7 @@ def test_one_patch_of_a_rough_trace_is_refused_with_its_intervals_and_what_helps
         sie.solve(sie.Scene(profile=WAVY, modulus=1.0, half_width=0.6)).one_patch()
 
 
+@pytest.mark.slow(but=1)
 @pytest.mark.parametrize(
     "made",
     [
@@ -232,6 +234,7 @@ def test_a_contact_at_the_end_of_a_trace_is_refused_with_the_trace_s_own_reason(
     assert ("hollow" in str(refused.value)) == ("arches" in says)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("sign", [-1.0, 1.0])
 def test_a_refusal_names_places_of_the_trace(sign):
     """One of both edges is searched for in the mirror image."""
@@ -269,6 +272,7 @@ def test_waves_on_a_base_do_not_hide_the_contact_that_presses_them_flat(load):
     )
 
 
+@pytest.mark.slow
 @given(st.floats(1e-5, 3e-4), st.floats(3.0, 30.0), st.floats(1e-5, 1e-2))
 # An edge within some ulp of a point of the trace
 @example(3.208964811676877e-05, 9.81311208978229, 0.0031236263147810506)
@@ -383,6 +387,7 @@ def test_the_shift_of_a_mesh_is_found(mesh):
     assert found["resultant"] == pytest.approx(0.0, abs=1e-2)
 
 
+@pytest.mark.slow
 def test_stresses_in_the_body_are_compared_whichever_way_y_points(mesh, tmp_path):
     solution, run = mesh
     x, y = np.meshgrid(np.linspace(-1.0, 1.2, 12), np.linspace(0.0, 1.0, 7))

@@ -146,6 +146,7 @@ def cycle():
     return sie.Cycle(sie.follow(SCENE, LOADS))
 
 
+@pytest.mark.slow(but=1)
 @pytest.mark.parametrize(("name", "y"), [("swt", 0.0), ("findley", 0.05), ("fatemi-socie", 0.0)])
 def test_no_place_at_a_depth_exceeds_the_worst_one(name, y, cycle):
     worst = parameters(cycle, None, y)[name]

@@ -81,6 +81,7 @@ def polished(a, friction, x, y):
     return x, y, j2(x, y)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("a", "f"),
                          [(0.0, 0.0), (0.05, 0.0), (0.1, 0.1), (0.15, 0.0), (0.3, 0.2), (0.5, 0.0),
                           (0.8, 0.05), (0.95, 0.0),
@@ -141,6 +142,7 @@ def test_the_jump_to_the_surface_leaves_the_limit_continuous():
         assert np.abs(np.diff([p.ratio for p in found])).max() <= 0.12
 
 
+@pytest.mark.slow
 @settings(max_examples=15)
 @given(
     strategies.scenes(sharp=False),
@@ -374,6 +376,7 @@ def test_the_largest_stress_of_an_incompressible_body_may_lie_just_beside_a_corn
     assert found.stress >= limit * (1 + 1e-6)
 
 
+@pytest.mark.slow
 def test_next_to_the_end_of_a_stick_zone_no_depth_is_worse():
     profile = sie.Piecewise((-0.25, 0.125), ((0.25, 1.0), (0.5, 2.0), (0.375, 3.0)))
     scene = sie.Scene(
@@ -395,6 +398,7 @@ def test_next_to_the_end_of_a_stick_zone_no_depth_is_worse():
         assert around(solution, x) <= found.stress * (1 + 1e-12)
 
 
+@pytest.mark.slow(but=2)
 @pytest.mark.parametrize("exponent", [1.2644369020018338, 1.51, 1.67])
 @pytest.mark.parametrize("poisson", [0.0, 0.3, 0.5])
 def test_a_cusp_takes_no_more_points_than_other_profiles(exponent, poisson, monkeypatch):

@@ -49,6 +49,7 @@ def places(case):
     ]
 
 
+@pytest.mark.slow(but=15)
 @pytest.mark.parametrize("depth", DEPTHS)
 @pytest.mark.parametrize("case", REFERENCED, ids=str)
 def test_every_component_agrees_with_forty_digits_under_kinks_and_edges_too(case, depth):
@@ -114,6 +115,7 @@ def test_the_derivative_of_a_potential_is_its_derivative(density):
         )
 
 
+@pytest.mark.slow(but=1)
 @pytest.mark.parametrize("case", [c for c in CASES if c.sharp != (False, False)], ids=str)
 def test_potentials_of_sharp_edges_agree_with_forty_digits(case):
     """F from the reference's own quadrature, F' from Cauchy's formula on it."""

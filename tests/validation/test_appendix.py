@@ -12,6 +12,7 @@ from validation.appendix_equations import DIGITS, EQUATIONS, Setting, mp
 from validation.topics.appendix import CASES, WRONG, agreed, digits
 
 
+@pytest.mark.slow(but=1)
 @settings(max_examples=4)
 @given(
     ratio=between(0.02, 0.98),
@@ -31,6 +32,7 @@ def test_an_equation_of_the_appendix_holds_on_random_punches(equation, ratio, pl
     assert found.pop("sie", 16) >= 11.5  # of a logarithm that may be near zero
 
 
+@pytest.mark.slow(but=10)
 @pytest.mark.parametrize("case", CASES)
 @pytest.mark.parametrize("equation", [e for e in EQUATIONS if e.printed], ids=lambda e: e.name)
 def test_a_misprinted_equation_is_wrong_in_the_third_digit(equation, case):

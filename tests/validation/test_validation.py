@@ -189,6 +189,7 @@ TRIED = (
 )
 
 
+@pytest.mark.slow(but=2)
 @pytest.mark.parametrize("name", TRIED)
 def test_every_claim_of_a_topic_holds_and_its_control_does_not(name):
     (section,), _ = run([name], quick=True)
@@ -261,6 +262,7 @@ def test_a_sweep_detects_a_wrong_answer():
     assert outcome.spoiled == pytest.approx(SPOILED, rel=0.5)
 
 
+@pytest.mark.slow
 def test_the_sweep_over_pieces_sums_over_all_of_them(monkeypatch):
     """Pieces without corners between them would never meet the sums over far ones."""
     assert sweeps.pieces(1000).error < 1e-13
@@ -329,6 +331,7 @@ def test_codes_of_others_race_where_they_are_installed_and_are_named_where_not(m
     assert all(error > 0.5 for _, error, _, _ in work_precision.race(wavy(), method, quick=True))
 
 
+@pytest.mark.slow(but=2)
 @pytest.mark.parametrize("problem", [kinked(0.5), wavy(), sliding()], ids=lambda p: p.name)
 def test_a_race_measures_the_error_that_it_states(problem):
     p = problem.solution.pressure(problem.x)
@@ -336,6 +339,7 @@ def test_a_race_measures_the_error_that_it_states(problem):
     assert problem.error(p * (1 + 1e-9)) == pytest.approx(1e-9, rel=0.1)
 
 
+@pytest.mark.slow
 def test_the_truth_of_sliding_agrees_with_the_closed_form():
     from analytic import sliding_rounded_flat  # noqa: PLC0415
     from validation.rivals.problems import Sliding  # noqa: PLC0415

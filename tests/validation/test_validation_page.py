@@ -212,6 +212,7 @@ def test_an_interrupt_does_not_wait_for_the_remaining_topics(monkeypatch):
     ]
 
 
+@pytest.mark.slow
 def test_topics_beside_each_other_find_what_they_find_alone():
     alone, beside = (
         run(["mutation"], quick=True)[0][0],

@@ -1,0 +1,49 @@
+"""The size of the house, which is a promise too: each folder of `sie` has a budget of lines.
+
+To raise a row is a decision, with its reason in docs/decisions/; a deletion lowers it.
+"""
+
+from pathlib import Path
+
+import pytest
+
+import sie
+
+HOUSE = Path(sie.__file__).parent
+LINES = {
+    "": 5200,
+    "benchmark_set": 10,
+    "cauchy": 2300,
+    "certificate": 2150,
+    "contact": 3050,
+    "examples": 10,
+    "friction": 16100,
+    "io": 4850,
+    "live": 650,
+    "numerics": 1850,
+    "patches": 6950,
+    "plots": 1100,
+    "problem": 1000,
+    "profiles": 5750,
+    "stress": 2250,
+    "sweeps": 800,
+    "traction": 2800,
+}
+FILES = 300
+
+
+def lines_of(folder):
+    paths = (HOUSE / folder).rglob("*.py") if folder else HOUSE.glob("*.py")
+    return sum(len(path.read_text(encoding="utf-8").splitlines()) for path in paths)
+
+
+@pytest.mark.parametrize("folder", LINES)
+def test_a_folder_has_no_more_lines_than_its_budget(folder):
+    assert lines_of(folder) <= LINES[folder]
+
+
+def test_every_folder_has_a_budget_and_the_files_are_few():
+    assert {path.parent.relative_to(HOUSE).parts[:1] for path in HOUSE.rglob("*.py")} <= {
+        (folder,) if folder else () for folder in LINES
+    }
+    assert len(list(HOUSE.rglob("*.py"))) <= FILES
