@@ -17,7 +17,7 @@ from sie.messages import choices, nearest, suggestion
 from sie.profiles.base import Parity
 from sie.profiles.kinds import KINDS
 from sie.profiles.sampled import Sampled
-from sie.profiles.slope_row import Vectorised
+from sie.profiles.slope import Vectorised
 from sie.profiles.trace_files import Column
 from sie.profiles.trace_units import Side
 from sie.profiles.trace_values import Smoothing
