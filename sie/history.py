@@ -221,18 +221,23 @@ class History(PathContacts, Sequence[Solution]):
             The loads of each point, its stick zones, and the energy dissipated up to it if that is
             known.
         """
-        turned = "tilt" if self.path.tilt else "moment"
-        rows = []
-        for state, point in counted("turning points", zip(self.turning_points, self), len(self)):
-            P, Q, sigma, turn = state.loads
-            row: dict[str, Any] = {"normal_load": P, "tangential_load": Q, "bulk_stress": sigma}
-            if self.path.tilt or self.path.moment:
-                row[turned] = turn
-            row["stick"] = [list(zone) for zone in point.stick] if P else []
-            with suppress(ContactError):
-                row["energy_lost"] = point.energy_lost if P else 0.0
-            rows.append(row)
-        return rows
+        return [self.row(k) for k in counted("turning points", range(len(self)), len(self))]
+
+    def row(self, index: int) -> dict[str, Any]:
+        """The row of one point, as of `rows`."""
+        point, (P, Q, sigma, turn) = self[index], self.turning_points[index].loads
+        row: dict[str, Any] = {"normal_load": P, "tangential_load": Q, "bulk_stress": sigma}
+        if self.path.tilt or self.path.moment:
+            row["tilt" if self.path.tilt else "moment"] = turn
+        row["stick"] = [list(zone) for zone in point.stick] if P else []
+        with suppress(ContactError):
+            row["energy_lost"] = point.energy_lost if P else 0.0
+        return row
+
+    def _repr_html_(self) -> str:
+        from sie.io.html_report import history_html  # noqa: PLC0415 -- a higher layer
+
+        return history_html(self)
 
     # -- for steps and states ----------------------------------------------------------------------
 

@@ -55,13 +55,17 @@ LAYERS = (
 # Methods that stand where users look for them and hand their work to a module above, which they
 # import when they are called.
 HANDED_UP = {
+    ("sie.history", "sie.io.html_report"),
     ("sie.history", "sie.plots.one_axes"),
     ("sie.io.html_report", "sie.plots.contact_plot"),
+    ("sie.problem.load_path", "sie.io.html_report"),
     ("sie.problem.scene", "sie.io.scene_writing"),
     ("sie.profiles.base", "sie.profiles.derived"),
     ("sie.solution", "sie.history"),
     ("sie.solution", "sie.io.html_report"),
     ("sie.solution", "sie.plots.one_axes"),
+    ("sie.steady_cycle", "sie.io.html_report"),
+    ("sie.stress.fretting", "sie.io.html_report"),
 }
 
 

@@ -1,4 +1,4 @@
-"""A solution as a notebook shows it: a small table, and the picture where Matplotlib is installed.
+"""Solutions, paths and cycles as a notebook shows them: a table, and a picture where there is one.
 
 The units are the labels that scene files have by default; nothing is converted.
 """
@@ -6,30 +6,111 @@ The units are the labels that scene files have by default; nothing is converted.
 from __future__ import annotations
 
 import base64
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from html import escape
 from typing import Any
 
 from sie.errors import ContactError
+from sie.history import History
 from sie.messages import NAMES
+from sie.problem.load_path import Path
 from sie.solution import Solution
+from sie.steady_cycle import SteadyCycle
 
 from .report import edges_summary, peak_summary, shear_summary
 from .scene_file import UNITS
 
 WIDTH = "3.35in"
-CELL = '<tr><td style="text-align:left">{}</td><td style="text-align:left">{}</td></tr>'
+CELL = '<td style="text-align:left">{}</td>'
 LABELS = f"in {UNITS.length}, {UNITS.force}, {UNITS.stress}, or other consistent units"
+MANY = 20  # rows of points; of more the first and the last ones are shown
+HEADS = {
+    "normal_load": "P",
+    "tangential_load": "Q",
+    "bulk_stress": "σ",
+    "sigma": "σ",
+    "stick_from": "stick from",
+    "stick_to": "to",
+    "energy_lost": "energy lost",
+}
 
 
 def html(solution: Solution) -> str:
     """The table and the picture; the sentence of the refusal for a scene without an answer."""
+    return _shown(solution.scene, lambda: _of_solution(solution))
+
+
+def path_html(path: Path) -> str:
+    """The points of a path."""
+
+    def row(k: int) -> dict[str, float]:
+        turns = {name: getattr(path, name)[k] for name in ("tilt", "moment") if getattr(path, name)}
+        return dict(zip(("P", "Q", "σ"), path.points[k], strict=True)) | turns
+
+    return _shown(path, lambda: _points(row, len(path)))
+
+
+def cycle_html(states: Sequence[Any], row: Callable[[Any], Mapping[str, Any]]) -> str:
+    """The states of a cycle by their rows."""
+    return _shown(states, lambda: _points(lambda k: row(states[k]), len(states)))
+
+
+def steady_html(steady: SteadyCycle) -> str:
+    """The turning points, the permanent stick zone and the energy of each cycle."""
+
+    def content() -> str:
+        zones = ", ".join(f"{lo:.6g} to {hi:.6g}" for lo, hi in steady.stick) or "none"
+        rows = [("stick", zones), ("energy in a cycle", f"{steady.energy:.6g}")]
+        loads = [point.loads for point in steady.history.turning_points]
+        points = _points(lambda k: {"P": loads[k].P, "Q": loads[k].Q, "σ": loads[k].sigma}, 2)
+        return points + _table(rows)
+
+    return _shown(steady, content)
+
+
+def history_html(history: History) -> str:
+    """The turning points and the loop."""
+
+    def content() -> str:
+        return _points(history.row, len(history)) + _picture(_loop, history)
+
+    return _shown(history, content)
+
+
+def _shown(owner: Any, content: Callable[[], str]) -> str:
     try:
-        return f"<div>{_table(solution)}{_picture(solution)}</div>"
+        return f"<div>{content()}</div>"
     except ContactError as error:
-        return f"<div>{escape(repr(solution.scene))}<br>{escape(str(error))}</div>"
+        return f"<div>{escape(repr(owner))}<br>{escape(str(error))}</div>"
 
 
-def _table(solution: Solution) -> str:
+# -- tables ----------------------------------------------------------------------------------------
+
+
+def _table(rows: Iterable[Iterable[str]]) -> str:
+    lines = ("".join(CELL.format(escape(cell)) for cell in row) for row in rows)
+    return f"<table>{''.join(f'<tr>{line}</tr>' for line in lines)}</table><small>{LABELS}</small>"
+
+
+def _points(row: Callable[[int], Mapping[str, Any]], count: int) -> str:
+    """Numbered rows of points: all of a few, else the first and the last ones."""
+    half = MANY // 2
+    numbers = range(count) if count <= MANY else [*range(half), *range(count - half, count)]
+    rows = {k: row(k) for k in numbers}
+    names = list(dict.fromkeys(name for values in rows.values() for name in values))
+    cells = [[str(k), *(_cell(values.get(n, "")) for n in names)] for k, values in rows.items()]
+    if count > MANY:
+        cells.insert(half, [f"... {count - MANY} more", *[""] * len(names)])
+    return _table([["point", *(HEADS.get(name, name) for name in names)], *cells])
+
+
+def _cell(value: Any) -> str:
+    if isinstance(value, list):
+        return "; ".join(f"{lo:.6g} to {hi:.6g}" for lo, hi in value) or "none"
+    return value if isinstance(value, str) else f"{value + 0.0:.6g}"
+
+
+def _of_solution(solution: Solution) -> str:
     sections = [edges_summary(solution, UNITS), peak_summary(solution, UNITS)]
     sections += [shear_summary(solution, UNITS)] if solution.carries_shear else []
     check = solution.check()
@@ -37,15 +118,33 @@ def _table(solution: Solution) -> str:
         f"{'certificate':<{NAMES}}{'met' if check.ok else 'NOT met'}: {check.error:.1e}"
     )
     lines = "\n".join(section.partition("\n\n")[0] for section in sections).splitlines()
-    rows = [CELL.format(escape(line[:NAMES].strip()), escape(line[NAMES:])) for line in lines]
-    return f"<table>{''.join(rows)}</table><small>{LABELS}</small>"
+    return _table((line[:NAMES].strip(), line[NAMES:]) for line in lines) + _picture(
+        _contact, solution
+    )
 
 
-def _picture(solution: Solution) -> str:
+# -- pictures --------------------------------------------------------------------------------------
+
+
+def _contact(solution: Solution) -> Any:
+    from sie.plots.contact_plot import picture  # noqa: PLC0415 -- a higher layer
+
+    return picture(solution)
+
+
+def _loop(history: History) -> Any:
+    from sie.plots.contact_plot import loop_along  # noqa: PLC0415 -- a higher layer
+
+    return history.plot() if loop_along(history) else None
+
+
+def _picture(draw: Callable[[Any], Any], what: Any) -> str:
+    """What draws itself in a notebook; nothing without Matplotlib, or where there is none."""
     try:
-        from sie.plots.contact_plot import picture  # noqa: PLC0415 -- a higher layer
+        drawn = draw(what)
     except ImportError:
         return ""
-    drawn: Any = picture(solution)  # whose figure draws itself in a notebook
+    if drawn is None:
+        return ""
     data = base64.b64encode(drawn._repr_png_()).decode()
     return f'<br><img style="width:{WIDTH}" src="data:image/png;base64,{data}">'

@@ -5,8 +5,6 @@ A cycle is a sequence of states, one Solution after each step of the load.
     slip amplitude     δ(x) = (max s - min s)/2 over the cycle
     Ruiz (1984)        κ1 = max|q| δ, friction work, for wear
                        κ2 = max σ_xx max|q| δ, for the start of cracks
-
-Fatigue parameters on critical planes are in `fatigue`.
 """
 
 from __future__ import annotations
@@ -127,6 +125,11 @@ class Cycle:
     def __repr__(self) -> str:
         return f"Cycle([{listed(self.states)}])"
 
+    def _repr_html_(self) -> str:
+        from sie.io.html_report import cycle_html  # noqa: PLC0415 -- a higher layer
+
+        return cycle_html(self.states, _row)
+
     @cached_property
     def size(self) -> int:
         """The number of states."""
@@ -189,9 +192,7 @@ class Cycle:
             For "xx", "yy", "xy", and "zz" where Poisson's ratio is known.
         """
         stresses = [state.stress(x, y) for state in self.states]
-        names = (
-            ("xx", "yy", "xy", "zz") if all(s.knows_zz for s in stresses) else ("xx", "yy", "xy")
-        )
+        names = ("xx", "yy", "xy", *["zz"] * all(s.knows_zz for s in stresses))
         values = ((name, np.stack([getattr(s, name) for s in stresses])) for name in names)
         return {name: Range(v.min(axis=0), v.max(axis=0)) for name, v in values}
 
@@ -390,9 +391,8 @@ def _product(a: Array, b: Array) -> Array:
 
 def _row(state: Any) -> dict[str, float]:
     """The loads, the contact and the stick zone of a state."""
-    x1, x2 = state.pressure.interval
     row = {"P": state.normal_load, "Q": state.tangential_load, "sigma": state.tractions.bulk_stress}
-    row |= {"x1": x1, "x2": x2}
+    row |= dict(zip(("x1", "x2"), state.pressure.interval, strict=True))
     if state.stick:
         row |= {"stick_from": state.stick[0][0], "stick_to": state.stick[-1][1]}
     with suppress(ContactError, AttributeError):  # of a steady state only the cycle's is known

@@ -57,11 +57,14 @@ class Interrupted(KeyboardInterrupt):
     ----------
     result : xarray.Dataset or dict
         The answers up to then; the other points are nan with the reason "interrupted".
+    done, points : int
+        The number of points that were finished, and that of all.
     """
 
-    def __init__(self, result: Any) -> None:
+    def __init__(self, result: Any, done: int, points: int) -> None:
         super().__init__(
-            "the sweep was interrupted: its answers up to then are in the exception's `result`"
+            f"{done} of {points} points were finished when the sweep was interrupted: they are in "
+            "the exception's `result`; sweep over the others to go on"
         )
         self.result = result
 
@@ -152,7 +155,9 @@ def sweep(
                 run.through(executor)
     except KeyboardInterrupt:
         stopped = [INTERRUPTED if answer is NOT_YET else answer for answer in run.answers]
-        raise Interrupted(file.finish(labelled(axes, wanted, stopped, named))) from None
+        done = len(points) - stopped.count(INTERRUPTED)
+        result = file.finish(labelled(axes, wanted, stopped, named))
+        raise Interrupted(result, done, len(points)) from None
     return file.finish(labelled(axes, wanted, run.answers, named))
 
 

@@ -106,6 +106,35 @@ def test_a_solution_is_a_table_and_a_picture():
     assert not re.search(r"nan|None|\n\n", html.partition("<img")[0])
 
 
+STEADY = sie.steady_cycle(FRETTING.scene, (500.0, 100.0), (500.0, -100.0))
+
+
+@pytest.mark.parametrize(
+    ("shown", "rows", "pictures"),
+    [
+        (HISTORY, len(HISTORY) + 1, 1),
+        (FRETTING.load_path, len(HISTORY) + 1, 0),
+        (sie.Cycle(HISTORY), len(HISTORY) + 1, 0),
+        (STEADY, 3 + 2, 0),
+        (sie.Path([(10.0, 0.0), (10.0, 2.0)]).subdivided(1000), 1 + 20 + 1, 0),
+    ],
+    ids=["history", "path", "cycle", "steady cycle", "long path"],
+)
+def test_a_path_and_a_cycle_are_tables_of_their_points(shown, rows, pictures):
+    html = shown._repr_html_()
+    assert html.count("<tr>") == rows and html.count("<img") == pictures
+    assert ">P</td>" in html and ">Q</td>" in html and ">σ</td>" in html
+    assert not re.search(r"nan|None|\[", html.partition("<img")[0])
+
+
+def test_the_tables_hold_the_stick_zones_and_the_energy():
+    lo, hi = HISTORY[-1].stick[0]
+    assert f"{lo:.6g} to {hi:.6g}" in HISTORY._repr_html_()
+    for shown in (HISTORY, sie.Cycle(HISTORY)):
+        assert f">{HISTORY[-1].energy_lost:.6g}<" in shown._repr_html_()
+    assert f">{STEADY.energy:.6g}<" in STEADY._repr_html_()
+
+
 @pytest.mark.parametrize("found", [SHEARED.check(), sie.plan(PUNCH.scene)], ids=["check", "plan"])
 def test_a_certificate_and_a_plan_are_shown_as_their_tables(found):
     assert found._repr_html_() == f"<pre>{escape(str(found))}</pre>"

@@ -1,6 +1,8 @@
 """An interrupt, a worker that dies or a function that raises costs a sweep its own points only."""
 
 import os
+import signal
+import traceback
 from concurrent.futures import (
     BrokenExecutor,
     Executor,
@@ -82,6 +84,29 @@ def test_an_interrupt_within_a_chunk_keeps_its_first_points():
     with pytest.raises(sie.Interrupted) as caught:
         sie.sweep(SCENE, over={"normal_load": [0.1, 0.2, 0.3, 0.4]}, want={"b": impatient}, chunk=4)
     assert np.isfinite(plain(caught.value.result)["b"]).tolist() == [True, True, False, False]
+
+
+def test_an_interrupt_among_refused_scenes_is_one_sentence():
+    """Ctrl-C comes while the reason of the third refusal is read."""
+    read = []
+
+    class Refused(ValueError):
+        def __str__(self):
+            read.append(1)
+            if len(read) == 3:
+                signal.raise_signal(signal.SIGINT)
+            return "no such scene"
+
+    def refused(normal_load):
+        raise Refused
+
+    with pytest.raises(sie.Interrupted) as caught:
+        sie.sweep(refused, **FOUR_WIDTHS)
+    found = plain(caught.value.result)
+    assert found["reason"].tolist() == ["no such scene"] * 2 + ["interrupted"] * 2
+    printed = "".join(traceback.format_exception(caught.value))
+    assert printed.count("Traceback") == 1 and "During handling" not in printed
+    assert "2 of 4 points were finished" in printed.splitlines()[-1]
 
 
 def test_an_interrupt_keeps_chunks_that_are_done_but_not_yet_taken(monkeypatch):
