@@ -34,6 +34,8 @@ Complex = NDArray[np.complex128]
 
 GAUSS = 16  # nodes on a panel
 FEWEST = 8  # panels
+# of the period: a knot within rounding of an even cut leaves a panel without places between nodes
+NARROWEST = 1e-10
 CLOSED = 1e-12  # periods: a gap at a concave corner that is no wider is taken for none
 # how often the panels of the certificate are graded towards breaks, and where H jumps at some:
 # p is infinite there like a logarithm, of which the last panel has to hold next to nothing
@@ -285,8 +287,9 @@ class FullContact:
         x, w = pressure.rule
         p = pressure(x)
         lo, hi, piece = pressure.panels
-        at = (lo + (hi - lo) * 0.45)[:: max(len(lo) // 100, 1)]
-        own = piece[:: max(len(lo) // 100, 1)]
+        wide = np.flatnonzero(hi - lo > NARROWEST * pressure.period)
+        some = wide[:: max(len(wide) // 100, 1)]
+        at, own = (lo + (hi - lo) * 0.45)[some], piece[some]
         values = pressure(at)
         condition = pressure.mean / max(_minimum(pressure, x, p), TENSION * pressure.mean)
         kernel = (np.pi / pressure.period) / np.tan(np.pi * (at[:, None] - x) / pressure.period)

@@ -66,6 +66,15 @@ def test_the_condition_is_what_the_load_changes(profile, load):
     assert 0.1 * condition < measured(solution) < 10.0 * condition
 
 
+def test_full_contact_is_certified_with_a_knot_within_rounding_of_a_panel():
+    """The knots 0.01 k and the even cuts of the period differ by rounding."""
+    x = 0.01 * np.arange(240)
+    trace = sie.Sampled(x, 1e-4 * np.cos(2.0 * np.pi * x / 2.4))
+    scene = sie.Scene(profile=sie.Periodic(trace, 2.4), modulus=1.0, normal_load=2.4)
+    certificate = sie.solve(scene).check()
+    assert certificate.ok and certificate.error < 1e-13
+
+
 def test_full_contact_that_is_about_to_end_is_said_to_be():
     """The lowest pressure of a wave, P less 2, changes by 1/δ of itself where P = 2 (1 + δ)."""
     certificate = solved(WAVE, 2.0 * (1.0 + 1e-7)).check()
