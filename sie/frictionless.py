@@ -91,6 +91,8 @@ class Frictionless:
             return several_patches(self.scene)
         except ContactError as error:
             told = one_patch if isinstance(one_patch, LoadError) and not error.reached else error
+            if self.scene.half_width is not None:  # which patches have not, but for its limit
+                told = one_patch if one_patch and "widest" in one_patch.reached else error
             raise explained(told, self.scene.profile) from None
 
     @property

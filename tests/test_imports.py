@@ -64,7 +64,7 @@ HANDED_UP = {
     ("sie.solution", "sie.history"),
     ("sie.solution", "sie.io.html_report"),
     ("sie.solution", "sie.plots.one_axes"),
-    ("sie.steady_cycle", "sie.io.html_report"),
+    ("sie.steady_state", "sie.io.html_report"),
     ("sie.stress.fretting", "sie.io.html_report"),
 }
 

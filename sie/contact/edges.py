@@ -352,7 +352,8 @@ class Search:
         if 2.0 * r > (hi - lo) * (1.0 + 4.0 * EPS):
             raise LoadError(
                 f"the half-width {r:.6g} exceeds that of the indenter, {0.5 * (hi - lo):.6g}: "
-                "give at most that, or a normal_load"
+                "give at most that, or a normal_load",
+                widest=0.5 * (hi - lo),
             )
         z1, z2 = self.touch()
         if 2.0 * r <= z2 - z1:

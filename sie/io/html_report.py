@@ -15,7 +15,7 @@ from sie.history import History
 from sie.messages import NAMES
 from sie.problem.load_path import Path
 from sie.solution import Solution
-from sie.steady_cycle import SteadyCycle
+from sie.steady_state import SteadyCycle
 
 from .report import edges_summary, peak_summary, shear_summary
 from .scene_file import UNITS
