@@ -29,6 +29,7 @@ NEAREST = 1e-6  # half-widths from an edge
 ACROSS, PLACES, NARROW = 10_000, 6000, 1e-6
 BETWEEN = 32  # further places between two where the slope falls, and between their neighbours
 CLOSE = 0.1  # of the largest height on the way: so low a place may be one of contact
+WIDE = 1.0 / 32.0  # of all places: of a part that long the resolution needs no hint
 BESIDE = 2.0  # lengths of a part on which the slope falls: beyond, a narrow valley is over
 MOST = 128  # ends of parts on which it falls: waves in greater number show by themselves
 COARSE = np.append(0.0, np.geomspace(NEAREST, FARTHEST, int(DENSE * np.log10(FARTHEST / NEAREST))))
@@ -149,8 +150,8 @@ def turns(slope: Slope, x: Array) -> Array:
 def run_ends(x: Array, falling: Bool) -> Array:
     """Ends of the runs of places between which a slope falls, and places BESIDE them."""
     ends = np.flatnonzero(np.diff(np.concatenate(([False], falling, [False]))))
-    step = len(x) // 8  # of parts that long the resolution needs no hint
-    narrow = np.repeat(ends[1::2] - ends[::2] < step, 2)
+    room = WIDE * (x[-1] - x[0])
+    narrow = np.repeat(x[ends[1::2]] - x[ends[::2]] < room, 2)
     if np.count_nonzero(narrow) > MOST:
         return x[:0]
     lo, hi = x[ends[narrow]].reshape(-1, 2).T
