@@ -196,13 +196,6 @@ class Measure:
         lo = np.where(reach > middle, -size * beside, size * inner)
         return lo, size * np.sin(0.5 * np.minimum(middle + reach, np.pi)) ** 2
 
-    @cached_property
-    def tree(self) -> Tree:
-        """Charges of Hω, ω, Hb, b."""
-        k = self.panels
-        sources = np.stack((self.H * self.omega, self.omega, self.H * self.b, self.b))
-        return Tree(self.ends, k.patch, k.points, sources)
-
     def groups(self, i: Index, x: Points, group: Index) -> Groups:
         """The groups of blocks that follow each other, and the intervals that they are in."""
         P = self.patches

@@ -274,8 +274,6 @@ def _unclosed(o: Operator, tilt: float, given: Given) -> Array:
     sharp = np.flatnonzero(o.Y)
     if sharp.size:
         e, k, Y = P.edges[sharp], sharp // 2, o.Y[sharp]
-        ratio = edge_ratio(P, np.arange(N))[:, sharp]
-        missed[:N] += (ratio * P.chord.cosine(e - P.c[:, None])) @ Y
         force = P.chord.apart(e - P.c[k]) * Y
         missed[-2] += force.sum()
         missed[-1] += (force @ e) * (given.moment is not None)

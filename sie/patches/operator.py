@@ -23,12 +23,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .chord import Points
-from .measure import Measure, Targets, close, edge_ratio, integrals
+from .measure import Measure, Targets, close, integrals
 from .panels import GapPanels, gap_panels
 from .pieces import Pieces
 from .state import Findings, State
 from .sums import Groups, add, far_sums, parts, ranges, steps
-from .tree import Level, Separation
+from .tree import Level, Separation, Tree
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
@@ -56,7 +56,31 @@ class Operator(Measure):
         if near.far:
             far = far_sums(self.patches.chord, groups, near, t.x, self._charges_at, odd=True)
             total += far[..., 0] - t.reference * far[..., 1]
-        return total - self._charged(t)
+        return total
+
+    @cached_property
+    def tree(self) -> Tree:
+        """Charges of Hω, ω, Hb, b; the point charges are sources of Hω and Hb."""
+        k, d, Y = self.panels, self.patches.chord.apart, self._of_panels
+        lever = d(k.points.anchor[:, 0] - self.patches.c[k.patch])
+        edge = np.stack((Y, 0.0 * Y, Y * lever, 0.0 * Y))[..., None]
+        nodes = np.stack((self.H * self.omega, self.omega, self.H * self.b, self.b))
+        sources = Points(k.points.anchor, np.pad(k.points.offset, ((0, 0), (0, 1))))
+        return Tree(self.ends, k.patch, sources, np.concatenate((nodes, edge), axis=2))
+
+    @cached_property
+    def _of_panels(self) -> Array:
+        """The point charges of the edges at which panels begin, 0 on the others."""
+        k = self.panels
+        return np.asarray(np.where(k.lo == 0.0, self.Y[2 * k.patch + k.right], 0.0))
+
+    def _pointed(self, i: Index, panel: Index) -> tuple[Index, Array, Array]:
+        """Which of the panels have a point charge, Y_e ρ_i(e), ρ_i(e) = d(e, c_k)/d(e, c_i), e."""
+        some = np.flatnonzero(self._of_panels[panel])
+        q, c, d = panel[some], self.patches.c, self.patches.chord.apart
+        e = self.panels.points.anchor[q, 0]
+        Y = self._of_panels[q] * d(e - c[self.panels.patch[q]]) / d(e - c[i[some]])
+        return some, Y, e
 
     @cached_property
     def gaps(self) -> GapPanels:
@@ -93,6 +117,9 @@ class Operator(Measure):
             value = sums[..., 0] - (t.reference[row] - local) * sums[..., 1]
             if pair.size:
                 value[pair, place] += integrals(self, q[pair], nu[pair], t.flat(row[pair], place))
+            charged, Y, e = self._pointed(t.i[row], q)
+            x = t.x[row[charged]]
+            value[charged] += Y[:, None] / chord.apart(e[:, None] - x.anchor, -x.offset)
             add(total, row, value)
         return total
 
@@ -119,7 +146,7 @@ class Operator(Measure):
 
     @cached_property
     def closures(self) -> tuple[Array, Array]:
-        """∫ H cos dν_i and ∫ cos dν_i of all patches i, without point charges."""
+        """∫ H cos dν_i and ∫ cos dν_i of all patches i, the first with the point charges."""
         P, N = self.patches, self.patches.number
         every = np.arange(N)
         x = Points(P.edges.reshape(N, 2), np.zeros((N, 2)))
@@ -129,23 +156,14 @@ class Operator(Measure):
         nu = self.measure(near.group, near.row) * P.chord.cosine(t.anchor - c, t.offset)
         total = np.zeros((N, 2))
         sums = np.stack(((nu * self.H[near.row]).sum(axis=1), nu.sum(axis=1)), axis=1)
+        charged, Y, e = self._pointed(near.group, near.row)
+        sums[charged, 0] += Y * P.chord.cosine(e - P.c[near.group[charged]])
         add(total, near.group, sums)
         for level, node, group in near.far:
             q, charge = self._far_measure(level, node, group)
             cosine = P.chord.cosine(q.anchor - P.c[group, None], q.offset)
             add(total, group, (charge * cosine[..., None]).sum(axis=1))
         return total[:, 0], total[:, 1]
-
-    def _charged(self, t: Targets) -> Any:
-        """Σ Y_e ρ_i(e)/d(x, e)."""
-        P = self.patches
-        sharp = np.flatnonzero(self.Y)
-        if not sharp.size:
-            return 0.0
-        charge = (self.Y * edge_ratio(P, t.i))[:, sharp]
-        x = t.x
-        step = P.chord.apart(x.anchor[..., None] - P.edges[sharp], x.offset[..., None])
-        return ((1.0 / step) @ charge[..., None])[..., 0]
 
 
 # -- D at points of the patches and in the gaps ----------------------------------------------------

@@ -5,6 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from sie.errors import LoadError
+
 from .chord import Chord
 from .panels import Patches
 from .pieces import Pieces
@@ -88,7 +90,7 @@ def mended(state: State, found: Findings, pieces: Pieces) -> State:
             cut.append((P.b[k] - 0.01 * P.r[k], P.a[k + 1] + 0.01 * P.r[k + 1]))
         else:
             cut.append((P.a[0] - P.gaps[k] - 0.01 * P.r[k], P.a[0] + 0.01 * P.r[0]))
-    a, b = np.array(apart(cut + [e for e in added if e is not None])).T
+    a, b = apart(cut + [e for e in added if e is not None])
     if P.chord.periodic:
         a, b = one_period(*_wrapped(a, b, P.chord.period), P.chord.period)
     return bounded(a, b, pieces, P.chord, state.tilt)
@@ -133,15 +135,17 @@ def _added(overlap: Overlap, state: State, pieces: Pieces) -> tuple[float, float
 # -- the edges of patches -------------------------------------------------------------------------
 
 
-def apart(ends: list[tuple[float, float]]) -> list[tuple[float, float]]:
-    """Patches that overlap as one."""
+def apart(ends: list[tuple[float, float]]) -> tuple[Array, Array]:
+    """Patches that overlap as one. Raises LoadError where there are none."""
     found: list[tuple[float, float]] = []
     for a, b in sorted(ends):
         if found and a <= found[-1][1]:
             found[-1] = found[-1][0], max(b, found[-1][1])
         else:
             found.append((a, b))
-    return found
+    _refuse_none(len(found))
+    starts, stops = np.array(found).T
+    return starts, stops
 
 
 def one_period(a: Array, b: Array, period: float) -> tuple[Array, Array]:
@@ -152,15 +156,27 @@ def one_period(a: Array, b: Array, period: float) -> tuple[Array, Array]:
 
 
 def bounded(a: Array, b: Array, pieces: Pieces, chord: Chord, tilt: float) -> State:
-    """Patches whose edges stay on the indenter: sharp where they reach its ends."""
+    """Patches whose edges stay on the indenter: sharp where they reach its ends.
+
+    Raises LoadError where none is left.
+    """
     a, b = _off_higher_sides(*_at_walls(a, b, pieces), pieces)
     lo, hi = pieces.solid_around(0.5 * (a + b))
     sharp = np.stack((a <= lo, b >= hi), axis=1).ravel()
     a, b = np.maximum(a, lo), np.minimum(b, hi)
     kept = b > a
+    _refuse_none(np.count_nonzero(kept))
     state = Patches(a[kept], b[kept], chord)
     sharp = sharp.reshape(-1, 2)[kept].ravel()
     return State(state, sharp, np.zeros(len(sharp)), tilt)
+
+
+def _refuse_none(patches: int) -> None:
+    if not patches:
+        raise LoadError(
+            "every patch of contact is narrower than doubles resolve: raise the load, "
+            "choose other units, or give a domain"
+        )
 
 
 def _at_walls(a: Array, b: Array, pieces: Pieces) -> tuple[Array, Array]:

@@ -187,7 +187,7 @@ def _within(problem: Problem, window: tuple[float, float]) -> Found:
             return state
         # at this tilt the contact changes from one indenter to another: both carry the load
         both = [touched(asked, t, COARSE).patches for t in tilts]
-        a, b = np.array(apart([e for P in both for e in zip(P.a, P.b, strict=True)])).T
+        a, b = apart([e for P in both for e in zip(P.a, P.b, strict=True)])
         return bounded(a, b, pieces, problem.chord, tilt)
 
     try:
@@ -242,7 +242,7 @@ def settled(state: State, pieces: Pieces, problem: Problem) -> Found:
     early = EARLY if state.patches.number > SEVERAL else 0
     seen: set[tuple[object, ...]] = set()
     for round_ in range(ROUNDS):
-        if not state.patches.number or not (state.patches.gaps > 0.0).all():
+        if not (state.patches.gaps > 0.0).all():
             break
         if round_ >= early:
             start = state.rounded

@@ -7,8 +7,6 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from sie.errors import LoadError
-
 from .chord import Chord
 from .of_scene import Problem
 from .pieces import Pieces
@@ -29,12 +27,10 @@ def start_of(grid: Grid, pieces: Pieces, problem: Problem, tilt: float) -> State
         tilt,
         grid.dx,
     )
-    if not patches:
-        raise LoadError("no contact is found on a grid: choose other units, or give a domain")
     ends = [
         _small(n, patch, rivals, pieces) or (patch.a, patch.b) for n, patch in enumerate(patches)
     ]
-    a, b = np.array(apart(ends)).T
+    a, b = apart(ends)
     if problem.chord.periodic:
         a, b = one_period(a, b, problem.chord.period)
     return bounded(a, b, pieces, problem.chord, tilt)

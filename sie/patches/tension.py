@@ -3,6 +3,9 @@
 At a concave corner, where H jumps down, D falls without bound like a logarithm, which no polynomial
 shows: a patch that covers one is in tension there, on an interval that may be too narrow for
 doubles.
+
+Beside a sharp edge D grows like 1/distance, which no polynomial shows either: there the bound is
+that of D sin²(φ/2), of D times the distance from that edge over the width of the patch.
 """
 
 from __future__ import annotations
@@ -29,6 +32,8 @@ def tensions(o: Operator) -> tuple[tuple[Tension, ...], float]:
     k = o.panels
     lo, hi = k.lo, k.hi
     panel = np.arange(len(k.lo))
+    # a charge that pulls is an event of its own
+    sharp = np.where(k.right, 1.0, -1.0) * o.Y[2 * k.patch + k.right] > 0.0
     scale, lowest = 0.0, np.inf
     bad: list[tuple[int, float, float, float, float]] = []
     g, _ = chebyshev.gauss_legendre(NODES)
@@ -37,11 +42,13 @@ def tensions(o: Operator) -> tuple[tuple[Tension, ...], float]:
         D, x = intensities(o, panel, angle)
         finite = D[np.isfinite(D)]
         scale = max(scale, float(finite.max(initial=0.0)))
-        bound = lower_bound(np.where(np.isfinite(D), D, scale))
-        negative = -TENSION * scale > D
+        least = -TENSION * scale
+        distance = np.where(sharp[panel, None], np.sin(0.5 * angle) ** 2, 1.0)
+        bound = lower_bound((np.where(np.isfinite(D), D, scale) - least) * distance) + least
+        negative = least > D
         for j in np.flatnonzero(negative.any(axis=1)):
             bad += [(int(k.patch[panel[j]]), *run) for run in _runs(x[j], negative[j])]
-        enough = bound >= -TENSION * scale
+        enough = bound >= least
         lowest = min(lowest, float(bound[enough].min(initial=np.inf)))
         lowest = min(lowest, float(np.where(negative, D, np.inf).min()))
         open_ = ~enough & ~negative.any(axis=1) & (depth < DEEPEST - 1)

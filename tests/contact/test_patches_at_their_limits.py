@@ -192,3 +192,10 @@ def test_a_search_for_overlaps_of_too_many_parts_is_refused(monkeypatch):
     row = sie.Row([sie.Parabola(1.0).shifted(x) for x in (-2.0, 0.0, 2.0)])
     with pytest.raises(sie.ContactError, match="change the load"):
         _ = sie.solve(sie.Scene(profile=row, modulus=1.0, normal_load=0.1)).edges
+
+
+@pytest.mark.parametrize("load", [1e-249, 1e-120, 1e-60])
+def test_patches_narrower_than_doubles_are_refused(load):
+    row = sie.Row([sie.Parabola(1.0).shifted(-1.0), sie.Parabola(0.5).shifted(0.9).raised(0.02)])
+    with pytest.raises(sie.LoadError, match=r"raise the load|change the load"):
+        _ = solved(profile=row, normal_load=load, moment=0.0).patches

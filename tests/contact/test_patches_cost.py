@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import sie
-from sie.patches import edge_charges, full, newton, start, state
+from sie.patches import edge_charges, full, newton, start, state, tension
 from sie.patches.chord import Chord, Points
 from sie.patches.edge_moves import Damping
 from sie.patches.operator import Operator
@@ -203,3 +203,17 @@ def test_edges_that_no_event_touches_keep_what_they_asked_for():
     damping = Damping(*(np.arange(6.0) + m for m in (10.0, 20.0, 30.0, 40.0)))
     kept, _ = damping.carried(before, after)
     assert kept.insists.tolist() == [30.0, 33.0, 34.0, 35.0]
+
+
+def test_the_bounds_beside_sharp_edges_need_few_halvings(monkeypatch):
+    asked, places = [], tension.intensities
+
+    def counted(o, panel, angle):
+        asked.append(len(panel) / len(o.panels.lo))
+        return places(o, panel, angle)
+
+    monkeypatch.setattr(tension, "intensities", counted)
+    row = sie.Row([sie.Flat(0.4).shifted(float(k)) for k in range(20)])
+    solution = sie.solve(sie.Scene(profile=row, modulus=1.0, normal_load=20.0))
+    assert len(solution.patches) == 20
+    assert sum(asked) < 3.0 * asked.count(1.0)
