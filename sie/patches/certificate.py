@@ -168,18 +168,18 @@ def _rounding(o: Operator, linear: Linear, given: Given, peak: float) -> float:
     charge = 0.25 * linear.intensity * np.spacing(np.abs(P.edges))
     force = charge * P.chord.apart(np.repeat(P.r, 2))
     pole, _ = P.chord.poles(P.chord.difference(P.c[:, None] - P.edges))
-    missed = np.linalg.norm(pole * force, axis=1)
-    moment = float(np.linalg.norm(force * P.edges)) * (given.moment is not None)
-    hull = 0.5 * P.hull
+    missed = np.linalg.norm(pole * (force / peak), axis=1)  # a square of the load may be no double
+    part = force / given.load
+    lever = P.edges / (0.5 * P.hull) if given.moment is not None else np.zeros_like(part)
     terms = o.pieces.terms(o.panels.piece, o.panels.points.x[:, 0])
     # the rounding of a function is that of its values from patch to patch
     between = slice(int(o.pieces.locate(P.a[0])), int(o.pieces.locate(P.b[-1])) + 1)
     series = np.abs(o.pieces.series[between]).sum(axis=1)
     largest = max(float(terms.max(initial=0.0)), float(series.max(initial=0.0)))
     return max(
-        float((missed * o.S[:, 1]).max()) / (np.pi * peak),
-        float(np.linalg.norm(force)) / given.load,
-        moment / (given.load * hull),
+        float((missed * o.S[:, 1]).max()) / np.pi,
+        float(np.linalg.norm(part)),
+        float(np.linalg.norm(part * lever)),
         float(np.spacing(largest)) / (2.0 * peak),
         _charge_of_closed_corners(o) / peak,
     )
