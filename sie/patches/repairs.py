@@ -165,7 +165,7 @@ def bounded(a: Array, b: Array, pieces: Pieces, chord: Chord, tilt: float) -> St
     sharp = np.stack((a <= lo, b >= hi), axis=1).ravel()
     a, b = np.maximum(a, lo), np.minimum(b, hi)
     kept = b > a
-    _refuse_none(np.count_nonzero(kept))
+    _refuse_none(int(np.count_nonzero(kept)))
     state = Patches(a[kept], b[kept], chord)
     sharp = sharp.reshape(-1, 2)[kept].ravel()
     return State(state, sharp, np.zeros(len(sharp)), tilt)

@@ -199,3 +199,9 @@ def test_patches_narrower_than_doubles_are_refused(load):
     row = sie.Row([sie.Parabola(1.0).shifted(-1.0), sie.Parabola(0.5).shifted(0.9).raised(0.02)])
     with pytest.raises(sie.LoadError, match=r"raise the load|change the load"):
         _ = solved(profile=row, normal_load=load, moment=0.0).patches
+
+
+@pytest.mark.parametrize("load", [1e154, 1e160])
+def test_a_load_whose_square_is_no_double_is_certified(load):
+    valleys = sie.Polynomial((0.0, 0.0, -1.0, 0.0, 0.5))
+    assert sie.solve(sie.Scene(profile=valleys, modulus=1.0, normal_load=load)).check().ok
