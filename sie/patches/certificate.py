@@ -7,9 +7,8 @@ gap           h + θx - 2/(πE*) ∫p ln|x - t| dt less the gap is constant in e
               by beyond rounding, over the largest gap, or change of the integral, at these places
 inequalities  the lowest bound of D over the largest D, and places where the gap would be negative
 resolution    E*/2 |h' - its resolution| / peak of a function, at places of its own (`unseen`)
-condition     relative change of the narrowest patch or gap per relative change of the load, or of
-              the half-width that is given; it is large where a patch is about to appear, or two to
-              merge
+condition     relative change of the narrowest patch or gap per relative change of the load; it is
+              large where a patch is about to appear, or two to merge
 """
 
 from __future__ import annotations

@@ -114,13 +114,10 @@ def test_the_certificate_of_one_patch_sees_a_valley_that_the_search_has_missed(m
 
 def test_a_far_valley_that_carries_all_of_the_load_is_seen_by_its_length():
     """Closer places, where the slope falls, do not make the part on which it falls a long one."""
-    x0, width, depth = -16.798413071553924, 0.26404833811076434, 180.4092445872186
-
-    def slope(x):
-        away = (x - x0) / width
-        return x + 2.0 * depth / width * away * np.exp(-(away**2))
-
-    scene = sie.Scene(profile=sie.FromFunction(slope), modulus=1.0, normal_load=0.92568004948)
-    solution = sie.solve(scene)
-    assert solution.edges == pytest.approx((-16.810263, -16.780039), abs=1e-6)
+    profile = sie.FromFunction(valley(-16.8, 0.44, 180.4))
+    solution = sie.solve(sie.Scene(profile=profile, modulus=1.0, normal_load=0.9257))
+    hinted = sie.FromFunction(valley(-16.8, 0.44, 180.4), breaks=(-16.8,))
+    named = sie.solve(sie.Scene(profile=hinted, modulus=1.0, normal_load=0.9257))
+    assert solution.edges == pytest.approx(named.edges, abs=1e-10)
+    assert solution.edges[1] < -16.7
     assert solution.check().ok
