@@ -48,8 +48,9 @@ ROUNDINGS = 16.0 * EPS
 # first.
 VARIES = 4.0
 SMALL_STEP = 4.0 * EPS  # of r: after a last step of at most that the integrals are as before
-# A step longer than this part of the distance to the next break follows what the break adds
-CLOSE = 0.25
+# A step longer than this part of the distance to the next break follows what the break adds; a
+# quarter of the part is what Newton's step leaves of the residual
+CLOSE = 1e-3
 FARTHEST = 0.75  # of r, a step inwards
 STEPS_TO_A_BREAK = 20  # of Newton, for the root of a cubic: no edge integrals are evaluated
 # The residual is halved 53 times from the size of the load to rounding, either bracket 106 times

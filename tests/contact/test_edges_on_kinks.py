@@ -85,6 +85,12 @@ def test_a_search_that_begins_far_from_its_tilt_is_not_barred_by_the_smaller_rou
     assert max(found.edges, found.pressure) <= kinks.PROMISE
 
 
+def test_the_last_step_follows_a_break_so_close_that_newtons_leaves_a_twentieth():
+    """The step is a fifth of the distance from the break; the pressure was off by 2e-11."""
+    found = kinks.outcome(drawn(3281012, "quadratic pieces, jumps of h'", "half-width, tilt"))
+    assert max(found.edges, found.pressure) <= kinks.PROMISE
+
+
 @pytest.mark.slow(but=1)
 @pytest.mark.parametrize(("kind", "asked"), ASKED, ids=lambda v: v.replace(" ", "-"))
 @settings(max_examples=4)
