@@ -1,8 +1,8 @@
 """Profiles as values: equal, hashable, picklable, printed as the code that rebuilds them.
 
 A profile is the gap h(x) between the undeformed indenter and the flat surface; it grows away from
-the contact. A profile states its height, and its slope H = h' piece by piece (`slope.Slope`), which
-is all that the solver uses. The kinds of profile are listed in `kinds`.
+the contact. A profile states its slope H = h' piece by piece (`slope.Slope`), which is all that the
+solver uses, and its height where it has a formula. The kinds of profile are listed in `kinds`.
 
 This module holds what all profiles can do; `derived` has the profiles made of others.
 """
@@ -21,6 +21,7 @@ from numpy.typing import ArrayLike, NDArray
 from sie import arguments
 
 from .power_law import PowerLaw
+from .resolution import integral
 from .slope import Slope
 
 Array = NDArray[np.float64]
@@ -59,8 +60,8 @@ def _all_finite(a: Array) -> bool:
 class Profile(ABC):
     """The undeformed indenter: its gap h(x) to the flat surface.
 
-    A new kind of profile derives from this class and defines `pieces` and `height`; CONTRIBUTING.md
-    says how. Lengths have any unit. Slopes are pure numbers, small against 1.
+    A profile of one's own derives from this class and states `pieces`
+    (docs/how-to/own-profile.md). Lengths have any unit. Slopes are pure numbers, small against 1.
 
     Notes
     -----
@@ -85,11 +86,18 @@ class Profile(ABC):
     @property
     @abstractmethod
     def pieces(self) -> Slope:
-        """H on its declared breaks; functions are resolved when a contact is known."""
+        """The slope h', as `pieces` of another profile or a sum of them.
 
-    @abstractmethod
-    def height(self, x: ArrayLike) -> Array:
+        Those of `Piecewise` are polynomials. Functions (`FromFunction`) are resolved when a contact
+        is known.
+        """
+
+    @of_any_x
+    def height(self, x: Array) -> Array:
         """The gap h(x) before loading.
+
+        It is the integral of the slope from x = 0, or from the end of the indenter that is nearest
+        to it, where the class has no formula.
 
         Parameters
         ----------
@@ -112,6 +120,8 @@ class Profile(ABC):
         >>> sie.Wedge(0.5).height([-1.0, 0.0, 4.0])
         array([0.5, 0. , 2. ])
         """
+        lo, hi = self.domain
+        return integral(self.pieces, min(max(0.0, lo), hi), x)
 
     @property
     def axis(self) -> float | None:

@@ -13,9 +13,8 @@ from numpy.typing import NDArray
 from sie import arguments
 from sie.inheritance import override
 
-from .base import Parity, Profile, of_any_x
+from .base import Parity, Profile
 from .expression import Expression
-from .resolution import integral
 from .slope import FunctionTerm, Slope, Vectorised, polynomial_slope
 
 Array = NDArray[np.float64]
@@ -136,12 +135,6 @@ class FromFunction(Profile):
         breaks = (self.ends[0], *self.declared, self.ends[1])
         flat = polynomial_slope(breaks, [0.0] * (len(breaks) - 1), [(0.0,)] * (len(breaks) - 1))
         return replace(flat, functions=(FunctionTerm(self.function),))
-
-    @of_any_x
-    @override
-    def height(self, x: Array) -> Array:
-        zero = min(max(0.0, self.ends[0]), self.ends[1])
-        return integral(self.pieces, zero, x)
 
     @property
     @override

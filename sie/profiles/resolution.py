@@ -217,7 +217,8 @@ def integral(slope: Slope, start: float, x: Array) -> Array:
         if ahead.size == 0 or ahead.max() <= 0.0:
             continue
         end = start + sign * float(ahead.max())
-        pieces = refined(slope, min(start, end), max(start, end), EPS)
+        a, b = min(start, end), max(start, end)
+        pieces = refined(slope.within(a, b), a, b, EPS)
         out = np.where(ahead > 0.0, _antiderivative(pieces, start, inside), out)
     return np.where((x < lo) | (x > hi), np.inf, out)
 

@@ -3,7 +3,9 @@ what moving and adding them means.
 """
 
 import copy
+import dataclasses
 import pickle
+from functools import cached_property
 
 import numpy as np
 import pytest
@@ -23,6 +25,20 @@ def module_level_slope(x):
     return np.sinh(x)
 
 
+@dataclasses.dataclass(frozen=True)
+class Faceted(sie.Profile):
+    """A parabola as a polygon: a class that states no more than it has to."""
+
+    radius: float
+    facet: float
+
+    @cached_property
+    def pieces(self):
+        corners = self.facet * np.arange(-100, 101)
+        slopes = 0.5 * (corners[1:] + corners[:-1]) / self.radius
+        return sie.Piecewise(corners, [[slope] for slope in slopes]).pieces
+
+
 EVERY_KIND = (
     *(scene_file.parse(scene_file.example(kind)).scene.profile for kind in kinds.KINDS),
     sie.Parabola(2.0),
@@ -36,6 +52,7 @@ EVERY_KIND = (
     sie.Piecewise((-1.0, 0.0, 0.5), ((0.0, 0.5), (0.0, 2.0))),
     sie.FromFunction("sinh(x) + x/3", domain=(-2.0, 3.0)),
     sie.FromFunction(module_level_slope, breaks=(0.5,), domain=(-2.0, 3.0)),
+    Faceted(2.0, 0.125),
     sie.Parabola(2.0).tilted(0.125),
     sie.RoundedFlat(0.5, 3.0).shifted(-0.25),
     sie.Piecewise((-1.0, 0.0, 0.5), ((0.0, 0.5), (0.0, 2.0))).mirrored(),
@@ -57,7 +74,7 @@ def solved(profile):
 def test_a_profile_rebuilt_from_its_repr_is_equal(profile):
     rebuilt = eval(
         repr(profile),
-        vars(sie) | {"inf": INF, "sie": sie, "module_level_slope": module_level_slope},
+        vars(sie) | globals() | {"inf": INF},
     )
     assert rebuilt == profile
     assert repr(rebuilt) == repr(profile)
@@ -107,6 +124,28 @@ def test_solving_does_not_change_a_profile(profile):
     before = hash(profile), repr(profile)
     solved(profile).check()
     assert (hash(profile), repr(profile)) == before
+
+
+# -- a class of one's own -------------------------------------------------------------------------
+
+
+def test_a_height_that_a_class_does_not_state_is_the_integral_of_its_slope():
+    """At the corners the polygon is the parabola, but for what its middle is higher."""
+    x = np.array([-np.inf, -20.0, -0.5, -0.25, 0.0, 0.0625, 0.375, 12.5, np.nan])
+    h = [np.inf, np.inf, 0.0625, 0.015625, 0.0, 0.001953125, 0.03515625, 39.0625, np.nan]
+    assert Faceted(2.0, 0.125).height(x) == pytest.approx(h, rel=1e-14, nan_ok=True)
+
+
+def test_short_facets_press_like_the_parabola_of_hertz():
+    """b = sqrt(4 P R/(π E*)), and the difference falls faster than the length of a facet."""
+    missed = []
+    for facet in (0.05, 0.0125):
+        scene = sie.Scene(profile=Faceted(1.0, facet), modulus=1.0, normal_load=np.pi / 16.0)
+        solution = sie.solve(scene)
+        assert solution.check().ok
+        missed.append(abs(solution.half_width / 0.5 - 1.0))
+    assert 0.0 < missed[0] < 0.05
+    assert missed[1] < 0.25 * missed[0]
 
 
 # -- geometry -------------------------------------------------------------------------------------
