@@ -58,6 +58,10 @@ class FromFunction(Profile):
     largest slope or 8 times the roughness of the function's own rounding. The place of a jump is
     known to one ulp of x. Declare breaks around such places.
 
+    Beside the contact a second valley of h is found if it is wider, at half of its depth, than 1 %
+    of its distance from the middle of the contact; the certificate looks eight times as closely. A
+    break in a narrower valley shows it.
+
     Examples
     --------
     >>> FromFunction("0.5*sinh(x)", parity="even").axis
