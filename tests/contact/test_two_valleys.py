@@ -102,14 +102,45 @@ def test_a_valley_as_wide_as_a_hundredth_of_its_distance_is_seen(domain, part):
     assert contact.check().ok
 
 
-def test_the_certificate_of_one_patch_sees_a_valley_that_the_search_has_missed(monkeypatch):
-    found = sie.solve(
-        sie.Scene(profile=sie.FromFunction(valley(1.5, 0.005, 0.9)), modulus=1.0, normal_load=0.5)
-    )
-    monkeypatch.setattr(type(found), "_of_waves", None)
-    monkeypatch.setattr("sie.frictionless.slope_rises_far", lambda *_: True)
+class Hidden:
+    """A slope with a valley that does not show before it is told to: a search misses it."""
+
+    def __init__(self, base, place, width, depth):
+        self.base, self.place, self.depth = base, place, depth
+        self.w, self.shows = width / (2.0 * np.sqrt(np.log(2.0))), False
+
+    def height(self, x):
+        return -self.depth * np.exp(-(((x - self.place) / self.w) ** 2))
+
+    def __call__(self, x):
+        bent = -2.0 * (x - self.place) / self.w**2 * self.height(x)
+        return self.base(x) + (bent if self.shows else 0.0)
+
+
+def test_the_certificate_of_one_patch_sees_a_valley_that_the_search_has_missed():
+    slope = Hidden(lambda x: x, 1.5, 0.005, 0.9)
+    found = sie.solve(sie.Scene(profile=sie.FromFunction(slope), modulus=1.0, normal_load=0.5))
     assert len(found.patches) == 1
-    assert not found.check().ok and found.check().lowest_gap < 0.0
+    slope.shows = True
+    assert not found.check().ok
+    assert found.check().lowest_gap < 0.0
+
+
+@pytest.mark.parametrize(("place", "width"), [(0.5, 0.2), (-0.2, 0.05), (0.5, 0.01)])
+def test_the_lowest_gap_of_two_patches_is_the_least_of_many_beside_them(place, width):
+    """Over the largest of the same gap, as the certificate states it."""
+    slope = Hidden(lambda x: x - 1.5 * np.sin(2.0 * x), place, width, 0.7)
+    found = sie.solve(sie.Scene(profile=sie.FromFunction(slope), modulus=2.0, normal_load=0.1))
+    (_, a), (b, _) = found.patches
+    x = np.linspace(a, b, 5001)
+    gaps = found.gap(x) + slope.height(x)
+    slope.shows = True
+    certificate = found.check()
+    assert not certificate.ok
+    assert certificate.lowest_gap == pytest.approx(gaps.min() / gaps.max(), rel=2e-3)
+    ((lo, hi),) = certificate.overlap
+    overlapping = x[gaps < -1e-9]
+    assert (lo, hi) == pytest.approx((overlapping[0], overlapping[-1]), abs=0.1 * width)
 
 
 def test_a_far_valley_that_carries_all_of_the_load_is_seen_by_its_length():
