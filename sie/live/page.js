@@ -61,6 +61,19 @@ function showContact(a) {
   showNumbers([a.numbers]);
 }
 
+function stressTitle(text) {
+  figures.map((figure) => figure.title).find((t) => t.text.startsWith("Mises")).text = text;
+}
+
+function hideStress() {
+  for (const source of sources.bands) {
+    source.data.dw[0] = source.data.dh[0] = 0;
+    source.change.emit();
+  }
+  stressTitle("No Mises stress: the sentence above says why");
+  fill("weakest", { x: [], y: [] });
+}
+
 function showStress(a, contact) {
   const [lo, hi, depth] = a.frame;
   for (const source of sources.bands) {
@@ -68,8 +81,7 @@ function showStress(a, contact) {
     Object.assign(source.data, { x: [lo], y: [0], dw: [hi - lo], dh: [depth] });
     source.change.emit();
   }
-  const title = figures.map((figure) => figure.title).find((t) => t.text.startsWith("Mises"));
-  title.text = `Mises stress, 0 to ${a.top.toPrecision(3)}; ×: first yield`;
+  stressTitle(`Mises stress, 0 to ${a.top.toPrecision(3)}; ×: first yield`);
   fill("weakest", { x: a.weakest.map((w) => w[0]), y: a.weakest.map((w) => w[1]) });
   showNumbers([contact.numbers, a.numbers]);
 }
@@ -96,7 +108,8 @@ async function update() {
     for (const id of ["pictures", "numbers"]) element(id).classList.remove("stale");
     const stress = await answer(values, "stress");
     if (turn !== latest) return;
-    if (stress.refusal) status.textContent = stress.refusal;
+    status.textContent = stress.refusal || "";
+    if (stress.refusal) hideStress();
     else showStress(stress, contact);
     document.body.dataset.shown = document.body.dataset.settled = turn;
   } catch (error) {
