@@ -34,7 +34,7 @@ from . import __version__, files, interrupt
 from .command_parser import STANDARD, TOL, parse
 from .command_requests import outputs_of, picture_style, refuse_overwriting, scene_of
 from .errors import ContactError
-from .interrupt import INTERRUPTED
+from .interrupt import INTERRUPTED, SENTENCE
 from .io import scene_file
 from .io.scene_file import SceneFile
 from .messages import WIDE, with_short_words
@@ -65,7 +65,9 @@ def main(argv: Sequence[str] | None = None) -> int:
     except BrokenPipeError:
         discard_output()
         return UNREAD
-    except KeyboardInterrupt:
+    except KeyboardInterrupt as stopped:
+        discard_output()
+        print_error(str(stopped) or SENTENCE)
         return INTERRUPTED
     except (ValueError, ContactError, OSError) as problem:
         discard_output()

@@ -154,10 +154,10 @@ def test_exhausted_memory_is_reported_in_a_sentence(scene, monkeypatch, capsys):
     assert "memory" in sentence(capsys)
 
 
-def test_an_interruption_is_exit_code_130(scene, monkeypatch, capsys):
+def test_an_interruption_is_exit_code_130_and_a_sentence(scene, monkeypatch, capsys):
     def interrupted(*args, **kwargs):
         raise KeyboardInterrupt
 
     monkeypatch.setattr(command, "solve", interrupted)
     assert main(["solve", scene]) == 130
-    assert capsys.readouterr() == ("", "")
+    assert capsys.readouterr() == ("", "sie: interrupted by Ctrl-C\n")

@@ -360,7 +360,7 @@ sys.meta_path.insert(0, Interrupting())
 @posix
 @pytest.mark.parametrize("module", ["numpy", "sie.traction.base", "sie.solution", "sie.io.report"])
 @pytest.mark.parametrize("start", ["-m sie", "as a script"])
-def test_an_interruption_while_modules_are_imported_is_quiet(start, module, folder):
+def test_an_interruption_while_modules_are_imported_is_a_sentence(start, module, folder):
     (folder / "sitecustomize.py").write_text(IMPORTING)
     (folder / "sie").write_text("import sys\nfrom sie.cli import main\nsys.exit(main())\n")
     path = os.pathsep.join([str(folder), *(place for place in sys.path if place)])
@@ -372,7 +372,8 @@ def test_an_interruption_while_modules_are_imported_is_quiet(start, module, fold
     found = subprocess.run(
         command, env=environment, capture_output=True, check=False, preexec_fn=heeded
     )
-    assert (found.returncode, found.stdout, found.stderr) == (130, b"", b"")
+    assert (found.returncode, found.stdout) == (130, b"")
+    assert found.stderr == b"sie: interrupted by Ctrl-C\n"
 
 
 def test_a_program_of_another_name_keeps_its_handler_of_interruptions():
