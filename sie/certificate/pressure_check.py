@@ -36,7 +36,7 @@ from sie.progress_bar import reported, step_done
 from sie.traction.of_slope import SlopeDensity
 
 from .quadrature import Rule, composite_rule
-from .result import Certificate
+from .result import Certificate, unresolved
 
 Array = NDArray[np.float64]
 
@@ -73,6 +73,7 @@ def _measured(density: SlopeDensity, slope: Slope, tol: float) -> Certificate:
     residual = _residual(density, H, rule, p)
     outside, gaps = relative_gaps(density, slope, FINER, start_of(density.interval))
     of_force, of_equation = _rounding(density, H_beside - H, rule, p)
+    abscissae = max(of_force / P, of_equation / peak)
     regular = regular_points(density, slope, x)
     bounded_peak = float(p[regular].max(initial=0.0))
     by_values = bool(slope.functions) and density.resolves
@@ -88,13 +89,14 @@ def _measured(density: SlopeDensity, slope: Slope, tol: float) -> Certificate:
         / P,  # P r may underflow
         lowest_pressure=min(float(p.min()) / peak, 0.0),
         lowest_gap=float(gaps.min(initial=0.0)),
-        abscissae=max(of_force / P, of_equation / peak),
+        abscissae=abscissae,
         tol=tol,
         tension=intervals_below(x, p / peak),
         overlap=intervals_below(outside, gaps),
         resolution=resolution,
         edges=_load_on_edges(density, resolved, rule) / (math.pi * r * (bounded_peak or peak)),
-        notes=notes(np.concatenate((H, H_at_edges)), bounded_peak / (2.0 * density.half_modulus)),
+        notes=unresolved(abscissae)
+        + notes(np.concatenate((H, H_at_edges)), bounded_peak / (2.0 * density.half_modulus)),
     )
 
 

@@ -22,6 +22,10 @@ LEAST = 8.0 * EPS  # rounding of single pressures, which the integrals average o
 # what one ulp of x does may add up to this multiple in a principal value next to a corner
 EXPLAINED = 16.0
 MOST_EXPLAINED = 0.1  # of the peak: where rounding of x can do more than that, nothing is certified
+UNRESOLVED = (
+    "One ulp of x changes these sums by more than is certified, so that they measure nothing: doubles "
+    "of x do not tell the pressure next to an edge; raise the load."
+)
 RETREAT = "with Q and σ in proportion the zones of slip would retreat on the way here"
 
 
@@ -228,6 +232,11 @@ class ShearCertificate:
         if self.advancing:
             return (f"slip: {self.kind}",)
         return (f"slip: {self.kind}, in total displacements: {RETREAT}",)
+
+
+def unresolved(abscissae: float) -> tuple[str, ...]:
+    """The note on a certificate where rounding of x explains more than may be certified."""
+    return (UNRESOLVED,) if EXPLAINED * abscissae > MOST_EXPLAINED else ()
 
 
 def _allowed(tol: float, abscissae: float) -> float:

@@ -478,3 +478,17 @@ def test_what_is_neglected_of_dissimilar_bodies_is_a_note(given):
 )
 def test_nothing_is_noted_where_nothing_is_neglected(given):
     assert sie.solve(sie.Scene(**PAIR | given)).notes == ()
+
+
+@pytest.mark.parametrize("load", [7e-12, 7e-30, 7e-50, 7e-76])
+def test_a_certificate_whose_sums_rounding_of_x_decides_says_what_is_known(load):
+    """Beside a flat base the rim of a light contact is narrower than doubles are apart."""
+    profile = sie.RoundedFlat(0.5, 2.0)
+    solution = sie.solve(sie.Scene(profile=profile, modulus=1.0, normal_load=load))
+    found = solution.check()
+    said = any("One ulp of x" in note for note in found.notes)
+    assert found.ok != said
+    assert said == (load < 1e-40)
+    # P = 2 E* sqrt(2 a) rim^(3/2)/(3 R), to leading order in rim/a
+    contact = solution.normal.edges.contact
+    assert (contact.x2 - 0.5) + contact.tail2 == pytest.approx((3.0 * load) ** (2 / 3), rel=1e-7)
