@@ -23,8 +23,8 @@ LEAST = 8.0 * EPS  # rounding of single pressures, which the integrals average o
 EXPLAINED = 16.0
 MOST_EXPLAINED = 0.1  # of the peak: where rounding of x can do more than that, nothing is certified
 UNRESOLVED = (
-    "One ulp of x changes these sums by more than is certified, so that they measure nothing: doubles "
-    "of x do not tell the pressure next to an edge; raise the load."
+    "One ulp of x changes these sums by more than is certified, so that they measure nothing: "
+    "doubles of x do not tell the pressure next to an edge; raise the load."
 )
 RETREAT = "with Q and σ in proportion the zones of slip would retreat on the way here"
 
