@@ -66,6 +66,7 @@ def test_two_thousand_scenes_on_two_processes_give_bitwise_the_serial_answers(cl
     assert all((parallel[name] == serial[name]).all() for name in serial)
 
 
+@pytest.mark.slow  # a cluster starts interpreters, and a new one for that which is killed
 @pytest.mark.skipif(os.name == "nt", reason="Windows has no SIGKILL")
 def test_a_worker_that_is_killed_in_the_middle_costs_a_retry_and_no_result(cluster, tmp_path):
     note = tmp_path / "killed"
