@@ -295,6 +295,8 @@ class Slope:
             for k, lo, hi in ((0, *self.breaks[:2]), (-1, *self.breaks[-2:])):
                 if np.isinf(lo - hi) and lo < origins[k] < hi and c[k, 1]:
                     origins[k] = min(max(origins[k] - c[k, 0] / c[k, 1], lo), hi)
+        if (origins == self.origins).all():
+            return self
         c, tails = self.about(np.arange(len(origins)), origins, c.shape[1])
         return replace(self, origins=origins, coefficients=c, tails=tails)
 
