@@ -49,9 +49,9 @@ class FunctionTerm:
         """Values at t, given offset = t - shift."""
         # `resolution` refuses values that are not finite, and names the place.
         with np.errstate(all="ignore"):
-            values = arguments.real_values("slope", self.function, self.sign * offset)
-            signed: Array = self.sign * values
-        return signed
+            if self.sign > 0.0:
+                return arguments.real_values("slope", self.function, offset)
+            return -arguments.real_values("slope", self.function, -offset)
 
 
 @dataclass(frozen=True, eq=False)
