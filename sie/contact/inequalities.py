@@ -65,7 +65,7 @@ def slope_rises_far(contact: Interval, slope: Slope) -> bool:
 
 def rises_at(places: tuple[Array, Array], slope: Slope) -> bool:
     """Whether h' rises from place to place."""
-    return all(not falls(look.values(slope, x)).any() for x in places)
+    return not falls(look.values(slope, np.concatenate(places))).any()
 
 
 def _least_gaps(

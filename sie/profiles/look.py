@@ -21,7 +21,8 @@ Bool = NDArray[np.bool_]
 SEEN = 0.01  # width of a valley at half of its depth, of its distance from the contact's middle
 FINER = 8
 CLOSELY = 1e6  # half-widths: how far out places are as close as that
-FARTHEST = 1e140  # half-widths, how far out the slope of an indenter without ends is looked at
+# half-widths, how far out the slope of an indenter without ends is looked at, and a function
+FARTHEST, FAR = 1e140, 1e30
 DENSE = 20  # places for each factor 10 of the distance, beyond and next to an edge
 EVEN = 1000  # places between the ends of an indenter that is made of polynomials
 NEAREST = 1e-6  # half-widths from an edge
@@ -42,7 +43,7 @@ def _distances(finer: int) -> tuple[Array, int]:
     step = 0.5 * SEEN / finer
     close = np.expm1(np.arange(step, np.log(CLOSELY), step))
     near = np.geomspace(NEAREST, close[0], int(DENSE * np.log10(close[0] / NEAREST)) + 1)[:-1]
-    far = np.geomspace(CLOSELY, FARTHEST, int(DENSE * np.log10(FARTHEST / CLOSELY)))
+    far = np.geomspace(CLOSELY, FAR, int(DENSE * np.log10(FAR / CLOSELY)))
     return np.concatenate(([0.0], near, close, far)), len(near) + 1
 
 
@@ -59,19 +60,17 @@ def beside(
     if start:
         moved = 1.0 + 0.5 * SEEN / finer * start
         distance[near:] = (distance[near:] + r) * moved - r
+    left, right = edges[0] - distance[::-1], edges[1] + distance
     lo, hi = slope.domain
     breaks = slope.breaks[np.isfinite(slope.breaks)]
+    if not breaks.size:
+        return left, right
     if np.isfinite(hi - lo) or (len(breaks) > 1 and not slope.functions):
         number = ACROSS if slope.functions else EVEN
         breaks = np.concatenate((breaks, np.linspace(breaks[0], breaks[-1], number)))
-    found = []
-    for place, (a, b) in (
-        (edges[0] - distance[::-1], (lo, edges[0])),
-        (edges[1] + distance, (edges[1], hi)),
-    ):
-        every = np.clip(np.concatenate((place, breaks)), a, b)
-        found.append(np.unique(every) if breaks.size else place)
-    return found[0], found[1]
+    left = np.concatenate((breaks[breaks <= edges[0]], left[left > lo]))
+    right = np.concatenate((right[right < hi], breaks[breaks >= edges[1]]))
+    return np.sort(left, kind="stable"), np.sort(right, kind="stable")
 
 
 def across(slope: Slope, window: tuple[float, float], start: float = 0.0) -> Array:

@@ -49,9 +49,9 @@ class FunctionTerm:
         """Values at t, given offset = t - shift."""
         # `resolution` refuses values that are not finite, and names the place.
         with np.errstate(all="ignore"):
-            values = arguments.real_values("slope", self.function, self.sign * offset)
-            signed: Array = self.sign * values
-        return signed
+            if self.sign > 0.0:
+                return arguments.real_values("slope", self.function, offset)
+            return -arguments.real_values("slope", self.function, -offset)
 
 
 @dataclass(frozen=True, eq=False)
@@ -295,6 +295,8 @@ class Slope:
             for k, lo, hi in ((0, *self.breaks[:2]), (-1, *self.breaks[-2:])):
                 if np.isinf(lo - hi) and lo < origins[k] < hi and c[k, 1]:
                     origins[k] = min(max(origins[k] - c[k, 0] / c[k, 1], lo), hi)
+        if (origins == self.origins).all():
+            return self
         c, tails = self.about(np.arange(len(origins)), origins, c.shape[1])
         return replace(self, origins=origins, coefficients=c, tails=tails)
 

@@ -20,6 +20,7 @@ from __future__ import annotations
 import math
 import zlib
 from collections.abc import Callable, Sequence
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -28,6 +29,7 @@ from numpy.typing import NDArray
 from sie.numerics import chebyshev
 from sie.numerics.interval import EPS, Interval
 
+from .look import values
 from .resolution import NOISE, refuse_non_finite, rounding_noise
 from .slope import Slope
 
@@ -83,17 +85,21 @@ def start_of(edges: tuple[float, ...]) -> float:
 
 
 def scattered(contact: Interval, start_at: int = 0) -> Array:
-    """Points inside the contact, ascending: SAMPLES of the sequence that its edges determine.
+    """Points inside the contact: SAMPLES of the sequence that its edges determine.
 
     Further points halve their distance from an edge, down to CLOSEST of the contact.
     """
-    start = start_of((contact.x1, contact.x2))
-    fractions = (start + GOLDEN * np.arange(start_at, start_at + SAMPLES)) % 1.0
+    fractions = start_of((contact.x1, contact.x2)) + _sequence(start_at)
+    fractions -= fractions >= 1.0
     width = contact.x2 - contact.x1
     near = width * CLOSEST ** ((fractions[:HALVINGS] + np.arange(HALVINGS)) / HALVINGS)
     x = np.concatenate((contact.x1 + width * fractions, contact.x1 + near, contact.x2 - near))
-    x = np.sort(x)
-    return x[(x > contact.x1) & (x < contact.x2) & np.append(True, np.diff(x) > 0.0)]
+    return x[(x > contact.x1) & (x < contact.x2)]
+
+
+@lru_cache(maxsize=2)
+def _sequence(start_at: int) -> Array:
+    return (GOLDEN * np.arange(start_at, start_at + SAMPLES)) % 1.0
 
 
 def misfit(
@@ -111,7 +117,7 @@ def misfit(
     x = scattered(contact, start_at)
     if len(x) < 2:
         return x, np.zeros(len(x))
-    H = slope(x)
+    H = values(slope, x)
     refuse_non_finite(x, H)
     difference = np.abs(H - resolutions[0](x))
     for known in resolutions[1:]:
@@ -119,6 +125,8 @@ def misfit(
     allowed = MISSED * tol * float(np.abs(H).max())
     if difference.max() <= allowed:
         return x, np.zeros(len(x))
+    x, order = np.unique(x, return_index=True)
+    H, difference = H[order], difference[order]
     allowed += _noise(slope, contact)
     rises = np.abs(np.diff(H)) / np.diff(x)
     steep = np.maximum(np.append(rises, 0.0), np.append(0.0, rises))

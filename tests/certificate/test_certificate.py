@@ -260,7 +260,7 @@ def test_no_gap_between_the_scattered_points_is_wider_than_documented():
     contact = sie.solve(
         sie.Scene(profile=sie.Parabola(1.0), modulus=1.0, normal_load=0.3)
     ).normal.edges.contact
-    assert np.diff(unresolved.scattered(contact)).max() <= 5e-4 * 2.0 * contact.r
+    assert np.diff(np.sort(unresolved.scattered(contact))).max() <= 5e-4 * 2.0 * contact.r
 
 
 def test_where_the_scattered_points_lie_depends_on_the_last_digit_of_an_edge():
@@ -268,9 +268,9 @@ def test_where_the_scattered_points_lie_depends_on_the_last_digit_of_an_edge():
         sie.Scene(profile=sie.Parabola(1.0), modulus=1.0, normal_load=0.3)
     ).normal.edges.contact
     other = one._replace(x2=math.nextafter(one.x2, 9.0))
-    middle = slice(1300, 1309)  # the first and last are near the edges
+    first = slice(0, 9)  # the last are near the edges
     assert (
-        np.abs(unresolved.scattered(one)[middle] - unresolved.scattered(other)[middle]).max() > 1e-9
+        np.abs(unresolved.scattered(one)[first] - unresolved.scattered(other)[first]).max() > 1e-9
     )
 
 

@@ -86,6 +86,15 @@ def test_an_interrupt_within_a_chunk_keeps_its_first_points():
     assert np.isfinite(plain(caught.value.result)["b"]).tolist() == [True, True, False, False]
 
 
+@pytest.fixture
+def heeded():
+    """Ctrl-C is heeded: a job in the background inherits that it is ignored."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
+@pytest.mark.usefixtures("heeded")
 def test_an_interrupt_among_refused_scenes_is_one_sentence():
     """Ctrl-C comes while the reason of the third refusal is read."""
     read = []
