@@ -176,9 +176,13 @@ def test_a_scene_reads_the_units_of_its_trace_and_says_so(tmp_path, capsys):
     text += "[pair]\nmodulus = 1.0\n[load]\nnormal_load = 1e-5\n"
     scene.write_text(text)
     assert scene_file.read(scene).scene.profile.points[-1] == pytest.approx(4e-3, rel=1e-14)
-    assert main(["solve", str(scene), "--want", "edges"]) == 0
+    answer = tmp_path / "answer.json"
+    assert main(["solve", str(scene), "--want", "edges", "--json", str(answer)]) == 0
     said = capsys.readouterr().out
     assert "x in um and h in um, converted to mm; h is the gap" in " ".join(said.split())
+    (reading,) = json.loads(answer.read_text())["readings"]
+    assert reading.pop("units") == ["um", "um"]
+    assert reading == {"file": "scan.csv", "length": "mm", "scale": "", "side": "gap"}
 
 
 def test_a_scene_that_uses_units_asks_for_those_of_its_trace(tmp_path):
