@@ -49,7 +49,7 @@ def notes_of(solution: Solution, file: SceneFile) -> tuple[str, ...]:
 
 
 def yield_notes(solution: Solution, file: SceneFile) -> tuple[str, ...]:
-    """A sentence where the yield stress of the file is exceeded, at any point of a path."""
+    """A sentence where the yield stress is exceeded at a point of a path, not between them."""
     strength = file.fatigue.yield_stress
     if not strength:
         return ()

@@ -12,7 +12,6 @@ import numpy as np
 
 from sie.messages import WIDE, named_rows
 from sie.problem.request import energy_costs
-from sie.profiles.trace_units import Reading
 from sie.solution import Solution
 
 from .answers import energy_of, notes_of, readings_of, slipping, wanted
@@ -59,12 +58,9 @@ def summary(
         parts.append(cycle_summary(cycle, file))
     printed = solution.check().notes if "check" in wanted(file) else ()
     notes = "\n".join(note for note in notes_of(solution, file) if note not in printed)
-    head = "\n".join(filter(None, [file.title, scene, *map(_reading, readings_of(solution))]))
+    readings = [textwrap.fill(f"trace {reading}", WIDE) for reading in readings_of(solution)]
+    head = "\n".join(filter(None, [file.title, scene, *readings]))
     return "\n\n".join([head, *parts, *filter(None, [notes])])
-
-
-def _reading(reading: Reading) -> str:
-    return textwrap.fill(f"trace {reading}", WIDE)
 
 
 def edges_summary(solution: Solution, units: Units) -> str:

@@ -203,7 +203,8 @@ class Slope:
             left, right = self._sides
             return tuple(left.tolist()), tuple(right.tolist())
         ends = self.breaks[1:-1].tolist()  # a flat piece has no row
-        below, above = ({row[end]: row.at(row[end]) for row in self.rows} for end in (1, 0))
+        below = {row.hi: row.at(row.hi) for row in self.rows}
+        above = {row.lo: row.at(row.lo) for row in self.rows}
         return tuple(below.get(b, 0.0) for b in ends), tuple(above.get(b, 0.0) for b in ends)
 
     @cached_property
@@ -390,7 +391,6 @@ def _distance(origins: Array, breaks: Array) -> Array:
     """The distance of each origin from its piece.
 
     It is 0 inside a bounded piece; else the distance from the one end, or from x = 0 without ends.
-
     Contact is near the finite breaks; a far origin makes large coefficients that cancel there.
     """
     lo, hi = breaks[:-1], breaks[1:]
