@@ -12,7 +12,7 @@ breaks of the slope; nothing of the closed forms is used. The resolution is comp
 low-discrepancy sequence (`profiles.unresolved`). An edge x2 that is off by δ carries ΔP = G r JR δ
 too much (`contact.edges`), and leaves ΔP/(π w(x)) in the pressure, like the load on a flat punch:
 next to the edge that is p(x) δ/(2 d), d the distance from it. δ is at least half an ulp of x2, if
-x2 is kept as a double. The rounding of ∫H dφ is a part of ΔP.
+x2 is kept as a double. The rounding of ∫H dφ is a part of ΔP, and so is that of the terms of H.
 
 Where an edge is sharp the pressure has no peak: there `peak` is that of p sqrt(1 - s²).
 """
@@ -117,7 +117,8 @@ def _load_on_edges(density: SlopeDensity, slope: Slope, rule: Rule) -> float:
     contact, r, e = density.contact, density.contact.r, density.epsilon
     G = density.half_modulus * math.cos(math.pi * e)
     k = _edge_integrals(density, slope, rule)
-    rounding = SUMMED * r * (k.positive + k.negative)
+    of_terms = EPS * math.pi * float(_sizes_of_terms(slope, rule.x).max())
+    rounding = r * (SUMMED * (k.positive + k.negative) + of_terms)
     edges = (
         (density.k1, contact.x1, contact.tail1, k.I1 - k.I0, k.JL, 0.5 + e),
         (density.k2, contact.x2, contact.tail2, k.I1 + k.I0, k.JR, 0.5 - e),
@@ -130,6 +131,16 @@ def _load_on_edges(density: SlopeDensity, slope: Slope, rule: Rule) -> float:
                 missed, abs(density.resultant / G - r * K) + kept * (r * J + share * abs(k.I0))
             )
     return G * (missed + rounding)
+
+
+def _sizes_of_terms(slope: Slope, x: Array) -> Array:
+    """Σ_j |c_j (x - origin)^j|: H is rounded to EPS of it, however much of it cancels."""
+    k = np.searchsorted(slope.breaks[1:-1], x)
+    y, c = np.abs(x - slope.origins[k]), np.abs(slope.coefficients)
+    values: Array = c[k, -1]
+    for j in range(c.shape[1] - 2, -1, -1):
+        values = values * y + c[k, j]
+    return values
 
 
 def _edge_integrals(density: SlopeDensity, slope: Slope, rule: Rule) -> EdgeIntegrals:

@@ -181,7 +181,8 @@ def trace_reports(
     reference is.
     """
     several = not isinstance(found, SlopeDensity)
-    repeated = several and scene.profile.period < np.inf
+    period = scene.profile.period if several else np.inf
+    repeated = period < np.inf
     reports = []
     for placed in traces_in(scene.profile):
         points = placed.trace.points
@@ -193,7 +194,7 @@ def trace_reports(
             if isinstance(found, SlopeDensity)
             else _drawn(placed, reference, scene, found)
         )
-        report = _report(placed, edges, reference, errors)
+        report = _report(placed, edges, reference, errors, period)
         reports.append(replace(report, aside=report.aside and not repeated))
     return tuple(reports)
 
@@ -202,8 +203,9 @@ def _drawn(placed: PlacedTrace, reference: Sampled, scene: Scene, several: Answe
     from sie.patches.noise import changes  # noqa: PLC0415 -- for contact in several patches only
 
     trace, period = placed.trace, scene.profile.period
-    x, noise = reference.points, reference.misfit
-    known = trace.height(trace.points) - reference.height(np.clip(trace.points, x[0], x[-1]))
+    x = reference.points
+    noise = _rms(placed._replace(trace=reference).misfits(reference, period))
+    known = placed.misfits(reference, period) - placed.misfits(trace, period)
     draws = np.random.default_rng(0).normal(scale=noise, size=(DRAWS, len(x)))
     return changes(
         several,
@@ -215,19 +217,23 @@ def _drawn(placed: PlacedTrace, reference: Sampled, scene: Scene, several: Answe
 
 
 def _report(
-    placed: PlacedTrace, edges: Edges, reference: Sampled, errors: Errors | PatchErrors
+    placed: PlacedTrace,
+    edges: Edges,
+    reference: Sampled,
+    errors: Errors | PatchErrors,
+    period: float,
 ) -> TraceReport:
     trace, contact = placed.trace, edges.contact
     x = placed.x(trace.points)
     tilt = placed.direction * trace.line[1] + placed.tilt + edges.tilt
     middle = 0.5 * float(x[0] + x[-1])
-    over = trace.heights - reference.height(trace.points)
+    over = placed.misfits(reference, period)
     return TraceReport(
         points=len(x),
         smoothing=trace.lam,
         averaged=trace.averaged,
         separated=reference.averaged > 1.0,
-        misfit=trace.misfit,
+        misfit=_rms(placed.misfits(trace, period)),
         outliers=tuple((float(x[k]), float(over[k])) for k in trace.outliers),
         gaps=placed.gaps(),
         mended=trace.mended,
@@ -238,6 +244,10 @@ def _report(
         edge_errors=errors.edges,
         unsure_patches=getattr(errors, "unsure", 0),
     )
+
+
+def _rms(misfits: Array) -> float:
+    return float(np.sqrt(np.mean(misfits**2)))
 
 
 class Errors(NamedTuple):

@@ -10,6 +10,8 @@ from numpy.typing import NDArray
 from sie.contact.small_strains import notes
 from sie.errors import ContactError
 from sie.problem.request import NEED_SHEAR, UNASKED, energy_costs
+from sie.profiles.placed_traces import traces_in
+from sie.profiles.trace_units import Reading
 from sie.solution import Solution
 
 from .scene_file import SceneFile
@@ -22,6 +24,12 @@ LOOKED_AT = 401  # points in the contact, for the steepest slope
 def wanted(file: SceneFile) -> tuple[str, ...]:
     """The quantities that a scene file names; without any, those of the contact."""
     return file.want or UNASKED
+
+
+def readings_of(solution: Solution) -> list[Reading]:
+    """How the columns of each trace from a file were read: their units, and what is material."""
+    readings = (placed.trace.reading for placed in traces_in(solution.scene.profile))
+    return [reading for reading in readings if reading.file]
 
 
 def notes_of(solution: Solution, file: SceneFile) -> tuple[str, ...]:
@@ -41,7 +49,7 @@ def notes_of(solution: Solution, file: SceneFile) -> tuple[str, ...]:
 
 
 def yield_notes(solution: Solution, file: SceneFile) -> tuple[str, ...]:
-    """A sentence where the yield stress of the file is exceeded, at any point of a path."""
+    """A sentence where the yield stress is exceeded at a point of a path, not between them."""
     strength = file.fatigue.yield_stress
     if not strength:
         return ()

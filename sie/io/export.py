@@ -17,6 +17,8 @@ JSON always holds
     patches [[x1, x2], ..], patch_loads [number, ..], contact_length, gap_volume, where there are
     several patches, or of one period of a contact that repeats; and there the period
 
+    readings [{file, units [of x, of h], length, scale, side}, ..] where traces were read from files
+
 and, where they are wanted,
 
     pressure    {peak {p, x: [..]}, resultant, moment, x: [..], p: [..]}
@@ -62,7 +64,7 @@ from sie.problem.scene import Scene
 from sie.progress_bar import counted
 from sie.solution import Solution
 
-from .answers import energy_of, notes_of, slip_of, slipping, wanted
+from .answers import energy_of, notes_of, readings_of, slip_of, slipping, wanted
 from .sample_points import abscissae, beside, inside, peak
 from .scene_file import SceneFile
 from .scene_writing import tables_of
@@ -174,6 +176,8 @@ def as_dict(
         "tilt": solution.tilt,
         "notes": list(notes_of(solution, file)),
     }
+    if readings := readings_of(solution):
+        out["readings"] = [reading._asdict() for reading in readings]
     sections = {"pressure": _pressure, "gap": _gap, "shear": _shear, "check": _check}
     sections |= {"energy": lambda solution, _: {"energy_lost": solution.energy_lost}}
     sections |= {"stress": _stress, "yield": _yield, "tension": _tension}

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import textwrap
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
@@ -12,10 +12,9 @@ import numpy as np
 
 from sie.messages import WIDE, named_rows
 from sie.problem.request import energy_costs
-from sie.profiles.placed_traces import traces_in
 from sie.solution import Solution
 
-from .answers import energy_of, notes_of, slipping, wanted
+from .answers import energy_of, notes_of, readings_of, slipping, wanted
 from .sample_points import SAME_PEAK, ceiling, full, peak, reach
 from .scene_file import SceneFile, Units
 
@@ -59,15 +58,9 @@ def summary(
         parts.append(cycle_summary(cycle, file))
     printed = solution.check().notes if "check" in wanted(file) else ()
     notes = "\n".join(note for note in notes_of(solution, file) if note not in printed)
-    head = "\n".join(filter(None, [file.title, scene, *_readings(solution)]))
+    readings = [textwrap.fill(f"trace {reading}", WIDE) for reading in readings_of(solution)]
+    head = "\n".join(filter(None, [file.title, scene, *readings]))
     return "\n\n".join([head, *parts, *filter(None, [notes])])
-
-
-def _readings(solution: Solution) -> Iterator[str]:
-    """How the columns of each trace from a file were read: their units, and what is material."""
-    for placed in traces_in(solution.scene.profile):
-        if placed.trace.reading.file:
-            yield textwrap.fill(f"trace {placed.trace.reading}", WIDE)
 
 
 def edges_summary(solution: Solution, units: Units) -> str:

@@ -20,14 +20,13 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from sie.inheritance import override
 from sie.numerics.interval import EPS
 
 from . import fitting
-from .base import Profile, of_any_x
+from .base import Profile
 from .derived import Derived, Placed
 from .sampled import Sampled
-from .slope import Slope
+from .spline_profile import SplineProfile
 from .splines import Spline, closed_spline
 
 Array = NDArray[np.float64]
@@ -75,7 +74,7 @@ class Seam(NamedTuple):
 
 
 @dataclass(frozen=True)
-class ClosedTrace(Profile):
+class ClosedTrace(SplineProfile):
     """The periodic spline of a trace less the line -tilt x, on one period from its first point."""
 
     trace: Sampled
@@ -87,30 +86,20 @@ class ClosedTrace(Profile):
         x, h = _distinct(self.trace, self.repeats, self.tilt)
         return closed_spline(x, h, self.repeats, self.trace.lam).tilted(-self.tilt)
 
-    @cached_property
-    def pieces(self) -> Slope:
-        """H of the spline."""
-        return self._spline.slope
-
-    @of_any_x
-    @override
-    def height(self, x: Array) -> Array:
-        return self._spline(x)
-
-    @property
-    @override
-    def ends_are_corners(self) -> tuple[bool, bool]:
-        return False, False
-
 
 def closed(profile: Profile, period: float) -> Profile:
     """The profile with periodic splines for the traces in it whose ends meet."""
     for part in _traces(profile):
-        if seam(part, period).meets:
-            tilt = part.sign * part.tilt
-            new = ClosedTrace(part.profile, period, tilt)  # type: ignore[arg-type]
-            profile = profile.with_part(part.profile, new) if isinstance(profile, Derived) else new
+        new = spline_of(part, period)
+        profile = profile.with_part(part.profile, new) if isinstance(profile, Derived) else new
     return profile
+
+
+def spline_of(part: Placed, period: float) -> SplineProfile:
+    """The spline of a trace that is repeated: the periodic one, if its ends meet."""
+    trace: Sampled = part.profile  # type: ignore[assignment]
+    meets = period < np.inf and seam(part, period).meets
+    return ClosedTrace(trace, period, part.sign * part.tilt) if meets else trace
 
 
 def open_seams(profile: Profile, period: float) -> tuple[Seam, ...]:

@@ -12,6 +12,7 @@ from sie.errors import ContactError
 
 from . import fitting
 from .base import Profile
+from .closed_trace import spline_of
 from .derived import Derived, Placed
 from .row import Periodic
 from .sampled import Sampled
@@ -44,6 +45,15 @@ class PlacedTrace(NamedTuple):
         """The gaps of the trace, where they stand in the profile."""
         placed = ((sorted(self.x(np.array([g.lo, g.hi])).tolist()), g) for g in self.trace.gaps)
         return tuple(fitting.Gap(lo, hi, gap.missing) for (lo, hi), gap in placed)
+
+    def misfits(self, other: Sampled, period: float) -> Array:
+        """The heights of the trace less the spline of another in its place, or of itself.
+
+        The spline is periodic if traces with this period are and the ends of this one meet.
+        """
+        spline = spline_of(Placed(other, self.direction, 0.0, self.tilt), period)
+        heights: Array = spline.height(np.clip(self.trace.points, *spline.domain))
+        return self.trace.heights - heights
 
     def with_heights(
         self, points: Array, heights: Array, smoothing: float, period: float

@@ -11,23 +11,20 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from sie import arguments
-from sie.inheritance import override
 
 from . import fitting
-from .base import Profile, of_any_x
-from .slope import Slope
+from .spline_profile import SplineProfile
 from .splines import Spline, cross_validated, explains, interpolating_spline, smoothing_spline
 from .trace_files import Column, read_trace
 from .trace_units import Reading, Side, as_gap, factors, side_of, stated
 from .trace_values import Mended, Smoothing, checked, scaled, smoothing_of
 
 Array = NDArray[np.float64]
-INF = float("inf")
 SHOWN = 60  # points that are printed; a longer trace is summarised
 
 
 @dataclass(frozen=True, init=False, repr=False, eq=False)
-class Sampled(Profile):
+class Sampled(SplineProfile):
     """A measured profile: a cubic spline through the heights h at the points x, or along them.
 
     Parameters
@@ -220,21 +217,6 @@ class Sampled(Profile):
             return smoothing_spline(self.points, self.heights, self.lam)
         return interpolating_spline(self.points, self.heights)
 
-    @cached_property
-    def pieces(self) -> Slope:
-        """H of the spline, a parabola between neighbouring points."""
-        return self._spline.slope
-
-    @of_any_x
-    @override
-    def height(self, x: Array) -> Array:
-        return self._spline(x)
-
-    @property
-    @override
-    def ends_are_corners(self) -> tuple[bool, bool]:
-        return False, False
-
     # -- the quality of the measurement ---------------------------------------------------------
 
     @property
@@ -250,10 +232,7 @@ class Sampled(Profile):
 
     @property
     def gaps(self) -> tuple[fitting.Gap, ...]:
-        """Gaps without points: (lo, hi, missing) of steps of x much longer than the others.
-
-        The spline bridges them.
-        """
+        """Steps of x much longer than the others, (lo, hi, missing): the spline bridges them."""
         return fitting.gaps(self.points)
 
     @cached_property
@@ -264,8 +243,7 @@ class Sampled(Profile):
     @cached_property
     def _cleaned(self) -> Sampled:
         """The trace less its outliers, smoothed by cross validation."""
-        kept = np.delete(np.arange(len(self.points)), self.outliers)
-        return Sampled(self.points[kept], self.heights[kept], "gcv")
+        return self.without_outliers().smoothed("gcv")
 
     def reference(self, between: tuple[float, float]) -> Sampled:
         """The best estimate of the surface without noise.
@@ -339,9 +317,8 @@ class Sampled(Profile):
         >>> len(spiked.without_outliers().points)
         100
         """
-        kept = np.delete(np.arange(len(self.points)), self.outliers)
-        call = "without_outliers()"
-        return self._remade(self.points[kept], self.heights[kept], self.smoothing, call)
+        x, h = (np.delete(values, self.outliers) for values in (self.points, self.heights))
+        return self._remade(x, h, self.smoothing, "without_outliers()")
 
     def levelled(self, between: tuple[float, float] | None = None) -> Sampled:
         """The trace less a least-squares line.
@@ -367,7 +344,7 @@ class Sampled(Profile):
         >>> Sampled([0, 1, 2, 3], [1, 3, 5, 7]).levelled().heights.round(12) + 0.0
         array([0., 0., 0., 0.])
         """
-        ends = (-INF, INF) if between is None else between
+        ends = (-np.inf, np.inf) if between is None else between
         lo, hi = (arguments.real("between", end) for end in ends)
         part = (self.points >= lo) & (self.points <= hi)
         if np.count_nonzero(part) < 2:

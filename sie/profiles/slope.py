@@ -192,11 +192,6 @@ class Slope:
         """
         if self.functions:
             return False
-        if not self.few:
-            left, right = self._sides
-            return bool(
-                (np.abs(left - right) <= JUMP * np.abs((left, right)).max(initial=0.0)).all()
-            )
         below, above = self.at_breaks
         rounding = JUMP * max(map(abs, below + above), default=0.0)
         return all(abs(a - b) <= rounding for a, b in zip(below, above, strict=True))
@@ -204,16 +199,13 @@ class Slope:
     @cached_property
     def at_breaks(self) -> tuple[tuple[float, ...], tuple[float, ...]]:
         """The polynomials' H from the left and from the right of every inner break."""
-        inner = self.breaks[1:-1]
-        if self.few:
-            before = {row.hi: row for row in self.rows}
-            after = {row.lo: row for row in self.rows}
-            ends = inner.tolist()  # a flat piece has no row
-            return tuple(before[b].at(b) if b in before else 0.0 for b in ends), tuple(
-                after[b].at(b) if b in after else 0.0 for b in ends
-            )
-        left, right = self._sides
-        return tuple(left.tolist()), tuple(right.tolist())
+        if not self.few:
+            left, right = self._sides
+            return tuple(left.tolist()), tuple(right.tolist())
+        ends = self.breaks[1:-1].tolist()  # a flat piece has no row
+        below = {row.hi: row.at(row.hi) for row in self.rows}
+        above = {row.lo: row.at(row.lo) for row in self.rows}
+        return tuple(below.get(b, 0.0) for b in ends), tuple(above.get(b, 0.0) for b in ends)
 
     @cached_property
     def rises(self) -> tuple[tuple[float, float], ...]:
@@ -289,12 +281,13 @@ class Slope:
         return replace(self, coefficients=c, tails=tails)._near_zeros()
 
     def _near_zeros(self) -> Slope:
-        """The same with the zero of an outer straight piece as its origin, if not its inner end."""
-        c, origins = self.coefficients, self.origins.copy()
+        """The same with the zero of a straight piece as its origin, if no end of it is."""
+        c, origins = self.coefficients, self.origins
+        lo, hi = self.breaks[:-1], self.breaks[1:]
         if c.shape[1] == 2 and len(origins) > 1:
-            for k, lo, hi in ((0, *self.breaks[:2]), (-1, *self.breaks[-2:])):
-                if np.isinf(lo - hi) and lo < origins[k] < hi and c[k, 1]:
-                    origins[k] = min(max(origins[k] - c[k, 0] / c[k, 1], lo), hi)
+            bent = (c[:, 1] != 0.0) & (origins != lo) & (origins != hi)
+            zeros = origins - c[:, 0] / np.where(bent, c[:, 1], 1.0)
+            origins = np.where(bent, np.minimum(np.maximum(zeros, lo), hi), origins)
         if (origins == self.origins).all():
             return self
         c, tails = self.about(np.arange(len(origins)), origins, c.shape[1])
@@ -400,14 +393,10 @@ def _distance(origins: Array, breaks: Array) -> Array:
     """The distance of each origin from its piece.
 
     It is 0 inside a bounded piece; else the distance from the one end, or from x = 0 without ends.
-
     Contact is near the finite breaks; a far origin makes large coefficients that cancel there.
     """
     lo, hi = breaks[:-1], breaks[1:]
     outside = np.maximum(np.maximum(lo - origins, origins - hi), 0.0)
     one_end = np.where(np.isfinite(lo), np.abs(origins - lo), np.abs(origins - hi))
-    return np.where(
-        np.isfinite(lo) & np.isfinite(hi),
-        outside,
-        np.where(np.isinf(one_end), np.abs(origins), one_end),
-    )
+    without_ends = np.where(np.isinf(one_end), np.abs(origins), one_end)
+    return np.where(np.isfinite(lo) & np.isfinite(hi), outside, without_ends)

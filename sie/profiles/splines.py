@@ -57,6 +57,7 @@ SIGNIFICANT = 3.0  # standard deviations
 LOCAL = 50  # points whose misfit measures the noise
 REFINED = 0.02  # of the logarithm of the averaging length
 FADED = 52.0  # averaging lengths beyond which a point counts exp(-52/√2) = 1e-16
+FORGOTTEN = 60  # points: of what is that far away a spline keeps less than 2^-60
 MOST_TURNS = 20  # periods on either side: what averages over more leaves nothing of the trace
 
 
@@ -97,25 +98,31 @@ class Spline:
 def interpolating_spline(x: Array, h: Array, ends: str = "not-a-knot") -> Spline:
     """The spline through the points; not-a-knot at the ends, so that a cubic is reproduced.
 
-    It is the spline of h - level x, which loses no digits to a tilt that all of h has.
+    Its f'' γ is solved for, its slopes are two doubles: a tilt cancels them without a loss.
     """
-    from scipy.interpolate import CubicSpline  # noqa: PLC0415 -- heavy, and for traces only
-
-    chords = np.diff(h) / np.diff(x)
-    level = 0.0 if ends == "periodic" else float(chords[np.abs(chords).argmin()])
-    product, rounded = two_product(level, x)
-    left, rest = two_sum(h, -product)
-    both = np.stack((left, rest - rounded), axis=1)
-    c: Array = CubicSpline(x, both, bc_type=ends).c.sum(axis=2).T[:, ::-1]
-    slope, tails = two_sum(c[:, 1], level)
-    return Spline(x, np.stack((h[:-1], slope, c[:, 2], c[:, 3]), axis=1), tails)
+    step, (chord, tail) = np.diff(x), _chords(x, h)
+    beyond = FORGOTTEN if ends == "periodic" else 0
+    around = np.arange(-beyond, len(step) + beyond)
+    wrapped = (np.take(v, around, mode="wrap") for v in (step, chord, tail))
+    gamma = _not_a_knot(*wrapped)[beyond : beyond + len(x)]
+    slope, rest = two_sum(chord, -step * (2.0 * gamma[:-1] + gamma[1:]) / 6.0)
+    cubic = np.diff(gamma) / (6.0 * step)
+    return Spline(x, np.stack((h[:-1], slope, 0.5 * gamma[:-1], cubic), axis=1), rest + tail)
 
 
 def smoothing_spline(x: Array, h: Array, lam: float) -> Spline:
-    """The smoothing spline with λ = lam > 0, with breaks at its knots."""
-    problem = _Problem(x, h)
+    """The smoothing spline with λ = lam > 0, with breaks at its knots.
+
+    It is that of h less the line between its ends, plus this line, which takes no digits.
+    """
+    level = float((h[-1] - h[0]) / (x[-1] - x[0]))
+    rise, rounded = two_product(level, x)
+    left, rest = two_sum(h, -rise)
+    rest -= rounded
+    problem = _Problem(x, (left - left[0]) + (rest - rest[0]))
     breaks, c = problem.spline(lam / problem.length**3)
-    return Spline(breaks, c, np.zeros(len(c)))
+    c[:, 0] += h[0]
+    return Spline(breaks, c, np.zeros(len(c))).tilted(level)
 
 
 def closed_spline(x: Array, h: Array, period: float, lam: float) -> Spline:
@@ -248,6 +255,33 @@ class _Problem:
         c = c * (self.unit / self.length ** np.arange(4.0))
         c[:, 0] += self.origin
         return c
+
+
+def _chords(x: Array, h: Array) -> tuple[Array, Array]:
+    """The slopes between neighbouring points, in two doubles."""
+    (step, cut), (rise, rest) = (two_sum(v[1:], -v[:-1]) for v in (x, h))
+    chord = rise / step
+    product, rounded = two_product(chord, step)
+    return chord, ((rise - product) - rounded + (rest - chord * cut)) / step
+
+
+def _not_a_knot(step: Array, chord: Array, tail: Array) -> Array:
+    """f'' at the points of a spline whose first and last two pieces are one cubic each."""
+    from scipy.linalg import solve_banded  # noqa: PLC0415 -- heavy, and for traces only
+
+    bends = np.diff(chord) + np.diff(tail)
+    first, last = step[0] / step[1], step[-1] / step[-2]
+    system = np.zeros((3, len(bends)))
+    system[1] = 2.0 * (step[:-1] + step[1:])
+    system[0, 1:] = system[2, :-1] = step[1:-1]
+    system[1, 0] += step[0] * (1.0 + first)
+    system[0, 1] -= step[0] * first
+    system[1, -1] += step[-1] * (1.0 + last)
+    system[2, -2] -= step[-1] * last
+    inner = solve_banded((1, 1), system, 6.0 * bends, check_finite=False)
+    start = inner[0] + first * (inner[0] - inner[1])
+    end = inner[-1] + last * (inner[-1] - inner[-2])
+    return np.concatenate(([start], inner, [end]))
 
 
 def _reinsch(x: Array, h: Array, lam: float) -> Array:

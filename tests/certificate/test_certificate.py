@@ -137,6 +137,23 @@ def test_a_slope_that_a_tilt_cancels_costs_no_digits_that_the_certificate_does_n
     np.testing.assert_allclose(one.edges, other.edges, rtol=0.0, atol=1e-14)
 
 
+@pytest.mark.parametrize("given", ["tilt", "moment"])
+@pytest.mark.parametrize("steepness", [1.0, 2.0**12])
+def test_a_trace_pressed_on_a_steep_flank_costs_no_digits_either(steepness, given):
+    """K (x + 1)² less the slope 2K is K x²: beside x = 0 nothing is left of slopes up to 6K."""
+    points = np.delete(X, [3, 9, 10, 40])
+    rough = np.round(2048.0 * points**2 + 16.0 * np.sin(40.0 * points)) / 2**16
+    cancelled = sie.Sampled(points, steepness * (points + 1.0) ** 2 + rough)
+    plain = sie.Sampled(points, rough) + sie.Polynomial([0.0, 0.0, steepness])
+    other = sie.solve(sie.Scene(profile=plain, modulus=1.0, half_width=2e-3))
+    how = {"tilt": -2.0 * steepness} if given == "tilt" else {"moment": other.moment}
+    load = other.normal_load
+    one = sie.solve(sie.Scene(profile=cancelled, modulus=1.0, normal_load=load, **how))
+    found, x = one.check(), other.centre + 2e-3 * np.linspace(-0.99, 0.99, 40)
+    error = np.abs(one.pressure(x) - other.pressure(x)).max() / other.pressure(x).max()
+    assert error <= 3.0 * (found.error + 10.0 * found.edges) + 3e-15
+
+
 def test_the_same_promise_is_printed_and_documented():
     found = sie.solve(sie.Scene(profile=sie.Parabola(1.0), modulus=1.0, normal_load=0.3)).check()
     assert PROMISE in " ".join(str(found).split())

@@ -26,6 +26,18 @@ def reported(profile, **given):
     return report
 
 
+# -- the spline in use ----------------------------------------------------------------------------
+
+
+def test_the_misfit_of_a_repeated_trace_is_that_of_its_periodic_spline():
+    x = np.linspace(0.0, 1.0, 201)
+    h = 0.01 * np.cos(2.0 * np.pi * x)
+    profile = sie.Periodic(sie.Sampled(x, h, 1e-4), 1.0)
+    misfits = h - profile.height(x)
+    found = reported(profile, normal_load=0.005)
+    assert found.misfit == pytest.approx(np.sqrt(np.mean(misfits**2)), rel=1e-9)
+
+
 # -- the error of the pressure --------------------------------------------------------------------
 
 
