@@ -105,8 +105,7 @@ class Slope:
 
     def __call__(self, x: Any) -> Array:
         """H(x): the mean of both sides at a break; -inf and inf beyond the ends."""
-        x = np.asarray(x, dtype=float)
-        flat = x.ravel()
+        flat = np.asarray(x, dtype=float).ravel()
         right = np.searchsorted(self.breaks, flat, side="right") - 1
         left = np.searchsorted(self.breaks, flat, side="left") - 1
         last = len(self.origins) - 1
@@ -116,12 +115,12 @@ class Slope:
             values[at_break] = 0.5 * (values[at_break] + self._on(left[at_break], flat[at_break]))
         values[flat < self.breaks[0]] = -np.inf
         values[flat > self.breaks[-1]] = np.inf
-        return values.reshape(x.shape)
+        return values.reshape(np.shape(x))
 
     def inside(self, x: Array) -> Array:
         """H at points x (K, n), each row inside one piece."""
-        k = np.searchsorted(self.breaks, x[:, x.shape[1] // 2], side="right") - 1
-        k = np.clip(k, 0, len(self.origins) - 1)
+        right = np.searchsorted(self.breaks, x[:, x.shape[1] // 2], side="right")
+        k = np.clip(right - 1, 0, len(self.origins) - 1)
         return self.local(k, np.zeros(len(k)), np.zeros(len(k)), x)
 
     def _on(self, k: NDArray[np.int64], x: Array) -> Array:
@@ -255,8 +254,7 @@ class Slope:
     @cached_property
     def corners(self) -> Array:
         """Jumps of the polynomials' Taylor coefficients at the inner breaks, (N - 1, D)."""
-        k = np.arange(len(self.origins))
-        inner = self.breaks[1:-1]
+        k, inner = np.arange(len(self.origins)), self.breaks[1:-1]
         width = self.coefficients.shape[1]
         return self.about(k[1:], inner, width)[0] - self.about(k[:-1], inner, width)[0]
 
@@ -283,14 +281,15 @@ class Slope:
     def _near_zeros(self) -> Slope:
         """The same with the zero of a straight piece as its origin, if no end of it is."""
         c, origins = self.coefficients, self.origins
-        lo, hi = self.breaks[:-1], self.breaks[1:]
-        if c.shape[1] == 2 and len(origins) > 1:
-            bent = (c[:, 1] != 0.0) & (origins != lo) & (origins != hi)
-            zeros = origins - c[:, 0] / np.where(bent, c[:, 1], 1.0)
-            origins = np.where(bent, np.minimum(np.maximum(zeros, lo), hi), origins)
-        if (origins == self.origins).all():
+        if c.shape[1] != 2 or len(origins) == 1:
             return self
-        c, tails = self.about(np.arange(len(origins)), origins, c.shape[1])
+        lo, hi = self.breaks[:-1], self.breaks[1:]
+        bent = (c[:, 1] != 0.0) & (origins != lo) & (origins != hi)
+        zeros = np.clip(origins - c[:, 0] / np.where(bent, c[:, 1], 1.0), lo, hi)
+        return self._recentred(np.where(bent, zeros, origins)) if bent.any() else self
+
+    def _recentred(self, origins: Array) -> Slope:
+        c, tails = self.about(np.arange(len(origins)), origins, self.coefficients.shape[1])
         return replace(self, origins=origins, coefficients=c, tails=tails)
 
     def less_level(self, x: float, near: float) -> tuple[float, Slope]:
@@ -300,8 +299,7 @@ class Slope:
         """
         level = float(self(x))
         origins = np.where(np.abs(self.origins - x) > near, x, self.origins)
-        c, tails = self.about(np.arange(len(origins)), origins, self.coefficients.shape[1])
-        return level, replace(self, origins=origins, coefficients=c, tails=tails).tilted(-level)
+        return level, self._recentred(origins).tilted(-level)
 
     def split_at(self, x: float) -> Slope:
         """The same slope with one more break, at x."""
