@@ -99,7 +99,7 @@ def scattered(contact: Interval, start_at: int = 0) -> Array:
 
 @lru_cache(maxsize=2)
 def _sequence(start_at: int) -> Array:
-    return (GOLDEN * np.arange(start_at, start_at + SAMPLES)) % 1.0
+    return np.asarray((GOLDEN * np.arange(start_at, start_at + SAMPLES)) % 1.0)
 
 
 def misfit(
