@@ -163,12 +163,17 @@ class Frictionless:
 
     @cached_property
     def _of_waves(self) -> SeveralPatches | FullContact | None:
-        """The contact of a function whose slope falls: patches are sought at once, or refused."""
+        """The contact of a function whose slope falls: patches are then sought at once."""
         scene = self.scene
         may_be = self._may_be_in_patches and scene.profile.pieces.functions and scene.normal_load
         if not may_be or self._of_one_series is not None or not falls_somewhere(scene):
             return None
-        return self._in_patches()
+        from .patches.answer import several_patches
+
+        try:
+            return several_patches(scene)
+        except ContactError:  # where they do not settle, one patch may be the answer
+            return None
 
     @property
     def _is_one_patch(self) -> bool:
