@@ -21,7 +21,6 @@ from numpy.typing import ArrayLike, NDArray
 from sie import arguments
 
 from .power_law import PowerLaw
-from .resolution import integral
 from .slope import Slope
 
 Array = NDArray[np.float64]
@@ -120,8 +119,9 @@ class Profile(ABC):
         >>> sie.Wedge(0.5).height([-1.0, 0.0, 4.0])
         array([0.5, 0. , 2. ])
         """
-        lo, hi = self.domain
-        return integral(self.pieces, min(max(0.0, lo), hi), x)
+        from .derived import integrated  # noqa: PLC0415 -- a higher layer
+
+        return integrated(self, x)
 
     @property
     def axis(self) -> float | None:

@@ -19,6 +19,7 @@ from sie.messages import with_middle_cut
 
 from .base import Parity, Profile, of_any_x
 from .power_law import PowerLaw
+from .resolution import integral
 from .slope import Slope
 
 Array = NDArray[np.float64]
@@ -374,3 +375,9 @@ class Sum(Derived):
     @override
     def step(self) -> tuple[Any, ...]:
         return Sum, len(self.terms)
+
+
+def integrated(profile: Profile, x: Array) -> Array:
+    """The height of a profile that has no formula, from x = 0 or the end nearest to it."""
+    lo, hi = profile.domain
+    return integral(profile.pieces, min(max(0.0, lo), hi), x)
