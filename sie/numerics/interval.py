@@ -47,8 +47,8 @@ def two_product(a: Any, b: Any) -> tuple[Any, Any]:
 def recentred(c: Array, tails: Array, old: Array, new: Array) -> tuple[Array, Array]:
     """Rows of polynomial coefficients (K, n) about new origins, by synthetic division (Horner).
 
-    `tails` (K,) are what rounding took from c[:, 0], before and after. Both are exact where the
-    origin stays.
+    `tails` (K, 2) are what rounding took from c[:, :2], before and after. Both are exact where the
+    origin stays, and on straight pieces.
     """
     c, (step, cut) = c.copy(), two_sum(new, -old)
     width = c.shape[1]
@@ -57,7 +57,9 @@ def recentred(c: Array, tails: Array, old: Array, new: Array) -> tuple[Array, Ar
             c[:, j] += step * c[:, j + 1]
         rise, rounded = two_product(step, c[:, 1])
         level, rest = two_sum(c[:, 0], rise)
-        c[:, 0], tails = two_sum(level, (rest + tails) + (rounded + cut * c[:, 1]))
+        least = rounded + cut * c[:, 1] + step * tails[:, 1]
+        c[:, 0], last = two_sum(level, (rest + tails[:, 0]) + least)
+        tails = np.stack((last, tails[:, 1]), axis=1)
         for i in range(1, width - 1):
             for j in range(width - 2, i - 1, -1):
                 c[:, j] += step * c[:, j + 1]

@@ -46,8 +46,7 @@ class FunctionTerm:
     sign: float = 1.0
 
     def __call__(self, offset: Array) -> Array:
-        """Values at t, given offset = t - shift."""
-        # `resolution` refuses values that are not finite, and names the place.
+        """Values at t, given offset = t - shift; `resolution` refuses those that are not finite."""
         with np.errstate(all="ignore"):
             if self.sign > 0.0:
                 return arguments.real_values("slope", self.function, offset)
@@ -62,7 +61,7 @@ class Slope:
     origins         (N,)
     coefficients    (N, D), low order first
     degrees         (N,)
-    tails           (N,), what rounding took from coefficients[:, 0]: a tilt may cancel the rest
+    tails           (N, 2), what rounding took from coefficients[:, :2]: a tilt may cancel the rest
 
     `degrees` is the Chebyshev degree that resolves each piece; it equals the polynomial's degree
     where there is no function.
@@ -127,6 +126,10 @@ class Slope:
         # Beyond the ends the value is replaced; keep functions in their domain.
         inside = np.clip(x, self.breaks[0], self.breaks[-1])
         return self.local(k, inside, np.zeros_like(inside), np.zeros((len(inside), 1)))[:, 0]
+
+    @property
+    def _tails(self) -> Array:
+        return np.broadcast_to(self.tails, (len(self.origins), 2))
 
     @cached_property
     def is_zero(self) -> NDArray[np.bool_]:
@@ -262,8 +265,7 @@ class Slope:
         """Coefficients of the pieces k about new origins, and tails."""
         c = np.zeros((len(k), width))
         c[:, : self.coefficients.shape[1]] = self.coefficients[k]
-        tails = np.broadcast_to(self.tails, self.origins.shape)[k]
-        return recentred(c, tails, self.origins[k], origins)
+        return recentred(c, self._tails[k], self.origins[k], origins)
 
     @property
     def domain(self) -> tuple[float, float]:
@@ -275,7 +277,8 @@ class Slope:
         if tilt == 0.0:
             return self
         c, (level, rest) = self.coefficients.copy(), two_sum(self.coefficients[:, 0], tilt)
-        c[:, 0], tails = two_sum(level, rest + self.tails)
+        tails = self._tails.copy()
+        c[:, 0], tails[:, 0] = two_sum(level, rest + tails[:, 0])
         return replace(self, coefficients=c, tails=tails)._near_zeros()
 
     def _near_zeros(self) -> Slope:
@@ -293,10 +296,7 @@ class Slope:
         return replace(self, origins=origins, coefficients=c, tails=tails)
 
     def less_level(self, x: float, near: float) -> tuple[float, Slope]:
-        """H(x), and H - H(x) with x as the origin of every piece whose own is not so near.
-
-        Nothing cancels about x.
-        """
+        """H(x), and H - H(x) on pieces about x where their origins are not so near to it."""
         level = float(self(x))
         origins = np.where(np.abs(self.origins - x) > near, x, self.origins)
         return level, self._recentred(origins).tilted(-level)
@@ -317,7 +317,7 @@ class Slope:
             origins=self.origins[k],
             coefficients=self.coefficients[k],
             degrees=self.degrees[k],
-            tails=np.broadcast_to(self.tails, self.origins.shape)[k],
+            tails=self._tails[k],
         )
 
     def within(self, lo: float, hi: float) -> Slope:
@@ -341,8 +341,7 @@ class Slope:
         """The slope of h(-x), that is -H(-x)."""
         c = -self.coefficients[::-1] * (-1.0) ** np.arange(self.coefficients.shape[1])
         functions = tuple(replace(f, shift=-f.shift, sign=-f.sign) for f in self.functions)
-        tails = -np.broadcast_to(self.tails, self.origins.shape)[::-1]
-        origins = -self.origins[::-1]
+        origins, tails = -self.origins[::-1], self._tails[::-1] * (-1.0, 1.0)
         return Slope(-self.breaks[::-1], origins, c, self.degrees[::-1], functions, tails)
 
     def __add__(self, other: Slope) -> Slope:
@@ -364,9 +363,10 @@ class Slope:
         width = max(self.coefficients.shape[1], other.coefficients.shape[1])
         c, tails = self.about(mine, origins, width)
         more, other_tails = other.about(theirs, origins, width)
-        level, rest = two_sum(c[:, 0], more[:, 0])
+        both, rest = two_sum(c[:, :2], more[:, :2])
         c += more
-        c[:, 0], tails = two_sum(level, rest + (tails + other_tails))
+        tails = tails + other_tails
+        c[:, :2], tails[:, :width] = two_sum(both, rest + tails[:, :width])
         degrees = np.maximum(self.degrees[mine], other.degrees[theirs])
         return Slope(breaks, origins, c, degrees, self.functions + other.functions, tails)
 
@@ -377,14 +377,12 @@ def polynomial_slope(
     coefficients: Sequence[Sequence[float]],
     tails: Array | float = 0.0,
 ) -> Slope:
-    """A Slope from rows of polynomial coefficients of unequal length."""
+    """A Slope from rows of polynomial coefficients of unequal length, and tails of the first."""
     width = max(len(row) for row in coefficients)
-    c = np.zeros((len(coefficients), width))
-    for k, row in enumerate(coefficients):
-        c[k, : len(row)] = row
+    c = np.array([[*row, *[0.0] * (width - len(row))] for row in coefficients], dtype=float)
     degrees = np.array([max(len(row) - 1, 0) for row in coefficients], dtype=np.int64)
     ends, origin = np.asarray(breaks, dtype=float), np.asarray(origins, dtype=float)
-    return Slope(ends, origin, c, degrees, tails=tails)
+    return Slope(ends, origin, c, degrees, tails=np.multiply.outer(tails, (1.0, 0.0)))
 
 
 def _distance(origins: Array, breaks: Array) -> Array:

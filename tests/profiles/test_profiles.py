@@ -5,6 +5,7 @@ what moving and adding them means.
 import copy
 import dataclasses
 import pickle
+from fractions import Fraction
 from functools import cached_property
 
 import numpy as np
@@ -16,6 +17,7 @@ from strategies import between, dyadic
 import sie
 from analytic import power
 from sie.io import scene_file
+from sie.numerics.interval import recentred
 from sie.profiles import kinds, slope
 
 INF = float("inf")
@@ -433,3 +435,17 @@ def test_the_pressure_at_the_apex_of_a_power_law_keeps_13_digits(exponent):
     x = np.array([0.0, 1e-30, 1e-20, 1e-9])
     expected = power.pressure(x, half_width=1.0, modulus=2.0, **law)
     assert np.abs(pressure(x) / expected - 1.0).max() <= 1e-13
+
+
+@given(between(0.1, 10.0), between(-50.0, 50.0), between(-50.0, 50.0))
+def test_another_origin_takes_nothing_from_a_straight_piece(rise, level, place):
+    """(c + t) + (d + u)(x - o) is the same at every x, with t and u what c and d leave out."""
+    c, tails = np.array([[level, rise]]), np.array([[1e-17 * level, 1e-17 * rise]])
+    moved, rest = recentred(c, tails, np.array([0.5]), np.array([place]))
+
+    def at_zero(c, tails, origin):
+        (level, rise), (t, u) = (map(Fraction, row[0].tolist()) for row in (c, tails))
+        return level + t - (rise + u) * Fraction(origin)
+
+    lost = at_zero(moved, rest, place) - at_zero(c, tails, 0.5)
+    assert abs(lost) <= Fraction(2) ** -98 * 1000
