@@ -238,12 +238,6 @@ def test_solve_and_with_refuse_unknown_names():
 BUMP = sie.FromFunction(lambda x: x * np.exp(-x * x / 2), domain=(-INF, INF))
 
 
-def test_a_bump_that_patches_do_not_settle_on_is_answered_as_one_patch():
-    found = sie.solve(scene(profile=BUMP, normal_load=0.2))
-    assert len(found.patches) == 1
-    assert found.check().ok
-
-
 @pytest.mark.slow
 def test_the_refusal_of_a_load_names_it_and_the_largest_load():
     """The slope of a Gauss bump falls again: P has a largest value in one patch."""

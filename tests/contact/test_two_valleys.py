@@ -152,3 +152,11 @@ def test_a_far_valley_that_carries_all_of_the_load_is_seen_by_its_length():
     assert solution.edges == pytest.approx(named.edges, abs=1e-10)
     assert solution.edges[1] < -16.7
     assert solution.check().ok
+
+
+def test_a_bump_that_patches_do_not_settle_on_is_answered_as_one_patch():
+    """The slope of a Gauss bump falls beyond x = 1."""
+    bump = sie.FromFunction(lambda x: x * np.exp(-x * x / 2.0))
+    found = sie.solve(sie.Scene(profile=bump, modulus=1.0, normal_load=0.2))
+    assert len(found.patches) == 1
+    assert found.check().ok

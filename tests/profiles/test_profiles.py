@@ -3,21 +3,18 @@ what moving and adding them means.
 """
 
 import copy
-import dataclasses
 import pickle
-from fractions import Fraction
-from functools import cached_property
 
 import numpy as np
 import pytest
 import strategies
+from faceted import Faceted
 from hypothesis import given
 from strategies import between, dyadic
 
 import sie
 from analytic import power
 from sie.io import scene_file
-from sie.numerics.interval import recentred
 from sie.profiles import kinds, slope
 
 INF = float("inf")
@@ -25,20 +22,6 @@ INF = float("inf")
 
 def module_level_slope(x):
     return np.sinh(x)
-
-
-@dataclasses.dataclass(frozen=True)
-class Faceted(sie.Profile):
-    """A parabola as a polygon: a class that states no more than it has to."""
-
-    radius: float
-    facet: float
-
-    @cached_property
-    def pieces(self):
-        corners = self.facet * np.arange(-100, 101)
-        slopes = 0.5 * (corners[1:] + corners[:-1]) / self.radius
-        return sie.Piecewise(corners, [[slope] for slope in slopes]).pieces
 
 
 EVERY_KIND = (
@@ -126,28 +109,6 @@ def test_solving_does_not_change_a_profile(profile):
     before = hash(profile), repr(profile)
     solved(profile).check()
     assert (hash(profile), repr(profile)) == before
-
-
-# -- a class of one's own -------------------------------------------------------------------------
-
-
-def test_a_height_that_a_class_does_not_state_is_the_integral_of_its_slope():
-    """At the corners the polygon is the parabola, but for what its middle is higher."""
-    x = np.array([-np.inf, -20.0, -0.5, -0.25, 0.0, 0.0625, 0.375, 12.5, np.nan])
-    h = [np.inf, np.inf, 0.0625, 0.015625, 0.0, 0.001953125, 0.03515625, 39.0625, np.nan]
-    assert Faceted(2.0, 0.125).height(x) == pytest.approx(h, rel=1e-14, nan_ok=True)
-
-
-def test_short_facets_press_like_the_parabola_of_hertz():
-    """b = sqrt(4 P R/(π E*)), and the difference falls faster than the length of a facet."""
-    missed = []
-    for facet in (0.05, 0.0125):
-        scene = sie.Scene(profile=Faceted(1.0, facet), modulus=1.0, normal_load=np.pi / 16.0)
-        solution = sie.solve(scene)
-        assert solution.check().ok
-        missed.append(abs(solution.half_width / 0.5 - 1.0))
-    assert 0.0 < missed[0] < 0.05
-    assert missed[1] < 0.25 * missed[0]
 
 
 # -- geometry -------------------------------------------------------------------------------------
@@ -435,17 +396,3 @@ def test_the_pressure_at_the_apex_of_a_power_law_keeps_13_digits(exponent):
     x = np.array([0.0, 1e-30, 1e-20, 1e-9])
     expected = power.pressure(x, half_width=1.0, modulus=2.0, **law)
     assert np.abs(pressure(x) / expected - 1.0).max() <= 1e-13
-
-
-@given(between(0.1, 10.0), between(-50.0, 50.0), between(-50.0, 50.0))
-def test_another_origin_takes_nothing_from_a_straight_piece(rise, level, place):
-    """(c + t) + (d + u)(x - o) is the same at every x, with t and u what c and d leave out."""
-    c, tails = np.array([[level, rise]]), np.array([[1e-17 * level, 1e-17 * rise]])
-    moved, rest = recentred(c, tails, np.array([0.5]), np.array([place]))
-
-    def at_zero(c, tails, origin):
-        (level, rise), (t, u) = (map(Fraction, row[0].tolist()) for row in (c, tails))
-        return level + t - (rise + u) * Fraction(origin)
-
-    lost = at_zero(moved, rest, place) - at_zero(c, tails, 0.5)
-    assert abs(lost) <= Fraction(2) ** -98 * 1000
