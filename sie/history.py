@@ -50,6 +50,7 @@ from .friction.slip_state import Slip
 from .patches.answer import SeveralPatches
 from .patches.full import FullContact
 from .patches.path_energy import PathEnergy
+from .patches.result import PatchCertificate
 from .path_contacts import PathContacts
 from .planning import Plan, Step
 from .problem.load_path import Path
@@ -329,12 +330,13 @@ class PathSolution(Solution):
         marched = self.history.turning_points[self.index].marched
         return (MarchedSlip if marched else PathSlip)(self.history, self.index)
 
-    @property
-    def _shear_certificate(self) -> ShearCertificate:
+    def _shear_certificate(
+        self, of_pressures: Sequence[PatchCertificate] = ()
+    ) -> ShearCertificate | None:
         if isinstance(self.tangential, MarchedSlip):
             state = self.tangential
             return marched_certificate(state, state.marched, state.error, self._slope, self.tol)
-        return super()._shear_certificate
+        return super()._shear_certificate(of_pressures)
 
     @property
     def stick(self) -> tuple[tuple[float, float], ...]:

@@ -320,49 +320,36 @@ class Solution(Frictionless, StressAnswers):
                 self.normal.edges, self.normal_and_shear, self.scene, self.tol
             )
         if self.scene.coupled:
-            return self._coupled_certificate
+            from .certificate.coupled_check import coupled_certificate
+
+            return coupled_certificate(self.coupled[1], self._upright, self.tol)
         others = self.tangential.contacts if self.sheared else ()
         if others or self._several is not None:
             from .patches.result import worst_of
 
             each = [c.certificate(self.tol) for c in (self.in_patches, *others)]
-            return replace(worst_of(each), shear=self._shear_of_patches(each))
+            return replace(worst_of(each), shear=self._shear_certificate(each))
         from .certificate.pressure_check import certificate
 
         found = certificate(self.slope_density, self._slope, self.tol)
-        if not self.sheared:
-            return found
-        return replace(found, shear=self._shear_certificate)
+        return replace(found, shear=self._shear_certificate())
 
-    @property
-    def _coupled_certificate(self) -> Certificate:
-        from .certificate.coupled_check import coupled_certificate
-        from .certificate.coupled_shear_check import sheared_certificate
-        from .friction.coupled.contact import CoupledContact
-
-        state = self.coupled[1]
-        if isinstance(state, CoupledContact):
-            return coupled_certificate(state, self._upright, self.tol)
-        return sheared_certificate(state, self._upright, self.tol)
-
-    def _shear_of_patches(self, found: Sequence[PatchCertificate]) -> ShearCertificate | None:
-        """The certificate of the shear; `found` are those of the pressures that it is made of."""
+    def _shear_certificate(
+        self, of_pressures: Sequence[PatchCertificate] = ()
+    ) -> ShearCertificate | None:
+        """The certificate of the shear, on several patches with those of its pressures."""
         if not self.sheared:
             return None
-        from .certificate.patch_shear_check import shear_certificate as shear_on_patches
-
-        p = self.in_patches.pressure
-        return shear_on_patches(self.tangential, p, self._loads, self._slope, found)
-
-    @property
-    def _shear_certificate(self) -> ShearCertificate:
-        from .certificate.shear_check import goodman_certificate, shear_certificate
-
         if self.scene.goodman:
-            return goodman_certificate(cast("GoodmanSlip", self.tangential), self.tol)
-        return shear_certificate(
-            self.tangential, self.slope_density, self._loads, self._slope, self.tol
-        )
+            from .certificate.coupled_check import shear_certificate as of_memory
+
+            return of_memory(cast("GoodmanSlip", self.tangential), self.scene, self.tol)
+        from .certificate.shear_check import shear_certificate
+
+        p: Density = self.in_patches.pressure if of_pressures else self.pressure
+        tol = min((c.tol for c in of_pressures), default=self.tol)
+        state, slope = self.tangential, self._slope
+        return shear_certificate(state, p, self._loads, slope, tol=tol, of_pressures=of_pressures)
 
     @property
     def slope_density(self) -> SlopeDensity:

@@ -1,154 +1,304 @@
-"""The certificate of coupled partial slip: equations (1) and (12), measured on p and q alone.
+"""The certificate of dissimilar bodies: equations (1) and (12), measured on p and q alone.
 
     residual   max |1/π PV∫p/(x - t) dt - β q - E*/2 h'| / peak   in the whole contact
-    of (12)       max |γ - γ'| / largest |q|,   γ = 1/π PV∫q/(x - t) dt + β p       in stick
+    of (12)    max |γ - γ'| / largest |q|,   γ = 1/π PV∫q/(x - t) dt + β p   in stick
 
-γ' is the same under a lighter load under which x already stuck (0 under a flat punch): in stick
-the slip gradient stays. The integrals are Gauss rules on panels that shrink towards every place
-where a traction is not smooth, with the value at x subtracted; they use the values of p and q
-alone.
+γ' is that of an earlier state, in which x stuck already (0 if none came before): in stick the slip
+gradient stays. The integrals are Gauss rules on panels that shrink towards every place where a
+traction is not smooth, with the value at x subtracted.
+
+A state has the values of p and q (`InContact`) and their potentials, its zones, and the earlier
+state. Of Goodman's approximation, whose p is that without friction, (12) alone is measured here.
 """
 
 from __future__ import annotations
 
-import itertools
 import math
-from dataclasses import replace
+from functools import cached_property
+from typing import Any, Protocol
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from sie.contact.small_strains import notes
-from sie.friction.coupled.contact import CoupledContact
+from sie.numerics.gauss_jacobi import gauss_jacobi
 from sie.numerics.interval import EPS
 from sie.problem.scene import Scene
+from sie.profiles.base import Profile
 from sie.progress_bar import reported
+from sie.traction.base import Density
+from sie.traction.in_contact import InContact
 
-from .coupled_rule import (
-    Values,
-    distinct_marks,
-    principal_value,
-    to_edge,
-    values_on_panels,
-)
 from .result import Certificate, ShearCertificate
+from .shear_check import ENDS, excess
 
 Array = NDArray[np.float64]
 
 PROMISED, OF_SHEAR = 1e-11, 1e-10  # of the largest pressure, and of the largest shear in (12)
-LOOKS = 5  # points of each of the middle panels at which the equations are measured
+NODES, RATIO = 14, 3.0  # panels towards a mark, in the root of the distance from it
+ROOT = 3.0
+AT_EDGE, INSIDE, OF_MANY = 17, 9, 3  # such panels at an edge, at a mark, at one of many
+MANY = 24  # marks: most of them are faint kinks of a trace
+SAME = 1e-12  # half-widths: marks that are nearer are one
+# places between two marks at which the equations are measured, between the edges alone, and in all
+LOOKS, ALONE, MOST = 5, 16, 120
+WIDE = 1e-6  # of the contact: on narrower parts x tells too few digits of a place
+BESIDE = 0.02  # half-widths: no such place is nearer to a sharp edge
 P_ROUNDING = 16.0 * EPS  # of p, which q is balanced with in (12)
-LIGHTER = 0.9  # of the growth beyond the flat base
-BESIDE = 0.02  # of the half-width: no point of the residual is nearer to a sharp edge
+LEAST = float(np.finfo(float).tiny)
 OUTSIDE = (1.0 + 1e-6, 1.001, 1.1, 2.0, 10.0)  # half-widths at which the gap is tested
 
 
+class _Sheared(Protocol):
+    """A state whose slip gradient is kept in stick.
+
+    values       p and q in contact
+    kept         a zone that stuck since an earlier state, and that; None if it always did
+    slip_zones   (lo, hi, sign of q)
+    least_slip   the least slip in its direction, over the largest; positive by the friction law
+    kind         the slip in words
+    """
+
+    @property
+    def values(self) -> InContact: ...
+    @property
+    def kept(self) -> tuple[tuple[float, float], Any]: ...
+    @property
+    def slip_zones(self) -> tuple[tuple[float, float, float], ...]: ...
+    @property
+    def least_slip(self) -> float: ...
+    @property
+    def kind(self) -> str: ...
+
+
+class _Pressed(_Sheared, Protocol):
+    """A state whose pressure is a part of it; its tractions are p and q with their potentials."""
+
+    @property
+    def tractions(self) -> tuple[Density, Density]: ...
+    def gap(self, x: Array, profile: Profile) -> Array: ...
+
+
 @reported("certificate")
-def coupled_certificate(state: CoupledContact, scene: Scene, tol: float) -> Certificate:
-    """Measured on p and q under the load, and q also under a lighter one."""
-    values, x = values_on_panels(state), _looked_at(state)
-    p, q = state.pressure_and_shear(x)
-    Hp, Hq = (principal_value(values, state, x, f, s) for f, s in ((p, 1.0), (q, -1.0)))
-    slopes = scene.profile.slope(state.axis + x), -scene.profile.slope(state.axis - x)
-    peak = float(p.max())
-    G, beta = state.half_modulus, scene.beta
-    missed = max(float(np.abs(Hp - beta * q - G * H).max()) for H in slopes) / peak
-    gamma = Hq + beta * p
-    stuck, of_shear = _drift(state, x, gamma, beta), float(np.abs(q).max())
-    rounding = EPS + (_of_nodes(values, state, x, values.p) + _of_slope(state, scene, x)) / peak
-    of_q = EPS + _of_nodes(values, state, x, values.q) / of_shear
-    f_p = scene.friction * p
-    beside = state.b * np.array(OUTSIDE)
-    gaps = state.gap(state.axis + beside, scene.profile)
-    finite = gaps[np.isfinite(gaps)]
-    flow = sum(panel.load(state.ahead) for panel in state.growth) + state.corner_load
-    shear = ShearCertificate(
-        residual=stuck / of_shear,
-        equilibrium=abs(flow - state.load) / state.load,
-        excess=max(float((np.abs(q) - f_p).max()) / float(f_p.max()), 0.0),
-        opposing=min(float((state.sign * state.slip(x)).min()), 0.0),
-        abscissae=of_q + P_ROUNDING * peak / of_shear,
+def coupled_certificate(state: _Pressed, scene: Scene, tol: float) -> Certificate:
+    """Both equations and equilibrium, measured on a state of a scene."""
+    v, nodes = state.values, Nodes(state.values)
+    at = nodes.looked_at
+    (p, q), (P, M) = at.rows, (state.tractions[0].resultant, state.tractions[0].moment)
+    G, r, middle = 0.5 * scene.Estar, v.contact.r, v.contact.m + v.origin
+    x = v.origin + at.x
+    H = scene.profile.slope(x)
+    of_x = float(np.abs(scene.profile.slope(np.nextafter(x, np.inf)) - H).max())
+    (Hp, _), rounding = nodes.principal_values(at), nodes.rounding(at)[0]
+    peak, missed = float(p.max()), float(np.abs(Hp - scene.beta * q - G * H).max())
+    force, moment = (nodes.rows[0] @ (nodes.weight * arm) for arm in (1.0, nodes.x - v.contact.m))
+    away = r * np.array(OUTSIDE)
+    gaps = state.gap(np.append(middle - away, middle + away), scene.profile)
+    gaps = gaps[np.isfinite(gaps)]
+    return Certificate(
+        residual=missed / peak,
+        implied=missed / peak,
+        force=abs(float(force) - P) / P,
+        moment=abs(float(moment) - (M - middle * P)) / (P * r),
+        lowest_pressure=min(float(nodes.rows[0].min()) / peak, 0.0),
+        lowest_gap=float(gaps.min(initial=0.0)) / float(np.abs(gaps).max(initial=EPS)),
+        abscissae=EPS + (rounding + G * of_x * bool(v.origin)) / peak,
+        tol=max(tol, PROMISED),
+        shear=shear_certificate(state, scene, tol, nodes),
+        notes=notes(H, peak / scene.Estar),
+    )
+
+
+def shear_certificate(
+    state: _Sheared, scene: Scene, tol: float, nodes: Nodes | None = None
+) -> ShearCertificate:
+    """The law of friction, equilibrium, and (12) with what came before."""
+    nodes = nodes or Nodes(state.values)
+    (p, q), v = nodes.rows, state.values
+    f_p, at = scene.friction * p, nodes.looked_at
+    missed, rounding = _change_of_gradient(state, nodes, scene.beta)
+    of_shear, peak = float(np.abs(q[nodes.regular]).max()), float(at.rows[0].max())
+    size, highest = float(nodes.weight @ np.abs(q)), scene.friction * peak
+    zones = [(lo - v.origin, hi - v.origin, sign) for lo, hi, sign in state.slip_zones]
+    known = v.exact | (nodes.rest > ENDS * (v.contact.r + abs(v.contact.m)))
+    return ShearCertificate(
+        residual=missed / of_shear,
+        equilibrium=abs(float(nodes.weight @ q) - scene.tangential_load) / size,
+        excess=max(excess(zones, v.contact, *(w[known] for w in (nodes.x, f_p, q))), 0.0) / highest,
+        opposing=min(state.least_slip, 0.0),
+        abscissae=EPS + (rounding + P_ROUNDING * peak) / of_shear,
         condition=1.0,
         advancing=True,
-        kind=kind_of_slip(state.full_stick, scene.beta),
+        kind=state.kind,
         tol=max(tol, OF_SHEAR),
     )
-    return Certificate(
-        residual=missed,
-        implied=missed,
-        force=abs(2.0 * float(values.weight @ values.p) - state.load) / state.load,
-        moment=0.0,
-        lowest_pressure=min(float(p.min()) / peak, 0.0),
-        lowest_gap=float(finite.min(initial=0.0)) / float(np.abs(finite).max(initial=EPS)),
-        abscissae=rounding,
-        tol=max(tol, PROMISED),
-        shear=shear,
-        notes=notes(np.concatenate(slopes), peak / scene.Estar),
-    )
 
 
-def kind_of_slip(full_stick: bool, beta: float) -> str:
-    """The slip under a normal load alone, in words."""
-    way = f"{'outwards' if beta > 0.0 else 'inwards'} on both sides while the normal load grew"
-    if full_stick:
-        way = "full stick, its zones narrower than 1e-15 of the contact"
-    return f"{way}; β couples p and q"
+def _change_of_gradient(state: _Sheared, nodes: Nodes, beta: float) -> tuple[float, float]:
+    """The largest change of γ in the zone that it is kept in, and what rounding changes in it.
 
-
-def _drift(state: CoupledContact, x: Array, gamma: Array, beta: float) -> float:
-    """The largest change of γ, since the stick zone reached x, where that can be measured."""
-    base = state.flat_base
-    if not state.growth:
-        inside = x < state.flat.c * state.b
-        return float(np.abs(gamma[inside]).max(initial=0.0))
-    ahead = state.ahead if state.corner_load else LIGHTER * state.ahead
-    load, b = sum(panel.load(ahead) for panel in state.growth), base + ahead
-    kinks = tuple(k for k in state.kinks if k < b)
-    lighter = replace(state, ahead=ahead, corner_load=0.0, load=load, kinks=kinks)
-    inside = x < 0.999 * state.flat.c * b
-    x = x[inside]
-    before = gradient_of_slip(lighter, x, beta)
-    return float(np.abs(gamma[inside] - before).max(initial=0.0))
-
-
-def gradient_of_slip(state: CoupledContact, y: Array, beta: float) -> Array:
-    """γ = 1/π PV∫q/(x - t) dt + β p at 0 < y < b."""
-    p, q = state.pressure_and_shear(y)
-    gamma: Array = principal_value(values_on_panels(state), state, y, q, -1.0) + beta * p
-    return gamma
-
-
-def _looked_at(state: CoupledContact) -> Array:
-    """Points between the marks, not on nodes."""
-    ends = (0.0, *distinct_marks(state))
-    part = (np.arange(LOOKS) + 0.5) / LOOKS
-    x = np.concatenate([lo + (hi - lo) * part for lo, hi in itertools.pairwise(ends)])
-    if state.corner_load:
-        x = x[x < (1.0 - BESIDE) * state.b]
-    kept: Array = x[(x > BESIDE * state.marks[0]) & ~np.isin(x, ends)]
-    return kept
-
-
-def _of_nodes(values: Values, state: CoupledContact, x: Array, f: Array) -> float:
-    """What rounding of the nodes does to the principal value of f: the root of sums of squares.
-
-    Where f is singular or changes in a strip they are as exact as their distance from the edge.
+    Without a zone nothing is known, and doubles tell too few places of a narrow one. Where the
+    earlier state has the same edges Q alone made the change, and that by P is measured as well.
     """
-    order = np.argsort(-values.rest, kind="stable")
-    y, rest, weight, f = (column[order] for column in (values.y, values.rest, values.weight, f))
-    by_rest = state.narrow or state.corner_load > 0.0
-    moved = EPS * (np.minimum(y, rest) if by_rest else y)
-    steps = np.maximum(-np.diff(rest, prepend=state.b), moved)
-    change = np.abs(np.diff(f, prepend=f[0])) * moved / steps
-    apart = np.abs(np.where(rest < y, rest - to_edge(state, x)[:, None], x[:, None] - y))
-    moves = weight * change / np.maximum(apart, moved)
-    return float(np.linalg.norm(moves, axis=1).max()) / math.pi
+    (zone, before), origin = state.kept, state.values.origin
+    lo, hi = (end - origin for end in zone)
+    if not lo < hi:
+        return math.inf, 0.0
+    if hi - lo < WIDE * 2.0 * state.values.contact.r:
+        return 0.0, 0.0
+    at = nodes.looked_at.inside(lo, hi)
+    if not at.x.size:
+        at = nodes.at(lo + (hi - lo) * (np.arange(LOOKS) + 0.53) / LOOKS)
+    changed, rounding = nodes.gradient(at, beta), float(nodes.rounding(at)[1])
+    if before is None:
+        return float(np.abs(changed).max()), rounding
+    earlier = Nodes(before.values)
+    same = earlier.at(at.x + (origin - before.values.origin))
+    missed = float(np.abs(changed - earlier.gradient(same, beta)).max())
+    rounding += float(earlier.rounding(same)[1])
+    if before.values.contact == state.values.contact:
+        others = _change_of_gradient(before, earlier, beta)
+        return max(missed, others[0]), max(rounding, others[1])
+    return missed, rounding
 
 
-def _of_slope(state: CoupledContact, scene: Scene, x: Array) -> float:
-    """What rounding of x does to E*/2 h': x is a distance from the axis, and exact at 0."""
-    if not state.axis:
-        return 0.0
-    at, slope = state.axis + np.append(x, -x), scene.profile.slope
-    change = slope(np.nextafter(at, np.inf)) - slope(at)
-    return state.half_modulus * float(np.abs(change).max())
+def gradient_of_slip(state: _Sheared, x: ArrayLike, beta: float) -> Array:
+    """γ at places in contact, counted as the values of the state count them."""
+    nodes = Nodes(state.values)
+    return nodes.gradient(nodes.at(np.asarray(x, dtype=float)), beta)
+
+
+class Places:
+    """Places x in contact, their distances from the left edge and from the right one, p and q."""
+
+    def __init__(self, values: InContact, x: Array, left: Array, right: Array) -> None:
+        self.values, self.x, self.left, self.right = values, x, left, right
+
+    @property
+    def rest(self) -> Array:
+        """The distances from the nearer edge."""
+        return np.minimum(self.left, self.right)
+
+    @cached_property
+    def rows(self) -> Array:
+        """p and q, with 0 in place of infinities at a mark that rounding put a place on."""
+        found = self.values.rows(self.x, self.rest)
+        return np.where(np.isfinite(found), found, 0.0)
+
+    def inside(self, lo: float, hi: float) -> Places:
+        """Those between two places."""
+        kept = (self.x > lo) & (self.x < hi)
+        found = Places(self.values, self.x[kept], self.left[kept], self.right[kept])
+        found.__dict__["rows"] = self.rows[:, kept]
+        return found
+
+
+class Nodes(Places):
+    """The nodes and weights of a rule on the whole contact, in ascending order."""
+
+    def __init__(self, values: InContact) -> None:
+        contact = values.contact
+        marks = np.array(values.marks)
+        left, right = contact.from_left(marks), contact.from_right(marks)
+        left[0] = right[-1] = 0.0
+        apart = values.exact | (np.minimum(left, right) > SAME * contact.r)
+        apart[1:] &= values.exact | (np.diff(marks) > SAME * contact.r)
+        apart[[0, -1]] = True
+        marks, left, right = marks[apart], left[apart], right[apart]
+        self.marks = marks
+        self.width = _steps(marks, left, right)
+        # what a narrower neighbour changes has a scale of its own beside it
+        size = np.log(np.concatenate(([np.inf], self.width, [np.inf]))) / math.log(RATIO**ROOT)
+        deeper = size[1:-1] - np.stack((size[:-2], size[2:]))
+        panels = np.ceil(np.maximum(deeper, 0.0)) + (INSIDE if len(marks) <= MANY else OF_MANY)
+        panels[0, 0] = panels[1, -1] = AT_EDGE
+        parts = []
+        for k, width in enumerate(self.width.tolist()):
+            (s, ds), (e, de) = (_towards_mark(int(n)) for n in panels[:, k])
+            from_lo, from_hi = 0.5 * width * s, 0.5 * width * e[::-1]
+            x = np.append(marks[k] + from_lo, marks[k + 1] - from_hi)
+            from_left = left[k] + np.append(from_lo, width - from_hi)
+            from_right = right[k + 1] + np.append(width - from_lo, from_hi)
+            parts.append((x, from_left, from_right, 0.5 * width * np.append(ds, de[::-1])))
+        x, left, right, self.weight = (np.concatenate(v) for v in zip(*parts, strict=True))
+        if not values.exact:  # beside a sharp edge f dx is f times the root, both at the rounded x
+            x = np.clip(x, *np.nextafter(contact[:2], contact.m))
+            rounded = np.maximum(contact.from_left(x) * contact.from_right(x), 0.0)
+            self.weight *= np.sqrt(rounded / (left * right))
+        super().__init__(values, x, left, right)
+
+    def at(self, x: Array) -> Places:
+        """Places that are no nodes."""
+        contact = self.values.contact
+        return Places(self.values, x, contact.from_left(x), contact.from_right(x))
+
+    @cached_property
+    def regular(self) -> NDArray[np.bool_]:
+        """Whether each node is away from sharp edges, where the tractions are infinite."""
+        p, apart = self.rows[0], BESIDE * self.values.contact.r
+        most = p[self.rest > apart].max()
+        left, right = (apart * (p[end] > most) for end in (0, -1))
+        return np.asarray((self.left >= left) & (self.right >= right))
+
+    @cached_property
+    def looked_at(self) -> Places:
+        """Places between the marks at which the equations are measured."""
+        wide = self.values.exact | (self.width > WIDE * 2.0 * self.values.contact.r)
+        looks = max(LOOKS, ALONE // len(self.width))
+        part = (np.arange(looks) + 0.53) / looks
+        x = (self.marks[:-1, None] + self.width[:, None] * part)[wide].ravel()
+        first, last = self.x[self.regular][[0, -1]]
+        x = x[(x > first) & (x < last)]
+        return self.at(x[:: max(1, -(-len(x) // MOST))])
+
+    def _apart(self, at: Places) -> Array:
+        """x - t of places and nodes (places, nodes), by what tells the node best."""
+        x, left, right = (v[:, None] for v in (at.x, at.left, at.right))
+        apart = np.where(self.right < self.left, self.right - right, left - self.left)
+        apart = np.where(np.abs(self.x) < self.rest, x - self.x, apart)
+        apart[apart == 0.0] = np.inf
+        return apart
+
+    def principal_values(self, at: Places) -> Array:
+        """1/π PV∫f/(x - t) dt of f = p and q, (2, places)."""
+        kernel = self.weight / self._apart(at)
+        whole = np.log(at.left / at.right) - kernel.sum(axis=1)
+        found: Array = (self.rows @ kernel.T + at.rows * whole) / math.pi
+        return found
+
+    def gradient(self, at: Places, beta: float) -> Array:
+        """γ, E*/2 times the gradient of the slip."""
+        found: Array = self.principal_values(at)[1] + beta * at.rows[0]
+        return found
+
+    def rounding(self, at: Places) -> Array:
+        """What the rounding of places does to these integrals: the root of sums of squares.
+
+        Of f it is that of its change from node to node.
+        """
+        if not at.x.size:
+            return np.zeros(2)
+        exact = EPS * np.minimum(np.abs(self.x), self.rest) + LEAST
+        by_x = np.spacing(np.maximum(np.abs(self.x), abs(self.values.origin)))
+        ulp = exact if self.values.exact else by_x
+        step = _steps(self.x, self.left, self.right)
+        change = np.zeros(self.rows.shape)
+        change[:, 1:] = np.abs(np.diff(self.rows)) * (ulp[1:] / np.maximum(step, ulp[1:]))
+        apart = np.maximum(np.abs(self._apart(at)), ulp)
+        moved = [np.linalg.norm(self.weight * f / apart, axis=1).max() for f in change]
+        return np.array(moved) / math.pi
+
+
+def _steps(x: Array, left: Array, right: Array) -> Array:
+    """The distances between neighbours, by what tells the second best."""
+    steps = np.where(right[1:] < left[1:], -np.diff(right), np.diff(left))
+    return np.where(np.abs(x[1:]) < np.minimum(left, right)[1:], np.diff(x), steps)
+
+
+def _towards_mark(panels: int) -> tuple[Array, Array]:
+    """Distances from a mark, as parts of the way to the middle, and weights."""
+    g, _, w = gauss_jacobi(NODES, 0.0, 0.0)
+    ends = np.append(0.0, RATIO ** -np.arange(float(panels), -0.5, -1.0))
+    length = np.diff(ends)[:, None]
+    t, dt = (ends[:-1, None] + length * g).ravel(), (length * w).ravel()
+    return t**ROOT, ROOT * t ** (ROOT - 1.0) * dt

@@ -121,23 +121,6 @@ def _count_from_breaks(x: Array, contact: Interval, edges: Array, breaks: Array)
         x[j] = breaks[chosen, None] + offset
 
 
-def edge_graded_rule(contact: Interval) -> Rule:
-    """The composite rule for tractions that oscillate towards both edges, as in full stick."""
-    ends = 0.25 * graded(27)  # to rounding
-    middle = np.linspace(0.25, 0.75, 17)
-    cuts = np.pi * np.concatenate(([0.0], ends, middle, 1.0 - ends[::-1], [1.0]))
-    nodes, weight = on_panels(cuts)
-    angle = nodes.ravel()
-    return Rule(
-        position(contact, angle),
-        angle,
-        weight.ravel() * contact.r * np.sin(angle),
-        position(contact, np.pi * middle),
-        slice(None),
-        contact,
-    )
-
-
 def _panels(contact: Interval, slope: Slope, also: Array, resolution: Slope) -> tuple[Array, Array]:
     """The ends of the panels, as angles from the right edge, and those of the largest."""
     levels = _levels_of_few(slope, also)

@@ -5,136 +5,209 @@ equilibrium   |∫q dx - Q| / ∫|q| dx
 excess        largest |q| - f p, and of ||q| - f p| in slip zones, over the peak of f p
 opposing      smallest slip in the direction of q over the largest
 
-Where dissimilar bodies slip while the normal load grows (Goodman's approximation) the residual is
-max |γ - γ'| / max|q|, γ = 1/π PV∫q/(x - t) dt + β p, where they stuck under a lighter load already;
-γ' is γ under that load, 0 where the contact does not grow.
+q is a sum of terms, each integrated by a rule on its own contact, in one patch or several; per
+period the kernel is (π/λ) cot(π(x - t)/λ).
 """
 
 from __future__ import annotations
 
-import itertools
-import math
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
-from functools import cached_property
-from typing import NamedTuple
+from collections.abc import Callable, Collection, Sequence
+from functools import reduce
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from sie.friction.load_history.marched_step import MarchedStep
-from sie.friction.slip_state import GrownSlip, Slip
-from sie.numerics.gauss_jacobi import with_weight
+from sie.friction.slip_state import Slip
 from sie.numerics.interval import EPS, Interval
+from sie.numerics.zones import Zones, left_over
+from sie.patches.chord import Chord, Points
+from sie.patches.panels import Patches
+from sie.patches.result import PatchCertificate
+from sie.patches.rule import Rule, principal_value
 from sie.profiles.resolution import refined
 from sie.profiles.slope import Slope
 from sie.traction.base import Density
-from sie.traction.of_slope import SlopeDensity
 
-from .quadrature import Rule, composite_rule
+from .quadrature import composite_rule
 from .result import ShearCertificate
 
 Array = NDArray[np.float64]
 
-POINTS = 24  # in the stick zone
+POINTS, FEWEST = 24, 2  # in the stick zones, about, and in each
 # Terms of a shear that are integrated one by one: a rule for all grows with their number, and so
 # does the cost of a value.
 MANY = 12
 # The end of a zone is known to this part of the contact: there |q| falls from f p like a root.
 ENDS = 32.0 * EPS
+SLIPS = 400  # places at which the direction of slip is measured, about
+LINE = Chord()
+EXPLAINED = 16.0  # times rounding, that a certificate of a pressure allows for
 
 
 class Term(NamedTuple):
-    """factor × density, a part of the shear, and the rule for its integrals."""
+    """A part of the shear, factor × density, and the rule for its integrals.
+
+    f         the density on the rule
+    exact     whether the rule knows its places by their distances from edges
+    """
 
     factor: float
-    density: Callable[[Array], Array]
-    contact: Interval
+    density: Any
+    patches: Patches
     rule: Rule
+    f: Array
+    exact: bool = False
+
+    @property
+    def contact(self) -> Interval:
+        """The outermost edges."""
+        return Interval(float(self.patches.a[0]), float(self.patches.b[-1]))
+
+    def placed(self, x: Array) -> tuple[Points, NDArray[np.int64]]:
+        """Places by the nearest edge where the term has several patches, and their patches."""
+        if self.patches.number > 1:
+            points, patch, _ = self.density.placed(x)
+            return points, patch
+        return Points(x, 0.0 * x), np.zeros(len(x), dtype=np.int64)
+
+
+def on_contact(
+    factor: float, density: Callable[[Array], Array], rule: Any, contact: Interval
+) -> Term:
+    """A term on one patch, by a composite rule."""
+    x = rule.x
+    points = Rule(Points(x, 0.0 * x), np.zeros(len(x), dtype=int), np.zeros(0, int), rule.weight)
+    return Term(factor, density, Patches.of((contact[:2],), LINE), points, finite(density(x)))
 
 
 def shear_certificate(
-    state: Slip, pressure: SlopeDensity, loads: tuple[float, float], slope: Slope, tol: float
-) -> ShearCertificate:
-    """Measure a state; `loads` are Q and τ."""
-    contact, bases = pressure.contact, state.shear.bases
-    resolution = refined(slope, contact.x1, contact.x2, EPS)
-    if len(bases) > MANY and all(isinstance(density, SlopeDensity) for _, density in bases):
-        rule = composite_rule(contact, slope, resolution=resolution)
-        terms = [
-            Term(factor, d, d.contact, composite_rule(d.contact, slope, resolution=resolution))
-            for factor, d in bases
-            if isinstance(d, SlopeDensity)
-        ]
-    else:
-        zones = (*state.stick, *(zone[:2] for zone in state.slipped))
-        ends = {*state.levels, *(end for zone in zones for end in zone)}
-        x1, x2 = pressure.interval
-        inside = np.array([c for c in ends if x1 < c < x2])
-        rule = composite_rule(contact, slope, inside, resolution=resolution)
-        terms = [Term(1.0, state.shear, contact, rule)]
-    # What cannot be measured is infinite, and not ok.
-    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-        return _measured(state, pressure, loads, rule, terms, tol=tol)
-
-
-def _measured(
     state: Slip,
-    pressure: SlopeDensity,
+    pressure: Density,
     loads: tuple[float, float],
-    rule: Rule,
-    terms: list[Term],
+    slope: Slope,
     *,
     tol: float,
+    of_pressures: Sequence[PatchCertificate] = (),
 ) -> ShearCertificate:
-    x, weight = rule.x, rule.weight
-    p, q = finite(state.friction * pressure(x)), finite(state.shear(x))
-    size, peak = float(weight @ np.abs(q)), float(np.abs(q).max())
-    if size == 0.0:
-        size = peak = state.friction * pressure.resultant
-    force, equation, of_force, of_equation = integrals(terms, points(state.untouched, terms))
-    return ShearCertificate(
-        residual=float(np.abs(equation - loads[1]).max(initial=0.0)) / peak,
-        equilibrium=abs(force - loads[0]) / size,
-        excess=excess(state, pressure.contact, x, p, q) / float(p.max()),
-        opposing=opposing(state, state.slip_now(x), x),
-        abscissae=max(of_force / size, float(of_equation.max(initial=0.0)) / peak),
-        condition=state.condition,
-        advancing=state.advancing,
-        kind=state.kind,
-        tol=tol,
-    )
+    """Measure a state; `loads` are Q and τ.
+
+    `of_pressures` certify the pressures of several patches that q is the sum of.
+    """
+    # What cannot be measured is infinite, and not ok.
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+        terms, own = _terms(state, pressure, slope)
+        x, weight, chord = own.rule.points.x, own.rule.weight, own.patches.chord
+        p = state.friction * (own.f if own.density is pressure else finite(pressure(x)))
+        q = finite(sum((t.factor * _at_rule(t, own) for t in terms), np.zeros(len(x))))
+        scale = np.abs(q) if q.any() else p  # without shear what is missed is compared with f p
+        size, peak = float(weight @ scale), float(scale.max())
+        at = _places(state, terms, chord)
+        force, equation, of_force, of_equation = integrals(terms, at)
+        # what the pressures that q is the difference of are rounded by
+        digits = max((c.measured_to / EXPLAINED for c in of_pressures), default=0.0)
+        of_force += digits * sum(abs(t.factor) * float(t.rule.weight @ np.abs(t.f)) for t in terms)
+        highest = digits * sum(abs(t.factor) * float(np.abs(t.f).max()) for t in terms)
+        # q may be of another pressure, whose edges and places are rounded apart from those of p
+        rounding = p * np.minimum(np.spacing(np.abs(x)) / _from_edges(own), 1.0)
+        q_near_p = np.sign(q) * np.clip(p, np.abs(q) - rounding, np.abs(q) + rounding)
+        some = slice(None, None, max(len(x) // SLIPS, 1))
+        return ShearCertificate(
+            residual=float(np.abs(equation - loads[1]).max(initial=0.0)) / peak,
+            equilibrium=abs(force - loads[0]) / size,
+            excess=excess(state.slipped, state.contact, x, p, q_near_p) / float(p.max()),
+            opposing=opposing(state, state.slip_now(x[some]), x[some]),
+            abscissae=max(of_force / size, (float(of_equation.max(initial=0.0)) + highest) / peak),
+            condition=state.condition,
+            advancing=state.advancing,
+            kind=state.kind,
+            tol=tol,
+        )
 
 
-def integrals(terms: list[Term], at: Array) -> tuple[float, Array, float, Array]:
+def _terms(state: Slip, pressure: Density, slope: Slope) -> tuple[list[Term], Term]:
+    """The terms of the shear, and that whose places are those of p."""
+    bases = state.shear.bases
+    densities = [pressure, *(density for _, density in bases)]
+    several = any(hasattr(d, "patches") for d in densities)
+    contacts = [getattr(d, "contact", None) for d in densities]
+    if not several and (len(bases) <= MANY or None in contacts):
+        zones = (*state.stick, *(zone[:2] for zone in state.slipped))
+        ends = {*state.levels, *(end for zone in zones for end in zone)}
+        own = on_own_rule(state.shear, state.contact, ends, slope)
+        return [own], own
+    x1, x2 = state.contact[:2]
+    resolution = None if several else refined(slope, x1, x2, EPS)
+    known = {id(d): _term(d, slope, resolution) for d in densities if d.interval[0] < d.interval[1]}
+    terms = [known[id(d)]._replace(factor=factor) for factor, d in bases if id(d) in known]
+    return terms, known[id(pressure)]
+
+
+def _term(density: Any, slope: Slope, resolution: Slope | None) -> Term:
+    """A pressure on its patches, or on its contact."""
+    if not hasattr(density, "patches"):
+        rule = composite_rule(density.contact, slope, resolution=resolution)
+        return on_contact(1.0, density, rule, density.contact)
+    patches = Patches.of(density.patches, Chord(density.period))
+    return Term(1.0, density, patches, density.rule, finite(density.at_rule), exact=True)
+
+
+def on_own_rule(
+    density: Density, contact: Interval, marks: Collection[float], slope: Slope
+) -> Term:
+    """A shear on one contact, by a rule that shrinks towards the marks in it as well."""
+    inside = np.array([x for x in marks if contact.x1 < x < contact.x2])
+    return on_contact(1.0, density, composite_rule(contact, slope, inside), contact)
+
+
+def _at_rule(term: Term, own: Term) -> Array:
+    """A density at the places of p."""
+    return term.f if term.rule is own.rule else finite(term.density(own.rule.points.x))
+
+
+def _from_edges(term: Term) -> Array:
+    """The distances from the nearest edges of patches, of an ulp at least."""
+    x = term.rule.points.x
+    apart = np.abs(term.patches.chord.difference(x[:, None] - term.patches.edges)).min(axis=1)
+    return np.asarray(np.maximum(apart, np.spacing(np.abs(x))))
+
+
+def integrals(terms: Sequence[Term], at: Array) -> tuple[float, Array, float, Array]:
     """∫q dx, 1/π PV∫q/(x - t) at points, by subtracting q there; and rounding of both.
 
     Rounding is what one ulp of the nodes, which are counted from the edges, does. In a narrow stick
     zone next to a sharp edge, where q is infinite, the nodes there dominate.
     """
     force, of_force, equation, of_equation = 0.0, 0.0, np.zeros(len(at)), np.zeros(len(at))
-    for factor, density, contact, (x, _, weight, *_) in terms:
+    for term in terms:
+        rule, values = term.rule, term.density(at)
+        force += term.factor * float(rule.weight @ term.f)
+        equation += term.factor * principal_value(
+            term.patches, rule, term.f, term.placed(at), values
+        )
+        if term.exact:
+            continue
+        contact, x = term.contact, rule.points.x
         ulp = float(np.spacing(contact.r + abs(contact.m)))
         inwards, at_inwards = (place + np.where(place < contact.m, ulp, -ulp) for place in (x, at))
-        q, values = finite(density(x)), density(at)
-        moved = weight * np.abs(finite(density(inwards)) - q)
-        distance = at[:, None] - x
+        moved = rule.weight * np.abs(finite(term.density(inwards)) - term.f)
+        distance = np.abs(at[:, None] - x)
         distance[distance == 0.0] = np.inf
-        whole = values * np.log(contact.from_left(at) / contact.from_right(at))
-        force += factor * float(weight @ q)
-        equation += factor / np.pi * (((q - values[:, None]) / distance) @ weight + whole)
-        of_force += abs(factor) * float(moved.sum())
-        here = np.abs(finite(density(at_inwards)) - values)
-        of_equation += abs(factor) * (here + (1.0 / np.abs(distance)) @ moved / np.pi)
+        of_force += abs(term.factor) * float(moved.sum())
+        here = np.abs(finite(term.density(at_inwards)) - values)
+        of_equation += abs(term.factor) * (here + (1.0 / distance) @ moved / np.pi)
     return force, equation, of_force, of_equation
 
 
-def excess(state: Slip, contact: Interval, x: Array, p: Array, q: Array) -> float:
+def excess(
+    slipped: Sequence[tuple[float, float, float]], contact: Interval, x: Array, p: Array, q: Array
+) -> float:
     """The largest |q| - f p in stick, or error of |q| = f p in slip."""
     # A node on a corner, where p is infinite, was set to 0.
     worst = float(np.where(p > 0.0, np.abs(q) - p, -np.inf).max())
     margin = ENDS * (contact.r + abs(contact.m))
-    for lo, hi, sign in state.slipped:
+    for lo, hi, sign in slipped:
         slipping = (x > lo + margin) & (x < hi - margin) & (p > 0.0)
         worst = max(worst, float(np.abs(sign * q - p)[slipping].max(initial=0.0)))
     return worst
@@ -153,25 +226,37 @@ def opposing(state: Slip, slip: Array, x: Array) -> float:
     return lowest / largest if largest else 0.0
 
 
-def points(held: tuple[float, float], terms: list[Term]) -> Array:
-    """The places of measurement over a zone that sticks."""
-    nodes = np.unique(np.concatenate([term.rule.x for term in terms]))
-    return places_between(held, nodes, len(terms), POINTS)
+def _places(state: Slip, terms: Sequence[Term], chord: Chord) -> Array:
+    """Places that never slipped, between the nodes of all terms."""
+    zones: Zones = (state.untouched,)
+    if any(term.exact for term in terms):
+        every = (list(zip(t.patches.a.tolist(), t.patches.b.tolist())) for t in terms)
+        zones = reduce(
+            lambda one, other: left_over(one, left_over(one, other, chord.period), chord.period),
+            every,
+        )
+    return points(zones, terms, chord) if terms else np.zeros(0)
 
 
-def places_between(held: tuple[float, float], nodes: Array, rules: int, number: int) -> Array:
-    """Places in a zone, half-way between the ascending nodes of some rules.
+def points(zones: Zones, terms: Sequence[Term], chord: Chord = LINE) -> Array:
+    """Places in zones, half-way between the ascending nodes of some rules.
 
     Of many rules these are the farthest apart in the neighbourhood.
     """
-    (lo, hi), near = held, rules - 1
-    at = 0.5 * (lo + hi) + 0.5 * (hi - lo) * np.cos(np.pi * (np.arange(number) + 0.5) / number)
-    k = np.clip(np.searchsorted(nodes, at)[:, None] + np.arange(-near, near + 1), 1, len(nodes) - 1)
-    widest = np.argmax(nodes[k] - nodes[k - 1], axis=1)
-    k = k[np.arange(number), widest]
-    at = np.unique(0.5 * (nodes[k - 1] + nodes[k]))
-    inside: Array = at[(at > lo) & (at < hi) & ~np.isin(at, nodes)]
-    return inside
+    found, near = [np.zeros(0)], len(terms) - 1
+    every = np.concatenate([term.rule.points.x for term in terms])
+    number = max(POINTS // max(len(zones), 1), FEWEST)
+    for lo, hi in zones:
+        middle = 0.5 * (lo + hi)
+        at = middle - 0.5 * (hi - lo) * np.cos(np.pi * (np.arange(number) + 0.5) / number)
+        nodes = np.unique(middle + chord.difference(every - middle))
+        beside = np.searchsorted(nodes, at)[:, None] + np.arange(-near, near + 1)
+        k = np.clip(beside, 1, len(nodes) - 1)
+        widest = np.argmax(nodes[k] - nodes[k - 1], axis=1)
+        k = k[np.arange(number), widest]
+        at = np.unique(0.5 * (nodes[k - 1] + nodes[k]))
+        found.append(at[(at > lo) & (at < hi) & ~np.isin(at, nodes)])
+    return np.concatenate(found)
 
 
 def finite(values: Array) -> Array:
@@ -192,18 +277,21 @@ def marched_certificate(
 
     The residual is at least the error of the ends of the stick zone over its half-width.
     """
-    terms = [_on_own_rule(part.shear, part.pressure.contact, part.marks, slope) for part in parts]
+    terms = [on_own_rule(part.shear, part.pressure.contact, part.marks, slope) for part in parts]
     residual = of_change = 0.0
     for part, term in zip(parts, terms, strict=True):
         begun = part.latest()
         old = begun.pressure.contact
-        before = _on_own_rule(begun.shear, old, begun.marks, slope)
+        before = on_own_rule(begun.shear, old, begun.marks, slope)
         pair = [term, before._replace(factor=-1.0)]
-        at = np.concatenate([points(zone, pair) for zone in part.kept_in(old)])
+        at = np.concatenate([points((zone,), pair) for zone in part.kept_in(old)])
         _, change, _, rounding = integrals(pair, at)
         missed = np.abs(change - (part.tau - begun.tau)).max(initial=0.0)
         residual, of_change = max(residual, float(missed)), max(of_change, float(rounding.max()))
-    contact, (x, _, weight, *_) = parts[-1].pressure.contact, terms[-1].rule
+    contact, (x, weight) = (
+        parts[-1].pressure.contact,
+        (terms[-1].rule.points.x, terms[-1].rule.weight),
+    )
     p, q = state.friction * parts[-1].pressure(x), parts[-1].shear(x)
     size = max(float(weight @ np.abs(q)), FAINT * float(weight @ p))
     peak = max(float(np.abs(q).max()), FAINT * float(p.max()))
@@ -213,7 +301,7 @@ def marched_certificate(
     return ShearCertificate(
         residual=max(residual / peak, error),
         equilibrium=abs(force - parts[-1].Q) / size,
-        excess=excess(state, contact, x[known], p[known], q[known]) / float(p.max()),
+        excess=excess(state.slipped, contact, x[known], p[known], q[known]) / float(p.max()),
         opposing=opposing(state, parts[-1].slip(x), x),
         abscissae=max(of_force / size, of_change / peak),
         condition=1.0,
@@ -221,115 +309,3 @@ def marched_certificate(
         kind=f"{state.kind}; the ends of the stick zone within {error:.0e} of its half-width",
         tol=max(tol, MARCHED),
     )
-
-
-def _on_own_rule(density: Density, contact: Interval, marks: Sequence[float], slope: Slope) -> Term:
-    inside = np.array([x for x in marks if contact.x1 < x < contact.x2])
-    return Term(1.0, density, contact, composite_rule(contact, slope, inside))
-
-
-# -- while the normal load grows ------------------------------------------------------------------
-
-OF_SHEAR = 1e-10  # of the largest shear: what is promised of (12)
-NODES, RATIO = 12, 3.0  # panels towards a mark, in the root of the distance
-# ... and so many: at an edge the shear goes with a logarithm as well where the slip zone is narrow
-AT_EDGE, INSIDE = 17, 9
-P_ROUNDING = 16.0 * EPS  # of p, which q is balanced with in (12)
-
-
-def goodman_certificate(state: GrownSlip, tol: float) -> ShearCertificate:
-    """Measured on a state and on those before."""
-    pressure, (term,) = state.step.pressure, _terms(state)
-    x, weight = term.rule.x, term.rule.weight
-    p, q = finite(state.friction * pressure(x)), finite(term.density(x))
-    size, peak = float(weight @ np.abs(q)), float(np.abs(q).max())
-    contact = pressure.contact
-    # Nearer to an edge p and q are roots of distances that doubles do not tell
-    margin = ENDS * (contact.r + abs(contact.m))
-    known = (contact.from_left(x) > margin) & (contact.from_right(x) > margin)
-    force, _, of_force, _ = integrals([term], np.empty(0))
-    missed, of_gamma = _kept(state, term)
-    return ShearCertificate(
-        residual=missed / peak,
-        equilibrium=abs(force - state.step.Q) / size,
-        excess=excess(state, contact, x[known], p[known], q[known]) / float(p.max()),
-        opposing=opposing(state, state.slip_now(x), x) if state.zones is None else 0.0,
-        abscissae=max(of_force / size, of_gamma / peak),
-        condition=1.0,
-        advancing=True,
-        kind=state.kind,
-        tol=max(tol, OF_SHEAR),
-    )
-
-
-def _kept(state: GrownSlip, term: Term) -> tuple[float, float]:
-    """By how much H q + β p changed at most where bodies did not slip, and its rounding.
-
-    What sticks under Q has not slipped since P alone; then, nor did what stuck under a lighter load
-    and sticks still. Without such places nothing is known.
-    """
-    before, light = state.before_Q, state.lighter
-    if before is not None:
-        at = points(state.stick[0], [term])
-        change = term._replace(density=lambda x: term.density(x) - before.shear(x))
-        _, gamma, _, rounding = integrals([change], at)
-        missed, of_gamma = _kept(before, *_terms(before))
-        missed = max(missed, float(np.abs(gamma).max(initial=0.0)))
-        return missed, max(of_gamma, float(rounding.max(initial=0.0)))
-    pressure, beta = state.step.pressure, state.step.scene.beta
-    at = points(state.untouched, [term])
-    _, gamma, _, rounding = integrals([term], at)
-    due = -beta * pressure(at)
-    if light is not None:
-        _, then, _, of_then = integrals(_terms(light), at)
-        due, rounding = due + then + beta * light.step.pressure(at), rounding + of_then
-    missed = float(np.abs(gamma - due).max()) if len(at) else math.inf
-    of_p = P_ROUNDING * float(pressure(at).max(initial=0.0))
-    return missed, float(rounding.max(initial=0.0)) + of_p
-
-
-@dataclass(frozen=True, eq=False)
-class _Remembered:
-    """A shear with its values at the nodes of a rule, which are wanted again and again."""
-
-    density: Density
-    x: Array
-
-    @cached_property
-    def values(self) -> Array:
-        return self.density(self.x)
-
-    def __call__(self, x: Array) -> Array:
-        return self.values if x is self.x else self.density(x)
-
-
-def _terms(state: GrownSlip) -> list[Term]:
-    contact = state.contact
-    if any(state.step.normal.edges.sharp):
-        x1, x2 = state.step.pressure.interval
-        inside = np.array([x for x in state.marks if x1 < x < x2])
-        rule = composite_rule(contact, state.step.slope, inside)
-    else:
-        rule = _between(state.marks, contact)
-    return [Term(1.0, _Remembered(state.shear, rule.x), contact, rule)]
-
-
-def _between(marks: tuple[float, ...], contact: Interval) -> Rule:
-    """Panels that shrink towards all marks, in roots of the distance from them."""
-    nodes, _, w = with_weight(NODES, 0.0, 0.0)
-
-    def towards(end: float, middle: float) -> tuple[Array, Array]:
-        levels = AT_EDGE if end in (marks[0], marks[-1]) else INSIDE
-        ends = np.append(0.0, RATIO ** -np.arange(levels, -0.5, -1.0))
-        length = np.diff(ends)[:, None]
-        place, weight = (ends[:-1, None] + length * nodes).ravel(), (length * w).ravel()
-        return end + (middle - end) * place**2, 2.0 * abs(middle - end) * place * weight
-
-    x, dx = [], []
-    for lo, hi in itertools.pairwise(marks):
-        middle = 0.5 * (lo + hi)
-        (left, rise), (right, fall) = towards(lo, middle), towards(hi, middle)
-        x += [left, right[::-1]]
-        dx += [rise, fall[::-1]]
-    at = np.concatenate(x)
-    return Rule(at, np.zeros_like(at), np.concatenate(dx), at[:0], slice(None), contact)

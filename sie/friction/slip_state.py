@@ -19,13 +19,7 @@ from sie.profiles.slope import Slope
 from sie.traction.base import ZERO, Density
 from sie.traction.of_slope import SlopeDensity
 
-from .slip_zones import (
-    EdgeFrame,
-    SlipZone,
-    SlipZones,
-    edge_frame,
-    slip_zone,
-)
+from .slip_zones import EdgeFrame, SlipZone, edge_frame, slip_zone
 
 Array = NDArray[np.float64]
 
@@ -156,23 +150,6 @@ class Slip(ABC):
     def slip_now(self, x: Array) -> Array:
         """The slip since the last turning point."""
         return self.slip(x)
-
-
-class GrownSlip(Slip):
-    """A state whose bodies slip while the normal load grows.
-
-    step        the contact and its loads
-    zones       the zones under Q, None before
-    marks       places where q is not smooth, with the edges
-    lighter     the state under a lighter normal load, None where the contact does not grow
-    before_Q    the state before Q, None where that is this one
-    """
-
-    step: Step
-    zones: SlipZones | None
-    marks: tuple[float, ...]
-    lighter: GrownSlip | None
-    before_Q: GrownSlip | None
 
 
 @dataclass(frozen=True, eq=False)

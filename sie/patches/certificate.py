@@ -14,23 +14,20 @@ condition     relative change of the narrowest patch or gap per relative change 
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from sie.numerics import chebyshev
 from sie.numerics.interval import EPS
-from sie.progress_bar import reported, step_done
+from sie.progress_bar import reported
 
-from .chord import Points
 from .density import PatchPressure
 from .gap import gap
 from .newton import Linear, conditions
 from .operator import Found, Operator
-from .panels import LONG, PatchPanels
 from .pieces import ROUNDINGS
 from .result import CLOSE, LEAST, PatchCertificate
+from .rule import SHORT, Rule, principal_value
 from .state import Given, Unseen
 
 Array = NDArray[np.float64]
@@ -38,16 +35,6 @@ Index = NDArray[np.int64]
 Mask = NDArray[np.bool_]
 Height = Callable[[Array], Array]
 
-# nodes on a part of a panel: of those that are graded slowly, and of those of many breaks
-NODES, FEWER = 40, 24
-STEEP = 4.0  # a panel that is so much longer than its neighbour is cut towards that one
-DEEP = 26  # cuts towards a jump of H, each STEEP times nearer: p is infinite there like a logarithm
-BESIDE = 5  # cuts towards edges, where there are few panels: down to SHORT
-SHORT = 1e-3  # of a panel: on shorter parts the equation is not measured
-# ulp of an edge: closer to it the edge's own rounding changes p by a part of 1e-6
-APART = 5e5
-PLACES = 120  # at which it is, about
-TOGETHER = 32  # of them at once
 EXPLAINED = 16.0  # times what half an ulp of the edges changes
 MOST = 1e-3  # of the peak: where that is more nothing is certified
 SHARED = 1e-9  # of the load of a patch: what the rounding of h may change without a note
@@ -70,10 +57,11 @@ def certificate(
     """
     (given, height), o, G = asked_for, found.operator, pressure.half_modulus
     P = o.patches
-    rule, places = measured_on(pressure)
-    p, at = (pressure.at_points(m.points, m.patch, m.piece) for m in (rule, places))
-    p = _without_infinities(rule.points.x, p)
-    peak = float(at.max())
+    rule, places = pressure.rules
+    p, at = pressure.at_rule, pressure.at_points(places.points, places.patch, places.piece)
+    peak, x = float(at.max()), places.points
+    H = o.pieces.value(places.piece, x.anchor, x.offset) + pressure.tilt
+    total = principal_value(P, rule, p, (x, places.patch), at)
     load = float(rule.weight @ p)
     hull, middle = 0.5 * P.hull, 0.5 * float(P.b[-1] + P.a[0])
     asked = G * given.load
@@ -85,7 +73,7 @@ def certificate(
     condition = conditioning(found, given, linear)
     measured_to = max(LEAST, min(EXPLAINED * _rounding(o, linear, given, peak / G), MOST))
     return PatchCertificate(
-        residual=_residual(pressure, (rule, p), (places, at)) / peak,
+        residual=float(np.abs(total - G * H).max(initial=0.0)) / peak,
         force=abs(load - asked) / asked,
         moment=moment,
         gap=_error_of_gap(pressure, height, (rule, p), measured_to),
@@ -103,21 +91,6 @@ def certificate(
             *_notes_on_heights(found, linear),
         ),
     )
-
-
-def _without_infinities(x: Array, p: Array) -> Array:
-    """p of a rule, infinite at a jump of H closer than doubles tell, there as beside it.
-
-    With 0 there the rule would miss the load of that length, some ulps of x times p: a point charge
-    to the places near the jump.
-    """
-    finite, infinite = np.isfinite(p), np.isinf(p)
-    if not (infinite.any() and finite.any()):
-        return np.where(finite, p, 0.0)
-    beside = np.flatnonzero(finite)[np.argsort(x[finite])]
-    filled = np.where(finite, p, 0.0)
-    filled[infinite] = np.interp(x[infinite], x[beside], p[beside])
-    return filled
 
 
 def _notes(condition: float) -> tuple[str, ...]:
@@ -200,148 +173,8 @@ def _charge_of_closed_corners(o: Operator) -> float:
     return float((charge[:, long] / (SHORT * length[long])).max(initial=0.0))
 
 
-class Measure(NamedTuple):
-    """Points on patches, the pieces of H that they are on, and weights dx."""
-
-    points: Points
-    patch: Index
-    piece: Index
-    weight: Array
-
-
-def measured_on(pressure: PatchPressure) -> tuple[Measure, Measure]:
-    """A composite rule on the panels of an operator, and places between its points.
-
-    At the latter the equation is measured.
-
-    The variable is bent at the ends of panels: p has breaks like s² ln s where H' of a spline has,
-    and s^8 ln s is easy. At an edge p is smooth in the angle.
-    """
-    o = pressure.operator
-    k = o.panels
-    nodes = NODES if k.angle.shape[1] == LONG.nodes else FEWER
-    panel, lo, length = _cut(k, _jumps_at_ends(o))
-    g, w = _bent(lo == 0.0, nodes)
-    rule = _at_angles(k, pressure, panel, lo[:, None] + length[:, None] * g)
-    rule = rule._replace(weight=(length[:, None] * w).ravel() * rule.weight)
-    r, edge = o.patches.r[k.patch[panel]], k.points.anchor[panel, 0]
-    far = 2.0 * r * np.sin(0.5 * (lo + 0.25 * length)) ** 2 >= np.minimum(
-        APART * np.spacing(np.abs(edge)), 0.1 * r
-    )
-    some = np.flatnonzero((length > SHORT * (k.hi - k.lo)[panel]) & far)
-    some = some if some.size else np.arange(len(lo))
-    some = some[:: max(len(some) // PLACES, 1)]
-    number = min(-(-PLACES // len(some)), nodes // 2)
-    # Not close to the ends of parts, between which a place makes the kernel as steep as it is
-    # close, and midway between two points: beside one the quotient is rounding.
-    wanted = 0.25 + 0.5 * (np.arange(number) + 0.5) / number
-    g = g[some]
-    after = (g[:, :, None] < wanted).sum(axis=1)
-    part = 0.5 * (np.take_along_axis(g, after - 1, 1) + np.take_along_axis(g, after, 1))
-    angle = lo[some, None] + length[some, None] * part
-    return rule, _at_angles(k, pressure, panel[some], angle)
-
-
-def _jumps_at_ends(o: Operator) -> Mask:
-    """Whether H jumps at the end k.lo and at the end k.hi of each panel, (2, p)."""
-    k, pieces = o.panels, o.pieces
-    jump = np.zeros(len(pieces.ends), dtype=bool)
-    jump[1:-1] = pieces.steps != 0.0
-    ends = np.stack(o.ends)
-    closest = pieces.ends[k.piece + np.array([[0], [1]])]
-    reached = np.abs(ends - closest) <= SHORT * (ends[1] - ends[0])
-    left, right = reached & jump[k.piece + np.array([[0], [1]])]
-    return np.where(k.right, (right, left), (left, right)) & (np.stack((k.lo, k.hi)) > 0.0)
-
-
-def _cut(k: PatchPanels, jumps: Mask) -> tuple[Index, Array, Array]:
-    """Parts (panel, lowest angle, length) of the panels.
-
-    Panels are whole, but beside a much shorter panel, and at a jump of H, no part is longer than
-    STEEP times its distance from there.
-
-    At a place on the shorter one the kernel is as steep as its length.
-    """
-    length = k.hi - k.lo
-    order = np.lexsort((np.where(k.right, np.pi - k.hi, k.lo), k.patch))
-    meet = k.patch[order][1:] == k.patch[order][:-1]
-    left, right = np.full((2, len(length)), np.inf)  # lengths of the neighbours
-    left[order[1:]] = np.where(meet, length[order[:-1]], np.inf)
-    right[order[:-1]] = np.where(meet, length[order[1:]], np.inf)
-    neighbours = np.where(k.right, (right, left), (left, right))  # towards k.lo and k.hi
-    times = np.ceil((np.log(length) - np.log(neighbours)) / np.log(STEEP) - 1.0).clip(0.0)
-    times = np.where(jumps, DEEP, times)
-    if len(length) < PLACES:
-        times[0, k.lo == 0.0] = BESIDE
-    panels, lows, lengths = [], [], []
-    for towards_lo, towards_hi in np.unique(times, axis=1).T.astype(int).tolist():
-        chosen = np.flatnonzero((times[0] == towards_lo) & (times[1] == towards_hi))
-        lower = STEEP ** -np.arange(towards_lo, 0.0, -1.0)
-        upper = 1.0 - STEEP ** -np.arange(1.0, towards_hi + 1.0)
-        part = np.concatenate(([0.0], lower, upper, [1.0]))
-        lows.append((k.lo[chosen, None] + length[chosen, None] * part[:-1]).ravel())
-        lengths.append((length[chosen, None] * np.diff(part)).ravel())
-        panels.append(np.repeat(chosen, len(part) - 1))
-    return np.concatenate(panels), np.concatenate(lows), np.concatenate(lengths)
-
-
-def _bent(at_edge: Mask, nodes: int) -> tuple[Array, Array]:
-    """Gauss' nodes and weights on [0, 1] in a bent variable.
-
-    Its cube is the distance from an end, the upper one only where the lower one is an edge.
-    """
-    g, w = chebyshev.gauss_legendre(nodes)
-    both = g**3 * (10.0 - 15.0 * g + 6.0 * g * g), 30.0 * w * (g * (1.0 - g)) ** 2
-    upper = 1.0 - (1.0 - g) ** 3, 3.0 * w * (1.0 - g) ** 2
-    place, weight = (np.where(at_edge[:, None], u, b) for u, b in zip(upper, both, strict=True))
-    return place, weight
-
-
-def _at_angles(k: PatchPanels, pressure: PatchPressure, panel: Index, angle: Array) -> Measure:
-    """Points at angles (m, n) on panels (m,), with dx/d(angle) as weights."""
-    r = pressure.operator.patches.r[k.patch[panel], None]
-    inward = 2.0 * r * np.sin(0.5 * angle) ** 2
-    offset = np.where(k.right[panel, None], -inward, inward)
-    anchor = np.broadcast_to(k.points.anchor[panel], offset.shape)
-    patch, piece = (np.repeat(v[panel], angle.shape[1]) for v in (k.patch, k.piece))
-    return Measure(
-        Points(anchor.ravel(), offset.ravel()), patch, piece, (r * np.sin(angle)).ravel()
-    )
-
-
-def _residual(
-    pressure: PatchPressure, rule: tuple[Measure, Array], places: tuple[Measure, Array]
-) -> float:
-    """The largest residual at places with their pressures, by a rule with its own."""
-    at, values = places
-    x = at.points
-    H = pressure.operator.pieces.value(at.piece, x.anchor, x.offset) + pressure.tilt
-    found = principal_value(pressure, rule, (x, at.patch, values))
-    return float(np.abs(found - pressure.half_modulus * H).max(initial=0.0))
-
-
-def principal_value(
-    pressure: PatchPressure, rule: tuple[Measure, Array], places: tuple[Points, Index, Array]
-) -> Array:
-    """1/π PV∫p(t)/(x - t) dt at places, their patches and pressures, by a rule with its own."""
-    P, chord = pressure.operator.patches, pressure.operator.patches.chord
-    (by, p), (x, own, values) = rule, places
-    left, right = (chord.apart(x.anchor - e[own], x.offset) for e in (P.a, P.b))
-    total = values * np.log(left / -right)
-    for k in range(0, len(own), TOGETHER):
-        step_done(0)
-        some = slice(k, k + TOGETHER)
-        distance = chord.difference(
-            x.anchor[some, None] - by.points.anchor, x.offset[some, None] - by.points.offset
-        )
-        kernel = chord.kernel(distance)
-        taken_out = np.where(by.patch == own[some, None], values[some, None], 0.0)
-        total[some] += ((p - taken_out) * kernel) @ by.weight
-    return np.asarray(total / np.pi)
-
-
 def _error_of_gap(
-    pressure: PatchPressure, height: Height, rule: tuple[Measure, Array], measured_to: float
+    pressure: PatchPressure, height: Height, rule: tuple[Rule, Array], measured_to: float
 ) -> float:
     """The largest error of some gaps; p by its rule."""
     o, (by, p) = pressure.operator, rule

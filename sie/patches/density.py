@@ -25,6 +25,7 @@ from .chord import Points
 from .measure import Targets
 from .operator import Operator, at_edges, blocks, on_patches
 from .panels import graded
+from .rule import Rule, rule_of
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -188,6 +189,31 @@ class PatchPressure(Density):
         with np.errstate(divide="ignore", invalid="ignore"):
             D = on_patches(o, k[at[:, 0]], points[at], piece[at])
             p[at] = (self.half_modulus / np.pi) * np.abs(T) * D
+        return p
+
+    @cached_property
+    def rules(self) -> tuple[Rule, Rule]:
+        """The rule of the certificate, and places between its points."""
+        return rule_of(self.operator)
+
+    @property
+    def rule(self) -> Rule:
+        return self.rules[0]
+
+    @cached_property
+    def at_rule(self) -> Array:
+        """p on the rule, infinite at a jump of H closer than doubles tell, there as beside it.
+
+        With 0 there the rule would miss the load of that length, some ulps of x times p: a point
+        charge to the places near the jump.
+        """
+        m = self.rule
+        x, p = m.points.x, self.at_points(m.points, m.patch, m.piece)
+        finite, infinite = np.isfinite(p), np.isinf(p)
+        p = np.where(finite, p, 0.0)
+        if infinite.any() and finite.any():
+            beside = np.flatnonzero(finite)[np.argsort(x[finite])]
+            p[infinite] = np.interp(x[infinite], x[beside], p[beside])
         return p
 
     def hilbert(self, x: ArrayLike) -> Array:

@@ -24,10 +24,13 @@ from sie.numerics.interval import Interval
 from sie.traction.base import Density, on_surface, reflected, refuse_side, zero_or_nan
 
 from .bounds import DEEPEST, NODES, TENSION, halves, lower_bound
+from .chord import Chord, Points
 from .density import AROUND, NARROW
 from .measure import NEAR
+from .panels import Patches
 from .pieces import Pieces
 from .result import CLOSE, GRADING, LEAST, PatchCertificate
+from .rule import Rule, principal_value
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -77,8 +80,7 @@ class FullPressure(Density):
 
     @cached_property
     def moment(self) -> float:  # type: ignore[override]
-        x, w = self.rule
-        return float((w * self(x)) @ x)
+        return float((self.rule.weight * self.at_rule) @ self.rule.points.x)
 
     @cached_property
     def panels(self) -> tuple[Array, Array, NDArray[np.int64]]:
@@ -101,9 +103,9 @@ class FullPressure(Density):
         return (*self.panels[0].tolist(), self.start + self.period)
 
     @cached_property
-    def rule(self) -> tuple[Array, Array]:
-        """Places and weights of a composite rule, graded towards the ends of the panels."""
-        lo, hi, _ = self.panels
+    def rule(self) -> Rule:
+        """A composite rule, graded towards the ends of the panels."""
+        lo, hi, piece = self.panels
         end = self.start + self.period
         jumps = self.pieces.jumps(np.array([self.start - 0.5 * self.period]), np.array([end]))
         levels = DEEP if jumps.any() else LEVELS
@@ -112,7 +114,13 @@ class FullPressure(Density):
         start = (lo[:, None] + (hi - lo)[:, None] * part[:-1]).ravel()
         length = ((hi - lo)[:, None] * np.diff(part)).ravel()
         g, w = chebyshev.gauss_legendre(GAUSS - 4)
-        return (start[:, None] + length[:, None] * g).ravel(), (length[:, None] * w).ravel()
+        x = (start[:, None] + length[:, None] * g).ravel()
+        piece = np.repeat(piece, len(x) // len(lo))
+        return Rule(Points(x, 0.0 * x), 0 * piece, piece, (length[:, None] * w).ravel())
+
+    @cached_property
+    def at_rule(self) -> Array:
+        return self(self.rule.points.x)
 
     def within(self, x: Array) -> Array:
         return x - self.period * np.floor((x - self.start) / self.period)
@@ -283,21 +291,20 @@ class FullContact:
 
     def certificate(self, tol: float) -> PatchCertificate:
         """The residual of (1) by a composite rule of its own, and the equilibrium."""
-        pressure = self.pressure
-        x, w = pressure.rule
-        p = pressure(x)
+        pressure, G = self.pressure, self.pressure.half_modulus
+        rule, p = pressure.rule, pressure.at_rule
         lo, hi, piece = pressure.panels
         wide = np.flatnonzero(hi - lo > NARROWEST * pressure.period)
         some = wide[:: max(len(wide) // 100, 1)]
         at, own = (lo + (hi - lo) * 0.45)[some], piece[some]
-        values = pressure(at)
-        condition = pressure.mean / max(_minimum(pressure, x, p), TENSION * pressure.mean)
-        kernel = (np.pi / pressure.period) / np.tan(np.pi * (at[:, None] - x) / pressure.period)
-        total = ((p - values[:, None]) * kernel) @ w / np.pi
-        residual = np.abs(total - pressure.half_modulus * pressure.pieces.value(own, at, 0.0)).max()
+        period = Patches.of(pressure.patches, Chord(pressure.period))
+        found = principal_value(period, rule, p, (Points(at, 0.0 * at), 0 * own), pressure(at))
+        residual = np.abs(found - G * pressure.pieces.value(own, at, 0.0)).max()
+        least = max(_minimum(pressure, rule.points.x, p), TENSION * pressure.mean)
+        condition = pressure.mean / least
         return PatchCertificate(
             residual=float(residual) / float(p.max()),
-            force=abs(float(w @ p) - pressure.load) / pressure.load,
+            force=abs(float(rule.weight @ p) - pressure.load) / pressure.load,
             moment=0.0,
             lowest_pressure=min(pressure.lowest, 0.0),
             patches=1,

@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie.numerics import chebyshev
+from sie.numerics.zones import Zones
 
 from .chord import Chord, Points
 from .pieces import Pieces
@@ -55,6 +56,11 @@ class Patches:
     a: Array
     b: Array
     chord: Chord
+
+    @classmethod
+    def of(cls, zones: Zones, chord: Chord) -> Patches:
+        a, b = np.array(zones, dtype=float).T
+        return cls(a, b, chord)
 
     @property
     def number(self) -> int:

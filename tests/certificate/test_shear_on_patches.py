@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import sie
-from sie.certificate.patch_shear_check import shear_certificate
+from sie.certificate.shear_check import shear_certificate
 
 TWO = sie.Row([sie.Parabola(1.0).shifted(-1.0), sie.Parabola(0.5).shifted(0.9).raised(0.02)])
 ROUNDED = sie.Row([sie.RoundedFlat(0.4, 1.0).shifted(-1.2), sie.RoundedFlat(0.25, 2.0).shifted(1)])
@@ -31,7 +31,9 @@ def measured(solution, shear=None, Q=None, tau=0.0):
     loads = solution.tangential_load if Q is None else Q, tau
     pressures = [c.certificate(1e-13) for c in (solution.in_patches, *state.contacts)]
     slope = solution.scene.profile.pieces
-    return shear_certificate(state, solution.pressure, loads, slope, pressures)
+    return shear_certificate(
+        state, solution.pressure, loads, slope, tol=1e-13, of_pressures=pressures
+    )
 
 
 def test_pressures_whose_edges_are_rounded_apart_are_no_excess_of_friction():

@@ -8,7 +8,7 @@ import pytest
 import sie
 from analytic import two_parabolas
 from sie.contact import normal
-from sie.patches import certificate, newton, solver
+from sie.patches import newton, solver
 from sie.patches.of_scene import problem_of
 from sie.patches.profile_pieces import of_profile
 from sie.profiles.resolution import rounding_noise
@@ -132,7 +132,7 @@ def test_moments_about_a_distant_origin_are_certified_to_the_rounding_of_x(place
 def test_the_equation_is_measured_away_from_the_points_of_its_rule(load):
     """Beside one the difference of two pressures is rounding, and its quotient large."""
     scene = sie.Scene(profile=sie.Periodic(trace(60, 4), 2.05), modulus=1.0, normal_load=load)
-    rule, places = certificate.measured_on(sie.solve(scene).in_patches.pressure)
+    rule, places = sie.solve(scene).in_patches.pressure.rules
     x, at = np.sort(rule.points.x), places.points.x
     k = np.searchsorted(x, at)
     between = (at - x[k - 1]) / (x[k] - x[k - 1])

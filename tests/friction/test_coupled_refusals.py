@@ -11,7 +11,7 @@ import pytest
 from sheared_cases import scene, solved, trials_of, zones
 
 import sie
-from sie.certificate.coupled_shear_check import sheared_certificate
+from sie.certificate.coupled_check import coupled_certificate
 from sie.friction.coupled import load_path
 from sie.friction.coupled.iteration import next_to
 from sie.friction.coupled.load_path import keeps_friction_law
@@ -126,7 +126,7 @@ def test_certificate_is_not_ok_where_slip_would_oppose_the_load():
     search, Q = solved(None, 0.3, 2.0, 0.9).tangential_search, 1.0
     state = ShearedContact(search, next_to(search, search.start(Q), Q).trial, Q, 1.0, 1.0)
     assert search.least_slip(state.trial) < 0.0
-    assert not sheared_certificate(state, scene(None, 0.3, 2.0, 0.5), 1e-13).ok
+    assert not coupled_certificate(state, scene(None, 0.3, 2.0, 0.5), 1e-13).ok
 
 
 @pytest.mark.slow(but=1)
@@ -137,7 +137,7 @@ def test_certificate_is_not_ok_with_an_edge_moved(edge, part):
     search, edges = right.tangential_search, right.coupled[1].trial.edges
     edges[edge] += 1e-6
     wrong = replace(right.coupled[1], trial=search.trial(edges, right.tangential_load))
-    assert not sheared_certificate(wrong, right.scene, 1e-13).ok
+    assert not coupled_certificate(wrong, right.scene, 1e-13).ok
 
 
 @pytest.mark.slow(but=2)

@@ -12,8 +12,7 @@ from sheared_cases import PROFILES, scene, solved, zones
 
 import sie
 from oracles import oblique_edges
-from sie.certificate.coupled_check import gradient_of_slip
-from sie.certificate.coupled_shear_check import sheared_certificate
+from sie.certificate.coupled_check import coupled_certificate, gradient_of_slip
 from sie.friction.coupled.functions import flat_functions
 from sie.friction.coupled.gradient import SlipGradient
 from sie.friction.coupled.zones import Map, Zones
@@ -117,7 +116,7 @@ def test_a_steel_punch_on_titanium_is_answered():
 
 def test_certificate_is_not_ok_for_another_mismatch():
     right = solved()
-    wrong = sheared_certificate(right.coupled[1], replace(right.scene, dundurs=0.3001), 1e-13)
+    wrong = coupled_certificate(right.coupled[1], replace(right.scene, dundurs=0.3001), 1e-13)
     assert not wrong.ok
 
 
@@ -128,7 +127,7 @@ def test_certificate_is_as_strict_where_slip_zones_are_narrow():
     certificate = right.check()
     assert certificate.ok and certificate.abscissae < 1e-12
     wrong = replace(right.scene, dundurs=0.1 * (1.0 + 1e-7))
-    assert not sheared_certificate(right.coupled[1], wrong, 1e-13).ok
+    assert not coupled_certificate(right.coupled[1], wrong, 1e-13).ok
 
 
 def test_rounding_of_a_narrow_rim_is_counted_in_the_stick_zone_too():
@@ -136,13 +135,13 @@ def test_rounding_of_a_narrow_rim_is_counted_in_the_stick_zone_too():
     certificate = right.check()
     assert certificate.ok and certificate.shear.abscissae < 1e-8
     wrong = replace(right.scene, dundurs=0.2 * (1.0 + 1e-6))
-    assert not sheared_certificate(right.coupled[1], wrong, 1e-13).shear.ok
+    assert not coupled_certificate(right.coupled[1], wrong, 1e-13).shear.ok
 
 
 def test_certificate_is_not_ok_for_another_load():
     right = solved()
     other = replace(right.scene, tangential_load=right.tangential_load * (1.0 + 1e-6))
-    assert not sheared_certificate(right.coupled[1], other, 1e-13).ok
+    assert not coupled_certificate(right.coupled[1], other, 1e-13).ok
 
 
 # -- mirror images, scale and limits ---------------------------------------------------------------

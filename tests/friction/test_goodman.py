@@ -10,7 +10,7 @@ import pytest
 
 import sie
 from analytic import goodman
-from sie.certificate.shear_check import goodman_certificate
+from sie.certificate.coupled_check import shear_certificate
 from sie.friction.goodman.frame import DeficitFrame
 from sie.friction.goodman.functions import goodman_flat
 from sie.io.scene_file import parse
@@ -109,8 +109,8 @@ def test_certificate_is_not_ok_for_another_mismatch(given):
     state = solved(profile, beta, friction, tangential_load=load).tangential
     scene = replace(state.step.scene, dundurs=1.1 * beta)
     wrong = replace(state, step=replace(state.step, scene=scene))
-    assert goodman_certificate(state, 1e-13).ok
-    assert not goodman_certificate(wrong, 1e-13).ok
+    assert shear_certificate(state, state.step.scene, 1e-13).ok
+    assert not shear_certificate(wrong, scene, 1e-13).ok
 
 
 @pytest.mark.parametrize("part", [1e-4, 0.3, -0.7])

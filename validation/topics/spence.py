@@ -18,9 +18,7 @@ import numpy as np
 
 import sie
 from oracles import oblique_edges, spence
-from sie.certificate.coupled_check import coupled_certificate
-from sie.certificate.coupled_shear_check import sheared_certificate
-from sie.certificate.shear_check import goodman_certificate
+from sie.certificate.coupled_check import coupled_certificate, shear_certificate
 from sie.friction.coupled.contact import CoupledContact
 from sie.friction.coupled.flat import flat_punch
 from sie.friction.coupled.sheared import ShearedContact
@@ -221,7 +219,7 @@ def coupled_under_tangential_load(parts: tuple[float, ...]) -> Iterator[Record]:
             found, state = solution.check(), solution.coupled[1]
             assert isinstance(state, ShearedContact)
             off = replace(solution.scene, dundurs=beta * (1.0 + OFF))
-            other = sheared_certificate(state, off, 1e-13)
+            other = coupled_certificate(state, off, 1e-13)
             ones.append(found.residual)
             twelves.append(of_shear(found))
             wrong_ones.append(other.residual)
@@ -311,7 +309,7 @@ def under_tangential_load(parts: tuple[float, ...]) -> Iterator[Record]:
         residuals.append(of_shear(solution.check()))
         scene = replace(state.step.scene, dundurs=beta * (1.0 + OFF))
         off = replace(state, step=replace(state.step, scene=scene))
-        wrong.append(goodman_certificate(off, 1e-13).residual)
+        wrong.append(shear_certificate(off, scene, 1e-13).residual)
         ends.append([c / solution.half_width for c in solution.stick[0]])
     yield Claim(
         "largest residual of (12) in stick over the largest shear under Q, Goodman's approximation",

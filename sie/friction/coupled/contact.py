@@ -10,15 +10,16 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property, lru_cache
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from sie.numerics.interval import EPS, interval_about
+from sie.numerics.interval import EPS, Interval, interval_about
 from sie.profiles.base import Profile
 from sie.traction.base import on_line, zero_or_nan
+from sie.traction.in_contact import InContact
 
 from .dissipation import tables_of_pair, work_of_pair
 from .flat import double_exponential
@@ -43,6 +44,8 @@ NEAR_EDGE = 1e-9
 # half-widths: in wider strips beside a flat base rounding of y changes p by 1e-12 or less, as at
 # distances from the edge whose square is BESIDE of a strip, where p falls with the square
 NARROW, BESIDE = 1e-4, 1e-2
+LIGHTER = 0.9  # of the growth beyond the flat base: what sticks then sticks already
+PARTS: Array = np.linspace(0.0625, 0.9375, 8)  # of a slip zone, at which slip is tested
 
 
 @dataclass(frozen=True, eq=False)
@@ -123,6 +126,51 @@ class CoupledContact:
         places = (*self.kinks, self.b, self.flat_base)
         inside = {y for place in places for y in (place, self.flat.c * place) if 0.0 < y < self.b}
         return (*sorted(inside), self.b)
+
+    @property
+    def values(self) -> InContact:
+        """The values of p and q, which far beside a flat base follow from distances alone."""
+        beyond = (self.flat_base - self.b) + self.ahead if self.growth else 0.0
+        contact = Interval(-self.b, self.b, -beyond, beyond)
+        marks = (*(-y for y in reversed(self.marks)), 0.0, *self.marks)
+        exact = self.narrow or self.corner_load > 0.0
+        return InContact(contact, marks, self._both_halves, self.axis, exact)
+
+    def _both_halves(self, x: Array, rest: Array) -> Array:
+        """Rows of p and q at x from the axis, of which one half is computed."""
+        y = np.abs(x)
+        _, first, every = np.unique(
+            np.where(rest < y, rest, -y), return_index=True, return_inverse=True
+        )
+        p, q = self.pressure_and_shear(np.minimum(y, self.b)[first], rest[first])[:, every]
+        return np.stack((p, np.sign(x) * q))
+
+    @property
+    def kept(self) -> tuple[tuple[float, float], CoupledContact | None]:
+        """What stuck under a lighter load, and the state under that; None under a flat punch."""
+        if not self.growth:
+            return self.stick[0], None
+        ahead = self.ahead if self.corner_load else LIGHTER * self.ahead
+        load, b = sum(panel.load(ahead) for panel in self.growth), self.flat_base + ahead
+        kinks = tuple(k for k in self.kinks if k < b)
+        before = replace(self, ahead=ahead, corner_load=0.0, load=load, kinks=kinks)
+        return before.stick[0], before
+
+    @property
+    def kind(self) -> str:
+        """The slip under a normal load alone, in words."""
+        if self.full_stick:
+            return "full stick, its zones narrower than 1e-15 of the contact; β couples p and q"
+        way = "outwards" if self.sign > 0.0 else "inwards"
+        return f"{way} on both sides while the normal load grew; β couples p and q"
+
+    @property
+    def least_slip(self) -> float:
+        """The least slip in its direction in a slip zone, over the largest."""
+        if self.full_stick:
+            return 0.0
+        slip = self.sign * self.slip(self.c + (self.b - self.c) * PARTS)
+        return float(slip.min() / np.abs(slip).max())
 
     def relative_slip(self, x: ArrayLike) -> Array:
         """The slip at x, same shape: 0 outside the contact."""

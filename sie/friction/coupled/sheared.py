@@ -27,8 +27,10 @@ from sie.numerics.interval import Interval
 from sie.problem.coverage import old_slip_width
 from sie.profiles.base import Profile
 from sie.traction.base import on_line, zero_or_nan
+from sie.traction.in_contact import InContact
 from sie.traction.on_panels import SlidingDensity
 
+from .contact import CoupledContact
 from .gradient import RESOLVED, SlipGradient
 from .integral import RATIO, Integral, integral, outwards, towards_ends
 from .near_corner import Corner, stuck_corners
@@ -354,10 +356,6 @@ class ShearedContact:
         def shear(x: Array) -> Array:
             return self.turn * self.frame_shear(self.in_frame(x))
 
-        def both(x: Array) -> Array:
-            values: Array = np.array([[1.0], [self.turn]]) * self._frame_tractions(self.in_frame(x))
-            return values
-
         (a1, a2), P = self._exponents, self.search.normal.load
         known = Known(
             at,
@@ -366,7 +364,26 @@ class ShearedContact:
             (P, self.turn * self.Q),
             self.axis * P + self.flip * self.moment,
         )
-        return both_tractions((pressure, shear), both, known)
+        return both_tractions((pressure, shear), self._both, known)
+
+    def _both(self, x: Array) -> Array:
+        """Rows of p and q."""
+        values: Array = np.array([[1.0], [self.turn]]) * self._frame_tractions(self.in_frame(x))
+        return values
+
+    @property
+    def values(self) -> InContact:
+        return InContact(self.contact, self.marks, lambda x, _: self._both(x))
+
+    @property
+    def kept(self) -> tuple[tuple[float, float], CoupledContact]:
+        """What sticks, and the state under P alone."""
+        return self.stick[0], self.search.normal
+
+    @property
+    def kind(self) -> str:
+        way = "+" if self.turn > 0.0 else "-"
+        return f"towards {way}x beside the stick zone; β couples p and q"
 
     @property
     def frame_marks(self) -> tuple[float, ...]:

@@ -23,7 +23,9 @@ from sie.numerics.root_finding import false_position
 from sie.problem.scene import Scene
 from sie.profiles.base import Profile
 from sie.traction.base import on_line, zero_or_nan
+from sie.traction.in_contact import InContact
 
+from .contact import LIGHTER, PARTS, CoupledContact
 from .flat import double_exponential
 from .functions import FlatFunctions, flat_functions
 from .integral import outwards
@@ -39,7 +41,6 @@ APART = 1e-13  # of the half-width: marks that are nearer are one
 # distance from a kink in which it is smooth
 ENERGY_NODES, FOLD = 14, 3.0
 FEW, MANY_NODES = 4, 32  # kinks; and places where there are more
-LIGHTER = 0.9  # of the growth: the load under which what sticks stuck already
 WIDER = 1.1  # where a load asks for more than the frictionless half-width
 NEARLY, BISECTIONS = 1e-14, 60  # of the load; and steps to it
 
@@ -149,6 +150,12 @@ class UnevenContact:
         q[finite] = self.friction * p[finite] - deficit[finite]
         return np.stack((p, self.sign * self.sums.sides(x) * q))
 
+    @property
+    def values(self) -> InContact:
+        return InContact(self.contact, self.marks, lambda x, _: self.pressure_and_shear(x))
+
+    kind = CoupledContact.kind
+
     @cached_property
     def tractions(self) -> tuple[TwoSidedTraction, TwoSidedTraction]:
         """p and q with their potentials, which share their panels."""
@@ -185,16 +192,16 @@ class UnevenContact:
         """The least slip outwards in a slip zone, over the largest."""
         if self.full_stick:
             return 0.0
-        part = (np.arange(8) + 0.5) / 8.0
-        x = np.concatenate([lo + (hi - lo) * part for lo, hi, _ in self.slip_zones])
+        x = np.concatenate([lo + (hi - lo) * PARTS for lo, hi, _ in self.slip_zones])
         slip = self.sums.slip(x, np.full(len(x), self.b))
         return min(0.0, float(slip.min() / np.abs(slip).max()))
 
-    @cached_property
-    def lighter(self) -> UnevenContact:
-        """The state under a lighter load."""
+    @property
+    def kept(self) -> tuple[tuple[float, float], UnevenContact]:
+        """What stuck under a lighter load, and the state under that."""
         base = self.panels[0].lo
-        return self.at_half_width(base + LIGHTER * (self.b - base))
+        before = self.at_half_width(base + LIGHTER * (self.b - base))
+        return before.stick[0], before
 
     def at_half_width(self, s: float) -> UnevenContact:
         """The state when the contact was so wide."""

@@ -26,16 +26,18 @@ from numpy.typing import NDArray
 
 from sie.contact.edges import Search
 from sie.errors import ContactError
+from sie.friction.coupled.contact import PARTS
 from sie.friction.coupled.half_potential import Panels
 from sie.friction.coupled.normal import symmetry_axis
 from sie.friction.coupled.profile import NEAREST
 from sie.friction.coupled.traction import resolved_panels
 from sie.friction.coupled.two_sided import TwoSidedTraction
-from sie.friction.slip_state import GrownSlip, Step
+from sie.friction.slip_state import Slip, Step
 from sie.friction.slip_zones import Drive, SlipZones, edge_frame, slip_zones
 from sie.numerics.gauss_jacobi import gauss_jacobi
 from sie.numerics.interval import EPS, Interval
 from sie.problem.load_limit import refuse_corner, refuse_sliding, remaining
+from sie.traction.in_contact import InContact
 
 from .frame import DeficitFrame
 from .functions import GoodmanFlat, goodman_flat
@@ -53,7 +55,7 @@ KIND_UNDER_Q = "outwards under P, then along Q, β q neglected (Goodman)"
 
 
 @dataclass(frozen=True, eq=False)
-class GoodmanSlip(GrownSlip):
+class GoodmanSlip(Slip):
     """The state after the normal load, and Q at constant P.
 
     step     the contact and its loads
@@ -116,15 +118,10 @@ class GoodmanSlip(GrownSlip):
         zones = (x1, c1, left), (c2, x2, right)
         return tuple(zone for zone in zones if zone[1] > zone[0])
 
-    @property
-    def untouched(self) -> tuple[float, float]:
-        """The part of the stick zone that stuck already under a lighter load."""
-        c1, c2 = self.lighter.stick[0] if self.lighter is not None else self.normal_stick
-        lo, hi = self.stick[0]
-        return max(lo, c1), min(hi, c2)
+    slip_zones = slipped
 
     @cached_property
-    def lighter(self) -> GoodmanSlip | None:  # type: ignore[override]
+    def lighter(self) -> GoodmanSlip | None:
         """The state under LIGHTER of the load, where that is another contact."""
         if not self.table.panels:
             return None
@@ -134,14 +131,29 @@ class GoodmanSlip(GrownSlip):
         return GoodmanSlip(before, self.flat, contact_table(before, self.table.search, self.axis))
 
     @property
-    def before_Q(self) -> GoodmanSlip | None:  # type: ignore[override]
-        """The state before Q, None where that is this one."""
-        if self.zones is None:
-            return None
-        return replace(self, step=replace(self.step, Q=0.0), zones=None)
+    def values(self) -> InContact:
+        both = self.step.pressure, self.traction
+        return InContact(self.contact, self.marks, lambda x, _: np.stack([f(x) for f in both]))
+
+    @property
+    def kept(self) -> tuple[tuple[float, float], GoodmanSlip | None]:
+        """What sticks under Q, and the state before; or what stuck under a lighter load too."""
+        (lo, hi), light = self.stick[0], self.lighter
+        if self.zones is not None:
+            return (lo, hi), replace(self, step=replace(self.step, Q=0.0), zones=None)
+        c1, c2 = light.stick[0] if light is not None else self.normal_stick
+        return (max(lo, c1), min(hi, c2)), light
+
+    @property
+    def least_slip(self) -> float:
+        """The least slip in its direction in a slip zone before Q, over the largest."""
+        if self.zones is not None or not self.slipped:
+            return 0.0
+        slip = [sign * self.slip(lo + (hi - lo) * PARTS) for lo, hi, sign in self.slipped]
+        return float(np.min(slip) / np.abs(slip).max())
 
     @cached_property
-    def marks(self) -> tuple[float, ...]:  # type: ignore[override]
+    def marks(self) -> tuple[float, ...]:
         """Places where q is not smooth, with the edges."""
         (x1, x2), m, k = self.step.pressure.interval, self.axis, self.flat.k
         distances = {part * r for r in self.table.ends for part in (k, 1.0)}
