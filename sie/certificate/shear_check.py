@@ -12,7 +12,6 @@ period the kernel is (π/λ) cot(π(x - t)/λ).
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Sequence
-from functools import reduce
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -21,7 +20,7 @@ from numpy.typing import NDArray
 from sie.friction.load_history.marched_step import MarchedStep
 from sie.friction.slip_state import Slip
 from sie.numerics.interval import EPS, Interval
-from sie.numerics.zones import Zones, left_over
+from sie.numerics.zones import within
 from sie.patches.chord import Chord, Points
 from sie.patches.panels import Patches
 from sie.patches.result import PatchCertificate
@@ -35,7 +34,8 @@ from .result import ShearCertificate
 
 Array = NDArray[np.float64]
 
-POINTS, FEWEST = 24, 2  # in the stick zones, about, and in each
+POINTS = 24  # in the stick zone
+BESIDE = 0.05  # of the distance of two nodes: a place closer to one divides rounding by that
 # Terms of a shear that are integrated one by one: a rule for all grows with their number, and so
 # does the cost of a value.
 MANY = 12
@@ -228,35 +228,39 @@ def opposing(state: Slip, slip: Array, x: Array) -> float:
 
 def _places(state: Slip, terms: Sequence[Term], chord: Chord) -> Array:
     """Places that never slipped, between the nodes of all terms."""
-    zones: Zones = (state.untouched,)
-    if any(term.exact for term in terms):
-        every = (list(zip(t.patches.a.tolist(), t.patches.b.tolist())) for t in terms)
-        zones = reduce(
-            lambda one, other: left_over(one, left_over(one, other, chord.period), chord.period),
-            every,
-        )
-    return points(zones, terms, chord) if terms else np.zeros(0)
+    if not any(term.exact for term in terms):
+        return points(state.untouched, terms) if terms else np.zeros(0)
+    lightest = min(terms, key=lambda term: term.density.resultant)
+    if lightest.exact:
+        x = lightest.density.rules[1].points.x
+    else:
+        x = points(lightest.contact[:2], [lightest])
+    kept = np.ones(len(x), dtype=bool)
+    for term in terms:
+        kept &= within(x, term.patches.zones, chord.period)
+        nodes = term.rule.points.x
+        if chord.periodic:
+            nodes = x[0] + chord.difference(nodes - x[0])
+            nodes = np.concatenate([nodes - chord.period, nodes, nodes + chord.period])
+        nodes = np.unique(nodes)
+        k = np.clip(np.searchsorted(nodes, x), 1, len(nodes) - 1)
+        apart = np.minimum(np.abs(x - nodes[k - 1]), np.abs(nodes[k] - x))
+        kept &= apart > BESIDE * (nodes[k] - nodes[k - 1])
+    return np.asarray(x[kept])
 
 
-def points(zones: Zones, terms: Sequence[Term], chord: Chord = LINE) -> Array:
-    """Places in zones, half-way between the ascending nodes of some rules.
+def points(zone: tuple[float, float], terms: Sequence[Term]) -> Array:
+    """Places in a zone, half-way between the ascending nodes of some rules.
 
     Of many rules these are the farthest apart in the neighbourhood.
     """
-    found, near = [np.zeros(0)], len(terms) - 1
-    every = np.concatenate([term.rule.points.x for term in terms])
-    number = max(POINTS // max(len(zones), 1), FEWEST)
-    for lo, hi in zones:
-        middle = 0.5 * (lo + hi)
-        at = middle - 0.5 * (hi - lo) * np.cos(np.pi * (np.arange(number) + 0.5) / number)
-        nodes = np.unique(middle + chord.difference(every - middle))
-        beside = np.searchsorted(nodes, at)[:, None] + np.arange(-near, near + 1)
-        k = np.clip(beside, 1, len(nodes) - 1)
-        widest = np.argmax(nodes[k] - nodes[k - 1], axis=1)
-        k = k[np.arange(number), widest]
-        at = np.unique(0.5 * (nodes[k - 1] + nodes[k]))
-        found.append(at[(at > lo) & (at < hi) & ~np.isin(at, nodes)])
-    return np.concatenate(found)
+    (lo, hi), near = zone, len(terms) - 1
+    nodes = np.unique(np.concatenate([term.rule.points.x for term in terms]))
+    at = 0.5 * (lo + hi) + 0.5 * (hi - lo) * np.cos(np.pi * (np.arange(POINTS) + 0.5) / POINTS)
+    k = np.clip(np.searchsorted(nodes, at)[:, None] + np.arange(-near, near + 1), 1, len(nodes) - 1)
+    k = k[np.arange(POINTS), np.argmax(nodes[k] - nodes[k - 1], axis=1)]
+    at = np.unique(0.5 * (nodes[k - 1] + nodes[k]))
+    return np.asarray(at[(at > lo) & (at < hi) & ~np.isin(at, nodes)])
 
 
 def finite(values: Array) -> Array:
@@ -284,7 +288,7 @@ def marched_certificate(
         old = begun.pressure.contact
         before = on_own_rule(begun.shear, old, begun.marks, slope)
         pair = [term, before._replace(factor=-1.0)]
-        at = np.concatenate([points((zone,), pair) for zone in part.kept_in(old)])
+        at = np.concatenate([points(zone, pair) for zone in part.kept_in(old)])
         _, change, _, rounding = integrals(pair, at)
         missed = np.abs(change - (part.tau - begun.tau)).max(initial=0.0)
         residual, of_change = max(residual, float(missed)), max(of_change, float(rounding.max()))

@@ -63,8 +63,7 @@ class PatchPressure(Density):
 
     @property
     def patches(self) -> tuple[tuple[float, float], ...]:
-        P = self.operator.patches
-        return tuple(zip(P.a.tolist(), P.b.tolist(), strict=True))
+        return self.operator.patches.zones
 
     @property
     def resultant(self) -> float:  # type: ignore[override]

@@ -45,6 +45,7 @@ CLOSED = 1e-12  # periods: a gap at a concave corner that is no wider is taken f
 LEVELS, DEEP = 12, 30
 SUSPECTS = 16  # places of lowest pressure on a grid: tension there rules full contact out
 CHUNK = 1 << 18
+PLACES = 100  # at which the equation is measured
 ZOOMS, ZOOMED = 6, 10  # around the least pressure: how often, and places each time
 OPENING = "note: full contact is about to end: a gap opens where the load falls by {:.0e} of it"
 
@@ -117,6 +118,15 @@ class FullPressure(Density):
         x = (start[:, None] + length[:, None] * g).ravel()
         piece = np.repeat(piece, len(x) // len(lo))
         return Rule(Points(x, 0.0 * x), 0 * piece, piece, (length[:, None] * w).ravel())
+
+    @property
+    def rules(self) -> tuple[Rule, Rule]:
+        """That, and places between its points."""
+        lo, hi, piece = self.panels
+        wide = np.flatnonzero(hi - lo > NARROWEST * self.period)
+        some = wide[:: max(len(wide) // PLACES, 1)]
+        x, piece = (lo + (hi - lo) * 0.45)[some], piece[some]
+        return self.rule, Rule(Points(x, 0.0 * x), 0 * piece, piece, 0.0 * x)
 
     @cached_property
     def at_rule(self) -> Array:
@@ -292,14 +302,10 @@ class FullContact:
     def certificate(self, tol: float) -> PatchCertificate:
         """The residual of (1) by a composite rule of its own, and the equilibrium."""
         pressure, G = self.pressure, self.pressure.half_modulus
-        rule, p = pressure.rule, pressure.at_rule
-        lo, hi, piece = pressure.panels
-        wide = np.flatnonzero(hi - lo > NARROWEST * pressure.period)
-        some = wide[:: max(len(wide) // 100, 1)]
-        at, own = (lo + (hi - lo) * 0.45)[some], piece[some]
-        period = Patches.of(pressure.patches, Chord(pressure.period))
-        found = principal_value(period, rule, p, (Points(at, 0.0 * at), 0 * own), pressure(at))
-        residual = np.abs(found - G * pressure.pieces.value(own, at, 0.0)).max()
+        (rule, at), p = pressure.rules, pressure.at_rule
+        x, period = at.points, Patches.of(pressure.patches, Chord(pressure.period))
+        found = principal_value(period, rule, p, (x, at.patch), pressure(x.x))
+        residual = np.abs(found - G * pressure.pieces.value(at.piece, x.x, 0.0)).max()
         least = max(_minimum(pressure, rule.points.x, p), TENSION * pressure.mean)
         condition = pressure.mean / least
         return PatchCertificate(

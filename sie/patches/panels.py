@@ -63,6 +63,10 @@ class Patches:
         return cls(a, b, chord)
 
     @property
+    def zones(self) -> Zones:
+        return tuple(zip(self.a.tolist(), self.b.tolist(), strict=True))
+
+    @property
     def number(self) -> int:
         return len(self.a)
 
