@@ -314,7 +314,7 @@ class Solution(Frictionless, StressAnswers):
     def certificate(self) -> Certificate | PatchCertificate:
         """The certificate that `check` returns, measured once."""
         if self.scene.bonded:
-            from .certificate.full_stick_check import full_stick_certificate
+            from .certificate.coupled_check import full_stick_certificate
 
             return full_stick_certificate(
                 self.normal.edges, self.normal_and_shear, self.scene, self.tol

@@ -9,6 +9,7 @@ traction is not smooth, with the value at x subtracted.
 
 A state has the values of p and q (`InContact`) and their potentials, its zones, and the earlier
 state. Of Goodman's approximation, whose p is that without friction, (12) alone is measured here.
+In full stick, of a flat punch, γ is 0 on the whole contact; tension is allowed there.
 """
 
 from __future__ import annotations
@@ -18,8 +19,11 @@ from functools import cached_property
 from typing import Any, Protocol
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
+from sie.cauchy.density import JacobiDensity
+from sie.contact.known_contact import Edges
+from sie.contact.small_strains import BESIDE as REGULAR
 from sie.contact.small_strains import notes
 from sie.numerics.gauss_jacobi import gauss_jacobi
 from sie.numerics.interval import EPS
@@ -162,10 +166,35 @@ def _change_of_gradient(state: _Sheared, nodes: Nodes, beta: float) -> tuple[flo
     return missed, rounding
 
 
-def gradient_of_slip(state: _Sheared, x: ArrayLike, beta: float) -> Array:
-    """γ at places in contact, counted as the values of the state count them."""
-    nodes = Nodes(state.values)
-    return nodes.gradient(nodes.at(np.asarray(x, dtype=float)), beta)
+def full_stick_certificate(
+    edges: Edges, found: JacobiDensity, scene: Scene, tol: float
+) -> Certificate:
+    """Residual of both equations between the nodes of a graded quadrature, and equilibrium."""
+    (part,), contact = found.parts, edges.contact
+
+    def rows(x: Array, rest: Array) -> Array:
+        other, on_left = 2.0 * contact.r - rest, x < contact.m
+        phi = part.value(np.where(on_left, other, rest), np.where(on_left, rest, other))
+        return np.stack((phi.real, phi.imag))
+
+    nodes = Nodes(InContact(contact, (contact.x1, contact.x2), rows, exact=True))
+    at, (p, _), load = nodes.looked_at, nodes.rows, nodes.rows @ nodes.weight
+    residual = nodes.principal_values(at) + scene.beta * np.stack((-at.rows[1], at.rows[0]))
+    residual[0] -= 0.5 * scene.Estar * edges.tilt
+    loads = np.array([edges.normal_load, scene.tangential_load])
+    moment, size = float(nodes.weight @ (p * nodes.left)) + contact.x1 * load[0], np.hypot(*loads)
+    highest = float(p[nodes.rest > REGULAR * contact.r].max())
+    return Certificate(
+        residual=float(np.hypot(*residual).max() / np.hypot(*at.rows).max()),
+        implied=found.error,
+        force=float(np.hypot(*(load - loads)) / size),
+        moment=float(abs(moment - edges.moment) / (size * contact.r)),
+        lowest_pressure=0.0,
+        lowest_gap=0.0,
+        abscissae=0.0,
+        tol=tol,
+        notes=notes(np.array([edges.tilt]), highest / scene.Estar),
+    )
 
 
 class Places:

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field, replace
-from typing import Any
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
@@ -76,7 +75,3 @@ def problem_of(scene: Scene, tol: float = 1e-15) -> Problem:
         given=Given(scene.normal_load / G, scene.tilt, moment),
         half_modulus=G,
     )
-
-
-def changed(problem: Problem, **changes: Any) -> Problem:
-    return replace(problem, given=problem.given._replace(**changes))

@@ -63,7 +63,7 @@ class Patches:
         return cls(a, b, chord)
 
     @property
-    def zones(self) -> Zones:
+    def zones(self) -> tuple[tuple[float, float], ...]:
         return tuple(zip(self.a.tolist(), self.b.tolist(), strict=True))
 
     @property

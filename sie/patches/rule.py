@@ -14,7 +14,7 @@ from sie.numerics import chebyshev
 from sie.progress_bar import step_done
 
 from .chord import Points
-from .operator import Operator
+from .measure import Measure
 from .panels import LONG, Patches, PatchPanels
 
 Array = NDArray[np.float64]
@@ -42,7 +42,7 @@ class Rule(NamedTuple):
     weight: Array
 
 
-def rule_of(o: Operator) -> tuple[Rule, Rule]:
+def rule_of(o: Measure) -> tuple[Rule, Rule]:
     """A composite rule on the panels of an operator, and places between its points.
 
     At the latter the equation is measured.
@@ -74,7 +74,7 @@ def rule_of(o: Operator) -> tuple[Rule, Rule]:
     return rule, _at_angles(o, panel[some], angle)
 
 
-def _jumps_at_ends(o: Operator) -> Mask:
+def _jumps_at_ends(o: Measure) -> Mask:
     """Whether H jumps at the end k.lo and at the end k.hi of each panel, (2, p)."""
     k, pieces = o.panels, o.pieces
     jump = np.zeros(len(pieces.ends), dtype=bool)
@@ -129,7 +129,7 @@ def _bent(at_edge: Mask, nodes: int) -> tuple[Array, Array]:
     return place, weight
 
 
-def _at_angles(o: Operator, panel: Index, angle: Array) -> Rule:
+def _at_angles(o: Measure, panel: Index, angle: Array) -> Rule:
     """Points at angles (m, n) on panels (m,), with dx/d(angle) as weights."""
     k = o.panels
     r = o.patches.r[k.patch[panel], None]

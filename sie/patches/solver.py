@@ -4,16 +4,15 @@ A grid gives a first guess; Newton's method finds the edges; bounds verify the i
 they fail, a patch is cut where it is in tension, added where the bodies overlap, or merged with the
 next where a whole gap overlaps, and Newton's method starts again. Nothing is returned uncertified.
 
-At fixed tilt the patches only grow, appear and merge with the load: dp/dP is the pressure of the
-flat punch on the patches, and positive. So the patches of a smaller load are a start for a larger
-one. At a fixed moment that is not so: then the whole load at some tilt comes first, and after it
-the tilt, along which the moment of the pressure falls.
+Where a moment is given and that leads nowhere, the contact at some tilt is followed to it: the
+moment of the pressure falls as the tilt grows.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,7 +24,7 @@ from sie.progress_bar import reported
 from . import newton
 from .gap import gap, overlaps
 from .newton import FINAL, MOST_STEPS
-from .of_scene import Problem, changed
+from .of_scene import Problem
 from .operator import Found, Operator, operator_of
 from .panels import Patches
 from .pieces import Pieces
@@ -35,7 +34,6 @@ from .start_state import start_of
 from .state import SAME, Effort, Event, Findings, Given, State, balances
 from .tension import tensions
 from .unknown import refuse_unknown_depths, refuse_unknown_ends, unsettled
-from .valleys import graded_about, is_light, pressed, valleys, within_reach
 from .window import (
     COARSE,
     WIDENED,
@@ -53,20 +51,9 @@ EARLY, EARLY_STEPS, ROUGHLY = 4, 3, 0.1  # ... in so many rounds of so many step
 DEEP = 2.0  # times what a gap misses to close: such an overlap is not of the edges' errors
 # of the largest D: tension that is accepted beside a merger, where no arithmetic tells more
 NEARLY = 1e-7
-LIGHTEST = 10  # quarters of the load, one of another, of which one has to lead somewhere
-FIRST = 2.0  # the first step of the load, as a factor
-FINEST = 1.0 + 1e-4  # a step of the load; ...
-LEAST_TURN = 1e-4  # ... and of the moment, of the whole way
-# Steps that succeed double, those that fail are halved: from the lightest load 20 lead to the load.
-# Where patches merge or appear 13 halvings to the finest step come on top, and as many doublings:
-# three times at most.
-STEPS = 20 + 3 * 2 * 13
-# what a search from one start may end with
-ASTRAY = (ContactError, ArithmeticError, np.linalg.LinAlgError)
-
-Start = Callable[[Problem], State]
 FEWEST_CELLS, MOST_CELLS = 2048, 1 << 18
 FINER = 8  # a second grid, if the first as a start leads nowhere
+LEAST_TURN = 1e-4  # of the way from the moment at a tilt to the given one
 CELLS = 1.5  # for each break in the window
 
 
@@ -92,9 +79,6 @@ def contact(problem: Problem) -> Found:
 
 
 def _in_windows(problem: Problem) -> Found:
-    light = light_contact(problem)
-    if light is not None:
-        return _in_one_period(_with_far_valleys(light, problem), problem)
     window = fitted_window(problem)
     for _ in range(WIDENED):
         found = _within(problem, window)
@@ -106,28 +90,6 @@ def _in_windows(problem: Problem) -> Found:
         f"contact goes on beyond [{window[0]:.6g}, {window[1]:.6g}]: the slope rises too little; "
         "give a domain"
     )
-
-
-def light_contact(problem: Problem) -> Found | None:
-    """The patches of a load that presses each valley like a parabola; None if it does not."""
-    if problem.given.moment is not None:
-        return None
-    window, chord, tilt = whole_window(problem), problem.chord, problem.given.tilt
-    try:
-        pieces = problem.pieces(window)
-        every = valleys(pieces, window, tilt)
-        near = within_reach(every, problem.given.load, pieces, chord)
-        found = pressed(near, problem.given.load, chord)
-        if found is None or not is_light(*found, pieces, tilt, chord):
-            return None
-        (x, *_), r = found
-        pieces = problem.pieces(window, graded_about(x, r, window, chord))
-        light = settled(bounded(x - r, x + r, pieces, chord, tilt), pieces, problem)
-    except (*ASTRAY, Exhausted):
-        return None
-    refuse_unknown_ends(light.state, problem)
-    _refuse_unknown(light, problem.given)
-    return light
 
 
 def _refuse_unknown(found: Found, given: Given) -> None:
@@ -161,10 +123,7 @@ def _in_one_period(found: Found, problem: Problem) -> Found:
     lo, hi = found.operator.pieces.solid_around(0.5 * (a + b))
     a, b = np.where(sharp[::2], lo, a), np.where(sharp[1::2], hi, b)
     turned = State(Patches(a, b, P.chord), sharp, charge, state.tilt)
-    try:
-        return settled(turned, found.operator.pieces, problem)
-    except ASTRAY:
-        return found
+    return attempted(partial(_same, turned), found.operator.pieces, problem) or found
 
 
 def _within(problem: Problem, window: tuple[float, float]) -> Found:
@@ -176,30 +135,37 @@ def _within(problem: Problem, window: tuple[float, float]) -> Found:
     cells = cells_of(min(max(CELLS * inside, FEWEST_CELLS), MOST_CELLS))
     pieces = problem.pieces(window)
 
-    def touched(asked: Problem, tilt: float, cells: int) -> State:
-        height = asked.tilted(tilt, window)
-        grid = grid_pressure(height, window, cells, asked.given.load, asked.chord.periodic)
-        return start_of(grid, pieces, asked, tilt)
+    def touched(tilt: float, cells: int) -> State:
+        height = problem.tilted(tilt, window)
+        periodic = problem.chord.periodic
+        grid = grid_pressure(height, window, cells, problem.given.load, periodic)
+        return start_of(grid, pieces, problem, tilt)
 
-    def start(asked: Problem) -> State:
-        state = touched(asked, tilt, cells)
+    def start(cells: int) -> State:
+        state = touched(tilt, cells)
         if balances(state, problem.given):
             return state
         # at this tilt the contact changes from one indenter to another: both carry the load
-        both = [touched(asked, t, COARSE).patches for t in tilts]
+        both = [touched(t, COARSE).patches for t in tilts]
         a, b = apart([e for P in both for e in zip(P.a, P.b, strict=True)])
         return bounded(a, b, pieces, problem.chord, tilt)
 
-    try:
-        found = settled(start(problem), pieces, problem)
-    except ASTRAY:
-        cells = min(FINER * cells, MOST_CELLS)
-        try:
-            found = settled(start(problem), pieces, problem)
-        except ASTRAY:
-            found = continued(problem, pieces, start, tilt)
+    for number in (cells, min(FINER * cells, MOST_CELLS)):
+        found = attempted(partial(start, number), pieces, problem)
+        if found is not None:
+            break
+    else:
+        found = _turned(partial(touched, tilt, cells), pieces, problem, tilt)
     refuse_unknown_ends(found.state, problem)
     return found
+
+
+def attempted(start: Callable[[], State], pieces: Pieces, problem: Problem) -> Found | None:
+    """The certified answer near a start; None where the search goes astray."""
+    try:
+        return settled(start(), pieces, problem)
+    except (ContactError, ArithmeticError, np.linalg.LinAlgError):
+        return None
 
 
 def _with_far_valleys(found: Found, problem: Problem) -> Found:
@@ -230,6 +196,35 @@ def _with_far_valleys(found: Found, problem: Problem) -> Found:
         start = mended(state, replace(seen, tension=()), pieces) if seen.overlap else state
         return settled(start, pieces, problem)
     return replace(found, findings=replace(found.findings, doubt=seen.doubt, place=seen.place))
+
+
+def _turned(start: Callable[[], State], pieces: Pieces, problem: Problem, tilt: float) -> Found:
+    """The contact under a moment, by steps of it from that at a tilt. Raises LoadError."""
+    given = problem.given
+    if given.moment is None:
+        raise unsettled(problem, 0)
+    level = replace(problem, given=given._replace(tilt=tilt, moment=None))
+    found = attempted(start, pieces, level)
+    if found is None:
+        raise unsettled(problem, 0)
+    o, part, step = found.operator, 0.0, 1.0
+    now = float((o.b * (o.H + o.H0 + found.state.tilt) * o.panels.points.x).sum())
+    while step > LEAST_TURN:
+        to = min(part + step, 1.0)
+        moment = now + to * (given.moment - now) if to < 1.0 else given.moment
+        asked = replace(problem, given=given._replace(moment=moment))
+        turned = attempted(partial(_same, found.state), pieces, asked)
+        if turned is None:
+            step *= 0.5
+        elif to == 1.0:
+            return turned
+        else:
+            found, part, step = turned, to, 2.0 * step
+    raise unsettled(problem, found.state.patches.number)
+
+
+def _same(state: State) -> State:
+    return state
 
 
 # -- Newton's method and repairs -------------------------------------------------------------------
@@ -320,62 +315,3 @@ def _after(event: Event, state: State, pieces: Pieces, given: Given) -> State:
     left = after(event, state, pieces)
     # no pressure on what is left has the moment: the patches that shrink go on to shrink
     return left if balances(left, given) else state
-
-
-# -- continuation ----------------------------------------------------------------------------------
-
-
-def continued(problem: Problem, pieces: Pieces, start: Start, tilt: float) -> Found:
-    """The contact of a problem, from those of smaller loads at this tilt. Raises ContactError."""
-    level = changed(problem, tilt=tilt, moment=None)
-    found, load = _light(problem, level, pieces, start)
-    target, factor = problem.given.load, FIRST
-    for _ in range(STEPS):
-        wanted = min(load * factor, target)
-        try:
-            found = settled(found.state, pieces, changed(level, load=wanted))
-        except ASTRAY:
-            factor **= 0.5
-            if factor < FINEST:
-                break
-        else:
-            load, factor = wanted, min(factor**2, FIRST)
-            if load == target:
-                return _turned(problem, pieces, found)
-    raise unsettled(problem, found.state.patches.number, load)
-
-
-def _light(problem: Problem, level: Problem, pieces: Pieces, start: Start) -> tuple[Found, float]:
-    """The contact of the largest load, by quarters, that is found from a start of its own."""
-    load = problem.given.load
-    for _ in range(LIGHTEST):
-        load *= 0.25
-        lighter = changed(level, load=load)
-        try:
-            return settled(start(lighter), pieces, lighter), load
-        except ASTRAY:
-            continue
-    raise unsettled(problem, 0)
-
-
-def _turned(problem: Problem, pieces: Pieces, found: Found) -> Found:
-    """The contact under the moment of a problem, from one of the same load, by steps of it."""
-    asked = problem.given.moment
-    if asked is None:
-        return found
-    o = found.operator
-    now = float((o.b * (o.H + o.H0 + found.state.tilt) * o.panels.points.x).sum())
-    step = whole = asked - now
-    for _ in range(STEPS):
-        wanted = asked if abs(asked - now) <= abs(step) else now + step
-        try:
-            found = settled(found.state, pieces, changed(problem, moment=wanted))
-        except ASTRAY:
-            step *= 0.5
-            if abs(step) < LEAST_TURN * abs(whole):
-                break
-        else:
-            if wanted == asked:
-                return found
-            now, step = wanted, 2.0 * step
-    raise unsettled(problem, found.state.patches.number, problem.given.load)

@@ -75,12 +75,11 @@ def _unknown_depth(
     )
 
 
-def unsettled(problem: Problem, patches: int, reached: float = 0.0) -> LoadError:
-    """The refusal of a load; `reached` is the largest under which patches were found on the way."""
-    load, other = problem.given.load, problem.given.moment is not None
-    so_far = f" (they do at {reached:.6g})" if 0.0 < reached < load else ""
+def unsettled(problem: Problem, patches: int) -> LoadError:
+    """The refusal of a load under which the search does not come to rest."""
+    other = problem.given.moment is not None
     return LoadError(
-        f"the patches of contact do not settle at normal_load = {load:.6g} E*/2{so_far}: two "
+        f"the patches of contact do not settle at normal_load = {problem.given.load:.6g} E*/2: two "
         "of them are about to merge, or one to appear; change the load"
         f"{' or the moment' * other} a little",
         patches=patches,

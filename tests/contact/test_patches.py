@@ -16,7 +16,7 @@ from sie.patches.chord import Chord, Points
 from sie.patches.of_scene import problem_of
 from sie.patches.operator import Operator
 from sie.patches.panels import Patches
-from sie.patches.solver import contact, continued
+from sie.patches.solver import contact
 
 TWO = sie.Row([sie.Parabola(1.0).shifted(-1.0), sie.Parabola(0.5).shifted(0.9).raised(0.02)])
 ROUNDED = sie.Row(
@@ -352,25 +352,6 @@ def test_the_derivative_of_the_potential_on_the_surface_is_that_of_slope_and_pre
     assert steep.imag == pytest.approx(-rise, rel=1e-5, abs=1e-5 * np.abs(rise).max())
     bend = (slope(x + step) - slope(x - step)) / (2.0 * step)
     assert steep.real == pytest.approx(0.5 * bend, rel=1e-5, abs=1e-6)
-
-
-@pytest.mark.parametrize("name", ["row", "trace"])
-def test_steps_of_the_load_lead_to_the_same_patches(name):
-    problem = problem_of(sie.Scene(modulus=1.0, **SCENES[name]))
-    whole = contact(problem)
-
-    def start(asked):
-        return contact(asked).state
-
-    pieces = problem.pieces(problem.domain if name == "trace" else (-4.0, 4.0))
-    by_steps = continued(problem, pieces, start, 0.0)
-    np.testing.assert_allclose(by_steps.state.patches.edges, whole.state.patches.edges, atol=1e-13)
-
-
-def test_steps_of_the_moment_lead_to_the_same_tilt():
-    problem = problem_of(sie.Scene(modulus=1.0, profile=TWO, normal_load=0.4, moment=0.05))
-    found = continued(problem, problem.pieces((-4.0, 4.0)), lambda p: contact(p).state, 0.0)
-    assert found.state.tilt == pytest.approx(-0.07597308212919692, rel=1e-13)
 
 
 def test_many_narrow_patches_are_summed_as_by_one_product_over_all():

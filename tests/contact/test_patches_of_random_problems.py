@@ -1,5 +1,5 @@
 """Kinds of random problems that once failed: patches longer than half a period, waves without end,
-moments of light loads, concave corners that nearly close, rounding, continuation.
+moments of light loads, concave corners that nearly close, rounding, searches that go astray.
 """
 
 import numpy as np
@@ -235,49 +235,35 @@ def test_noise_is_not_what_a_wave_does_between_close_points():
     assert rounding_noise(lambda x: np.sin(12.0 * x), -126.0, 126.0) < 1e-13
 
 
-# -- continuation ----------------------------------------------------------------------------------
+def test_a_moment_is_followed_from_the_contact_at_some_tilt(monkeypatch):
+    """Every second search goes astray: each step of the moment is tried again with half of it."""
+    row = sie.Row([sie.Parabola(1.0), sie.Parabola(0.5).shifted(2.0).raised(0.1)])
+    given = {"profile": row, "normal_load": 0.6, "moment": 0.3}
+    attempted, right, calls = solver.attempted, solved(**given), []
 
-ROW = sie.Row([sie.Parabola(1.0), sie.Parabola(0.5).shifted(2.0).raised(0.1)])
-PROBLEM = problem_of(sie.Scene(profile=ROW, modulus=2.0, normal_load=0.6))
+    def hesitant(start, pieces, problem):
+        calls.append(problem.given.moment)
+        return attempted(start, pieces, problem) if len(calls) % 2 and len(calls) > 2 else None
 
-
-def stopped_at(load, monkeypatch, calls):
-    """Let no patches settle above a load."""
-    settled = solver.settled
-
-    def stopped(state, pieces, problem):
-        calls.append(problem.given.load)
-        if problem.given.load > load:
-            raise sie.LoadError("stopped")
-        return settled(state, pieces, problem)
-
-    monkeypatch.setattr(solver, "settled", stopped)
+    monkeypatch.setattr(solver, "attempted", hesitant)
+    found = solved(**given)
+    assert found.patches == pytest.approx(np.array(right.patches), rel=1e-12)
+    assert found.tilt == pytest.approx(right.tilt, rel=1e-12) and None in calls
 
 
-@pytest.mark.parametrize("part", [0.0, 1e-4, 0.3, 0.99])
-def test_a_continuation_that_ends_names_the_load_that_was_asked(part, monkeypatch):
+@pytest.mark.parametrize("moment", [{}, {"moment": 0.3}])
+def test_a_load_under_which_no_search_settles_is_refused_by_its_name(moment, monkeypatch):
     calls = []
-    stopped_at(part * 0.6, monkeypatch, calls)
-    with pytest.raises(sie.LoadError, match=r"normal_load = 0\.6 E\*/2[ :]") as error:
-        solver.contact(PROBLEM)
-    assert "change the load a little" in str(error.value)
-    assert len(calls) <= 2 + solver.LIGHTEST + solver.STEPS
 
+    def astray(*_):
+        calls.append(1)
+        raise sie.LoadError("stopped")
 
-def test_a_continuation_never_ends_below_its_load(monkeypatch):
-    """Every second try fails: each step is tried again with half of it."""
-    settled, calls = solver.settled, []
-
-    def hesitant(state, pieces, problem):
-        calls.append(problem.given.load)
-        if len(calls) % 2:
-            raise sie.LoadError("stopped")
-        return settled(state, pieces, problem)
-
-    first = solver.contact(PROBLEM)
-    monkeypatch.setattr(solver, "settled", hesitant)
-    window = solver.fitted_window(PROBLEM)
-    pieces = PROBLEM.pieces(window)
-    found = solver.continued(PROBLEM, pieces, lambda problem: first.state, 0.0)
-    assert found.state.patches.edges == pytest.approx(first.state.patches.edges, rel=1e-12)
-    assert calls[-1] == 0.6
+    monkeypatch.setattr(solver, "settled", astray)
+    row = sie.Row([sie.Parabola(1.0), sie.Parabola(0.5).shifted(2.0).raised(0.1)])
+    with pytest.raises(
+        sie.LoadError, match=r"normal_load = 0\.6 E\*/2: .* change the load"
+    ) as error:
+        solver.contact(problem_of(sie.Scene(profile=row, modulus=2.0, normal_load=0.6, **moment)))
+    assert ("or the moment" in str(error.value)) == bool(moment)
+    assert len(calls) <= 3

@@ -12,7 +12,7 @@ from sheared_cases import PROFILES, scene, solved, zones
 
 import sie
 from oracles import oblique_edges
-from sie.certificate.coupled_check import coupled_certificate, gradient_of_slip
+from sie.certificate.coupled_check import Nodes, coupled_certificate
 from sie.friction.coupled.functions import flat_functions
 from sie.friction.coupled.gradient import SlipGradient
 from sie.friction.coupled.zones import Map, Zones
@@ -214,7 +214,8 @@ def test_slip_gradient_is_that_of_the_tractions(name, beta, friction):
     y = state.b * np.array([0.05, 0.37, 0.61, 0.93])
     gradient = SlipGradient(state.superposition, state.ahead)
     found = gradient(y, state.half_modulus * PROFILES[name].slope(y))
-    assert found == pytest.approx(gradient_of_slip(state, y, beta), abs=1e-11)
+    nodes = Nodes(state.values)
+    assert found == pytest.approx(nodes.gradient(nodes.at(y), beta), abs=1e-11)
 
 
 def test_kept_slip_gradient_of_a_parabola_is_linear():
