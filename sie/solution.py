@@ -634,11 +634,9 @@ class Solution(Frictionless, StressAnswers):
             if self.scene.bonded or self.scene.coupled:
                 return ()
             return trace_reports(self.scene, self.as_one_patch.edges, self.slope_density)
-        from .patches.answer import SeveralPatches
-
-        if not isinstance(several, SeveralPatches):
+        if several.found is None:
             return ()
-        return trace_reports(self.scene, several.edges, several)
+        return trace_reports(self.scene, several.edges, cast("SeveralPatches", several))
 
     def plot(self, ax: Any = None, what: str = "pressure", units: Any = None) -> Any:
         """One panel of the picture of the contact, on axes of Matplotlib.

@@ -48,7 +48,8 @@ from sie.profiles.trace_values import Mended
 from sie.traction.of_slope import SlopeDensity
 
 if TYPE_CHECKING:
-    from sie.patches.noise import Answer, PatchErrors
+    from sie.patches.answer import SeveralPatches
+    from sie.patches.noise import PatchErrors
 
 Array = NDArray[np.float64]
 
@@ -173,7 +174,7 @@ def _listed(shown: Iterable[str], count: int, after: str = "") -> str:
 
 
 def trace_reports(
-    scene: Scene, edges: Edges, found: SlopeDensity | Answer
+    scene: Scene, edges: Edges, found: SlopeDensity | SeveralPatches
 ) -> tuple[TraceReport, ...]:
     """A report for each trace in the profile of a scene that was solved, in one patch or several.
 
@@ -199,7 +200,9 @@ def trace_reports(
     return tuple(reports)
 
 
-def _drawn(placed: PlacedTrace, reference: Sampled, scene: Scene, several: Answer) -> PatchErrors:
+def _drawn(
+    placed: PlacedTrace, reference: Sampled, scene: Scene, several: SeveralPatches
+) -> PatchErrors:
     from sie.patches.noise import changes  # noqa: PLC0415 -- for contact in several patches only
 
     trace, period = placed.trace, scene.profile.period

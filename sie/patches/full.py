@@ -287,6 +287,7 @@ class FullContact:
     pressure: FullPressure
     symmetric: bool = False
     gap_volume: float = 0.0
+    found: None = None  # no edges are sought
 
     def slope(self, profile: Any) -> Any:
         return profile.pieces

@@ -13,17 +13,17 @@ one, which counts as so many standard deviations.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import NamedTuple, Protocol
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from sie.profiles.base import Profile
 
+from .answer import SeveralPatches
 from .density import PatchPressure
 from .newton import conditions, missed
-from .of_scene import Problem
-from .operator import Found, Operator, operator_of
+from .operator import Operator, operator_of
 from .profile_pieces import of_profile
 from .state import Given, State
 
@@ -49,19 +49,8 @@ class PatchErrors(NamedTuple):
     unsure: int
 
 
-class Answer(Protocol):
-    """What a contact in several patches holds."""
-
-    @property
-    def found(self) -> Found: ...
-    @property
-    def pressure(self) -> PatchPressure: ...
-    @property
-    def problem(self) -> Problem: ...
-
-
 def changes(
-    several: Answer, known: Profile, samples: Sequence[Profile], spread: float, moment: bool
+    several: SeveralPatches, known: Profile, samples: Sequence[Profile], spread: float, moment: bool
 ) -> PatchErrors:
     """The changes where the profile changes by `known`, and by `spread` times the `samples`.
 
@@ -88,7 +77,9 @@ def changes(
     )
 
 
-def _changed(several: Answer, error: Profile, places: Array, moment: bool) -> tuple[Array, Array]:
+def _changed(
+    several: SeveralPatches, error: Profile, places: Array, moment: bool
+) -> tuple[Array, Array]:
     """δp at places and the shifts of the edges (2N,) by an error; sharp edges stay."""
     state = several.found.state
     P, sharp = state.patches, state.sharp

@@ -22,7 +22,7 @@ from sie.profiles.look import beside, narrow_parts
 from sie.progress_bar import reported
 
 from . import newton
-from .gap import gap, overlaps
+from .gap import overlaps
 from .newton import FINAL, MOST_STEPS
 from .of_scene import Problem
 from .operator import Found, Operator, operator_of
@@ -39,8 +39,8 @@ from .window import (
     WIDENED,
     fitted_window,
     levels,
-    overlap_beyond,
     whole_window,
+    widened,
 )
 
 Array = NDArray[np.float64]
@@ -82,7 +82,7 @@ def _in_windows(problem: Problem) -> Found:
     window = fitted_window(problem)
     for _ in range(WIDENED):
         found = _within(problem, window)
-        beyond = overlap_beyond(found, problem, window, gap)
+        beyond = widened(found, problem, window)
         if beyond == window:
             return _in_one_period(_with_far_valleys(found, problem), problem)
         window = beyond

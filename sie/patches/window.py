@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -12,7 +10,7 @@ from sie.profiles.look import closer, may_touch, values
 from sie.profiles.look import falls as look_falls
 
 from .of_scene import Problem
-from .operator import Found, Operator
+from .operator import Found
 from .start import grid_pressure
 
 Array = NDArray[np.float64]
@@ -20,13 +18,12 @@ Array = NDArray[np.float64]
 NARROWEST = 0.02  # of the window: what contact takes at least of a window that fits ...
 # ... where the slope is resolved to rounding of its largest value there
 FITTED = 0.18
-# Windows beyond a window, and places there, at which the bodies must not overlap
-FAR, LOOKED_AT = 1e3, 4000
 COARSE = 512  # cells of the grid on which the window is sought
 WINDOWS = 200
 # lengths, and places on each side, at which a function without ends is looked at; beyond the last
 # of them at which it falls valleys are looked for so many times as far
 SCALES, PLACES, BEYOND = (1e-6, 1e9), 6000, 4.0
+WIDER = 4.0  # windows that are added at an end
 WIDENED = 12  # times a window is widened, before the slope is said to rise too little
 
 
@@ -121,46 +118,16 @@ def whole_window(problem: Problem) -> tuple[float, float]:
     return ends[0], ends[1]
 
 
-def overlap_beyond(
-    found: Found,
-    problem: Problem,
-    window: tuple[float, float],
-    gap: Callable[[Operator, Array], Array],
-) -> tuple[float, float]:
-    """A wider window where this one is too narrow for a load that is a force.
-
-    It is so where contact reaches its end, or the bodies overlap beyond it.
-    """
-    lo, hi = found.operator.pieces.domain
-    if problem.chord.periodic or (lo, hi) == problem.domain:
+def widened(found: Found, problem: Problem, window: tuple[float, float]) -> tuple[float, float]:
+    """A wider window where contact reaches the end of this one, and the indenter goes on."""
+    (lo, hi), (first, last) = window, problem.domain
+    P, more = found.state.patches, WIDER * (hi - lo)
+    if problem.chord.periodic:
         return window
-    P = found.state.patches
-    a, b = float(P.a[0]), float(P.b[-1])
-    wider = [lo, hi]
-    for k, (end, limit, side) in enumerate(
-        ((lo, problem.domain[0], -1.0), (hi, problem.domain[1], 1.0))
-    ):
-        if end == limit:
-            continue
-        if end == (a, b)[k]:
-            wider[k] = end + side * 4.0 * (hi - lo)
-            continue
-        distance = (hi - lo) * np.geomspace(1e-3, FAR, LOOKED_AT)
-        x = np.clip(end + side * distance, min(end, limit), max(end, limit))
-        with np.errstate(all="ignore"):
-            H = problem.slope(x) + found.state.tilt
-            rise = np.cumsum(side * 0.5 * (H[1:] + H[:-1]) * np.abs(np.diff(x)))
-            middle = 0.5 * (a + b)
-            opened = float(gap(found.operator, np.array([end]))[0])
-            g = (
-                opened
-                + rise
-                - problem.given.load / np.pi * np.log(np.abs((x[1:] - middle) / (x[0] - middle)))
-            )
-            below = np.flatnonzero(g < -1e-3 * max(opened, 0.0))
-        if below.size:
-            wider[k] = float(x[1:][below[0]]) + side * 2.0 * (hi - lo)
-    return max(wider[0], problem.domain[0]), min(wider[1], problem.domain[1])
+    return (
+        max(lo - more, first) if P.a[0] == lo else lo,
+        min(hi + more, last) if P.b[-1] == hi else hi,
+    )
 
 
 def levels(problem: Problem, window: tuple[float, float]) -> tuple[float, float]:
