@@ -21,10 +21,13 @@ SHARE = 3.0  # of the promise
 SLIGHT = 1e-15  # of the peak
 
 
+def solved(profile, load=0.3, **given):
+    loads = {} if "half_width" in given else {"normal_load": load}
+    return sie.solve(sie.Scene(profile=profile, modulus=1.0, **loads, **given))
+
+
 def pressed(slope, load=0.3, **given):
-    return sie.solve(
-        sie.Scene(profile=sie.FromFunction(slope, **given), modulus=1.0, normal_load=load)
-    )
+    return solved(sie.FromFunction(slope, **given), load)
 
 
 def bound(certificate, distance):
@@ -63,7 +66,7 @@ def test_the_error_given_the_load_keeps_the_promise_up_to_the_edges(name):
     profile, (breaks, rows), load, tilt = CASES[name]
     if name == "rounded flat":  # 0.3 and 0.15 = 0.3/2 as the profile has them
         rows = ((mp.mpf(0.3) / 2, mp.mpf(0.5)), (mp.zero,), (-mp.mpf(0.3) / 2, mp.mpf(0.5)))
-    solution = sie.solve(sie.Scene(profile=profile, modulus=1.0, normal_load=load, tilt=tilt))
+    solution = solved(profile, load, tilt=tilt)
     truth = normal_contact.contact(
         normal_contact.polynomials(breaks, rows).tilted(tilt), 1.0, solution.edges, load=load
     )
@@ -88,9 +91,7 @@ def test_the_error_given_the_load_keeps_the_promise_up_to_the_edges(name):
 
 def test_the_error_by_the_edges_is_neither_zero_nor_far_too_large():
     """An edge is known to an ulp of the load times its condition: p(x) δ/(2 d) is wrong."""
-    found = sie.solve(
-        sie.Scene(profile=sie.RoundedFlat(0.3, 2.0), modulus=1.0, normal_load=0.1)
-    ).check()
+    found = solved(sie.RoundedFlat(0.3, 2.0), 0.1).check()
     assert 1e-17 < found.edges < 1e-14
 
 
@@ -99,7 +100,7 @@ def test_edges_far_from_x_0_are_known_better_than_to_an_ulp_of_x():
     kept.
     """
     profile = sie.Parabola(1.0).shifted(1000.3)
-    found = sie.solve(sie.Scene(profile=profile, modulus=1.0, normal_load=0.3)).check()
+    found = solved(profile).check()
     assert found.edges < 0.1 * math.ulp(1000.3)
     assert found.ok
 
@@ -145,17 +146,17 @@ def test_a_trace_pressed_on_a_steep_flank_costs_no_digits_either(steepness, give
     rough = np.round(2048.0 * points**2 + 16.0 * np.sin(40.0 * points)) / 2**16
     cancelled = sie.Sampled(points, steepness * (points + 1.0) ** 2 + rough)
     plain = sie.Sampled(points, rough) + sie.Polynomial([0.0, 0.0, steepness])
-    other = sie.solve(sie.Scene(profile=plain, modulus=1.0, half_width=2e-3))
+    other = solved(plain, half_width=2e-3)
     how = {"tilt": -2.0 * steepness} if given == "tilt" else {"moment": other.moment}
     load = other.normal_load
-    one = sie.solve(sie.Scene(profile=cancelled, modulus=1.0, normal_load=load, **how))
+    one = solved(cancelled, load, **how)
     found, x = one.check(), other.centre + 2e-3 * np.linspace(-0.99, 0.99, 40)
     error = np.abs(one.pressure(x) - other.pressure(x)).max() / other.pressure(x).max()
     assert error <= 3.0 * (found.error + 10.0 * found.edges) + 3e-15
 
 
 def test_the_same_promise_is_printed_and_documented():
-    found = sie.solve(sie.Scene(profile=sie.Parabola(1.0), modulus=1.0, normal_load=0.3)).check()
+    found = solved(sie.Parabola(1.0)).check()
     assert PROMISE in " ".join(str(found).split())
     assert PROMISE in " ".join(result.Certificate.__doc__.split())
 
@@ -177,9 +178,7 @@ def test_a_rounded_edge_between_two_doubles_is_not_certified():
     """The rounded edge of width 1e-50 lies between two doubles: rounding of x would explain any
     defect.
     """
-    found = sie.solve(
-        sie.Scene(profile=sie.RoundedFlat(1.0, 1e-150), modulus=1.0, normal_load=1.0)
-    ).check()
+    found = solved(sie.RoundedFlat(1.0, 1e-150), 1.0).check()
     assert not found.ok
     assert "NOT certified to 1e-13" in str(found)
 
@@ -265,25 +264,19 @@ def test_a_kink_just_inside_an_edge_is_found(part, side):
 
 
 def test_the_certificate_s_points_are_not_those_of_the_solver():
-    contact = sie.solve(
-        sie.Scene(profile=sie.Parabola(1.0), modulus=1.0, normal_load=0.3)
-    ).normal.edges.contact
+    contact = solved(sie.Parabola(1.0)).normal.edges.contact
     assert not np.isin(
         unresolved.scattered(contact, unresolved.SAMPLES), unresolved.scattered(contact)
     ).any()
 
 
 def test_no_gap_between_the_scattered_points_is_wider_than_documented():
-    contact = sie.solve(
-        sie.Scene(profile=sie.Parabola(1.0), modulus=1.0, normal_load=0.3)
-    ).normal.edges.contact
+    contact = solved(sie.Parabola(1.0)).normal.edges.contact
     assert np.diff(np.sort(unresolved.scattered(contact))).max() <= 5e-4 * 2.0 * contact.r
 
 
 def test_where_the_scattered_points_lie_depends_on_the_last_digit_of_an_edge():
-    one = sie.solve(
-        sie.Scene(profile=sie.Parabola(1.0), modulus=1.0, normal_load=0.3)
-    ).normal.edges.contact
+    one = solved(sie.Parabola(1.0)).normal.edges.contact
     other = one._replace(x2=math.nextafter(one.x2, 9.0))
     first = slice(0, 9)  # the last are near the edges
     assert (
@@ -338,7 +331,7 @@ def test_a_tilted_power_next_to_a_wedge_is_certified(exponent, tilt):
     beside it.
     """
     profile = sie.Power(exponent, 0.75)
-    assert sie.solve(sie.Scene(profile=profile, modulus=1.0, normal_load=0.3, tilt=tilt)).check().ok
+    assert solved(profile, tilt=tilt).check().ok
 
 
 @pytest.mark.parametrize("corner", [0.0, -1e-30, -2.1426e-288, 5e-324])
@@ -359,7 +352,7 @@ def test_equilibrium_at_a_corner_next_to_x_0_is_measured_to_rounding(corner):
 
 
 def test_steep_slopes_carry_a_note_and_are_certified_all_the_same():
-    found = sie.solve(sie.Scene(profile=sie.Parabola(1.0), modulus=1.0, half_width=50.0)).check()
+    found = solved(sie.Parabola(1.0), half_width=50.0).check()
     assert found.ok
     assert (
         "slope in the contact reaches 50; above 0.2 half-plane elasticity (small strains) is "
@@ -371,9 +364,7 @@ def test_steep_slopes_carry_a_note_and_are_certified_all_the_same():
 
 
 def test_small_slopes_and_pressures_carry_no_note():
-    solution = sie.solve(
-        sie.Scene(profile=sie.RoundedFlat(1.0, 100.0), modulus=1.0, half_width=2.0)
-    )
+    solution = solved(sie.RoundedFlat(1.0, 100.0), half_width=2.0)
     assert solution.notes == solution.check().notes == ()
 
 
@@ -385,7 +376,7 @@ def test_next_to_a_sharp_edge_the_pressure_that_counts_is_a_thousandth_of_r_away
     load, noted, given
 ):
     """Where it is infinite some pressure exceeds any bound."""
-    solution = sie.solve(sie.Scene(profile=sie.Flat(1.0), modulus=1.0, normal_load=load, **given))
+    solution = solved(sie.Flat(1.0), load, **given)
     assert bool(solution.notes) is noted
 
 
@@ -405,10 +396,7 @@ def test_a_gap_that_opens_everywhere_is_not_integrated(monkeypatch):
         sie.Flat(1.0),
         *powers,
     ):
-        assert (
-            sie.solve(sie.Scene(profile=profile, modulus=1.0, normal_load=0.3)).check().lowest_gap
-            == 0.0
-        )
+        assert solved(profile).check().lowest_gap == 0.0
 
 
 @pytest.mark.parametrize("exponent", [1.001, 1.3, 2.5, 4.5, 60.5])
@@ -419,7 +407,7 @@ def test_the_certificate_of_a_power_resolves_no_function(exponent, monkeypatch):
         raise AssertionError("resolved")
 
     profile = sie.Power(exponent, 0.75).shifted(0.7)
-    solution = sie.solve(sie.Scene(profile=profile, modulus=1.0, normal_load=0.3))
+    solution = solved(profile)
     for module in (pressure_check, inequalities, quadrature, gap, on_panels):
         monkeypatch.setattr(module, "refined", refuse)
     assert solution.check().ok
@@ -501,7 +489,7 @@ def test_nothing_is_noted_where_nothing_is_neglected(given):
 def test_a_certificate_whose_sums_rounding_of_x_decides_says_what_is_known(load):
     """Beside a flat base the rim of a light contact is narrower than doubles are apart."""
     profile = sie.RoundedFlat(0.5, 2.0)
-    solution = sie.solve(sie.Scene(profile=profile, modulus=1.0, normal_load=load))
+    solution = solved(profile, load)
     found = solution.check()
     said = any("One ulp of x" in note for note in found.notes)
     assert found.ok != said

@@ -13,6 +13,7 @@ import strategies
 from hypothesis import given
 
 import sie
+from sie.certificate import coupled_check
 from sie.contact.normal import normal_contact
 from sie.contact.pressure import pressure
 from validation.cases import BUMP, CASES, SINH, Case, solved
@@ -20,6 +21,7 @@ from validation.wrong_programs.pressures import (
     PUNCH,
     SKEW,
     Wrong,
+    WrongState,
     closed_form,
     gauss_chebyshev,
     root,
@@ -78,53 +80,45 @@ def test_another_right_program_is_certified():
     assert found.ok
 
 
-# -- wrong formulas -------------------------------------------------------------------------------
+# -- wrong formulas and errors of any shape --------------------------------------------------------
 
-
-def test_a_flipped_sign_of_the_second_logarithm_is_caught():
-    assert_caught(PUNCH, lambda x: closed_form(x, second=-1.0))
-
-
-def test_a_dropped_logarithm_is_caught():
-    assert_caught(PUNCH, lambda x: closed_form(x, second=0.0))
+# By a size e: of C/w the residual shows nothing, but equilibrium does; a wider contact carries the
+# load of the right one.
+WRONG = {
+    "a logarithm off": (PUNCH, lambda p, x, e: closed_form(x, second=1.0 + 10.0 * e)),
+    "a load that was not scaled": (PUNCH, lambda p, x, e: p(x) * (1.0 + e)),
+    "edges off": (PUNCH, lambda p, x, e: closed_form(x, b=1.0 + e)),
+    "a centre off": (SKEW, lambda p, x, e: p(x - e)),
+    "C/w": (PUNCH, lambda p, x, e: p(x) + 0.15 * e / root(x)),
+    "(1 - s²)^(1/2 + e)": (PUNCH, lambda p, x, e: p(x) * root(x) ** (2.0 * e)),
+    "a constant": (PUNCH, lambda p, x, e: p(x) + 0.15 * e),
+    "even": (PUNCH, lambda p, x, e: p(x) + 0.15 * e * root(x)),
+    "odd": (PUNCH, lambda p, x, e: p(x) + 0.15 * e * x * root(x)),
+    "a wave": (PUNCH, lambda p, x, e: p(x) + 0.15 * e * np.cos(20 * x)),
+    "a short wave": (PUNCH, lambda p, x, e: p(x) + 0.15 * e * np.cos(300 * x)),
+    "a bump": (PUNCH, lambda p, x, e: p(x) + 0.15 * e * np.exp(-(((x - 0.31) / 0.05) ** 2))),
+}
 
 
 @pytest.mark.parametrize("size", SIZES)
-def test_a_logarithm_off_by_a_little_is_caught(size):
-    assert_caught(PUNCH, lambda x: closed_form(x, second=1.0 + size * 10))
+@pytest.mark.parametrize(("scene", "wrong"), WRONG.values(), ids=WRONG)
+def test_a_program_that_is_off_by_a_little_is_caught(scene, wrong, size):
+    p = right(scene)
+    assert_caught(scene, lambda x: wrong(p, x, size))
 
 
-@pytest.mark.parametrize("size", SIZES)
-def test_a_load_that_was_not_scaled_is_caught(size):
+@pytest.mark.parametrize(
+    "wrong",
+    [
+        lambda p, x: closed_form(x, second=-1.0),
+        lambda p, x: closed_form(x, second=0.0),
+        lambda p, x: 2.0 * p(x),
+    ],
+    ids=["a flipped sign", "a dropped logarithm", "twice the load"],
+)
+def test_a_program_that_is_wrong_throughout_is_caught(wrong):
     p = right(PUNCH)
-    assert_caught(PUNCH, lambda x: p(x) * (1 + size))
-    assert_caught(PUNCH, lambda x: 2 * p(x))
-
-
-@pytest.mark.parametrize("size", SIZES)
-def test_edges_off_by_a_little_are_caught(size):
-    """The pressure of a contact that is wider, under the load of the right one."""
-    assert_caught(PUNCH, lambda x: closed_form(x, b=1 + size))
-
-
-@pytest.mark.parametrize("size", SIZES)
-def test_a_centre_off_by_a_little_is_caught(size):
-    p = right(SKEW)
-    assert_caught(SKEW, lambda x: p(x - size))
-
-
-@pytest.mark.parametrize("size", SIZES)
-def test_a_solution_of_the_homogeneous_equation_is_caught(size):
-    """C/w: the residual of the integral equation does not show it, equilibrium does."""
-    p = right(PUNCH)
-    assert_caught(PUNCH, lambda x: p(x) + size * 0.15 / root(x))
-
-
-@pytest.mark.parametrize("size", SIZES)
-def test_a_wrong_end_weight_is_caught(size):
-    """(1 - s²)^(1/2 + size) in place of the square root."""
-    p = right(PUNCH)
-    assert_caught(PUNCH, lambda x: p(x) * root(x) ** (2 * size))
+    assert_caught(PUNCH, lambda x: wrong(p, x))
 
 
 @pytest.mark.parametrize("lo", [0.5, -1.0])
@@ -179,23 +173,7 @@ def test_nodes_off_by_a_share_of_their_spacing_are_caught(size):
     assert_caught(ROUND, gauss_chebyshev(ROUND, half=100 * size if size < 1e-3 else size))
 
 
-# -- errors of any shape --------------------------------------------------------------------------
-
-SHAPES = {
-    "constant": np.ones_like,
-    "even": root,
-    "odd": lambda x: x * root(x),
-    "wave": lambda x: np.cos(20 * x),
-    "short wave": lambda x: np.cos(300 * x),
-    "bump": lambda x: np.exp(-(((x - 0.31) / 0.05) ** 2)),
-}
-
-
-@pytest.mark.parametrize("size", SIZES)
-@pytest.mark.parametrize("shape", SHAPES.values(), ids=SHAPES)
-def test_an_error_of_any_shape_is_caught(shape, size):
-    p = right(PUNCH)
-    assert_caught(PUNCH, lambda x: p(x) + 0.15 * size * shape(x))
+# -- lost digits ----------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("size", SIZES)
@@ -289,3 +267,49 @@ def test_a_certificate_prints_its_verdict():
     )
     assert "NOT" not in str(good)
     assert "NOT certified" in str(bad)
+
+
+# -- dissimilar bodies ----------------------------------------------------------------------------
+
+PAIR = {"modulus": 2.0, "dundurs": 0.3, "friction": 0.3, "normal_load": 1.0}
+DISSIMILAR = {
+    "pressed": {"profile": sie.RoundedFlat(0.5, 1.0)},
+    "sheared": {"profile": sie.Parabola(1.0), "tangential_load": 0.15},
+    "not symmetric": {"profile": sie.Polynomial((0.0, 0.0, 0.5, 0.1, 0.05))},
+    "Goodman's": {"profile": sie.Parabola(1.0), "tangential_load": 0.15, "coupling": "goodman"},
+}
+
+
+class OffBy(WrongState):
+    """A state whose q, in stick, or p has an error of this size in the middle."""
+
+    def __init__(self, state, row, size):
+        super().__init__(state, None)
+        self.row, self.size = row, size
+
+    @property
+    def values(self):
+        right, middle = self.right.values, self.right.values.contact.m
+
+        def rows(x, rest):
+            found = right.rows(x, rest)
+            p = found[0].max()
+            found[self.row] += self.size * p * np.exp(-(((x - middle) / 0.05) ** 2))
+            return found
+
+        return right._replace(rows=rows)
+
+
+@pytest.mark.parametrize("size", [0.0, 1e-3, 1e-8])
+@pytest.mark.parametrize("row", [0, 1])
+@pytest.mark.parametrize("kind", DISSIMILAR)
+def test_a_traction_of_dissimilar_bodies_that_is_off_in_stick_is_caught(kind, row, size):
+    solution = sie.solve(sie.Scene(**PAIR | DISSIMILAR[kind]))
+    if kind == "Goodman's":
+        state = OffBy(solution.tangential, row, size)
+        assert coupled_check.shear_certificate(state, solution.scene, 1e-13).ok == (not size)
+    else:
+        found = coupled_check.coupled_certificate(
+            OffBy(solution.coupled[1], row, size), solution.scene, 1e-13
+        )
+        assert found.ok == (not size)
