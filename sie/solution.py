@@ -636,7 +636,7 @@ class Solution(Frictionless, StressAnswers):
             return trace_reports(self.scene, self.as_one_patch.edges, self.slope_density)
         if several.found is None:
             return ()
-        return trace_reports(self.scene, several.edges, cast("SeveralPatches", several))
+        return trace_reports(self.scene, several.edges, several)
 
     def plot(self, ax: Any = None, what: str = "pressure", units: Any = None) -> Any:
         """One panel of the picture of the contact, on axes of Matplotlib.

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import math
 import textwrap
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from html import escape
 from typing import Any
 
 from sie.contact.inequalities import TOLERATED, Intervals, shown
 from sie.numerics.interval import EPS
+from sie.patches.result import as_numbers
 
 PROMISE = (
     "At a distance d from the nearer edge the pressure is wrong by at most 3 (error + edges "
@@ -114,14 +115,7 @@ class Certificate:
 
     def as_dict(self) -> dict[str, Any]:
         """The certificate as numbers, lists and strings by name, for JSON."""
-        numbers = {f.name: getattr(self, f.name) for f in fields(self) if f.name != "shear"} | {
-            "error": self.error,
-            "ok": self.ok,
-        }
-        numbers |= {name: list(map(list, numbers[name])) for name in ("tension", "overlap")} | {
-            "notes": list(self.notes)
-        }
-        return numbers | ({} if self.shear is None else {"shear": self.shear.as_dict()})
+        return as_numbers(self)
 
     def _repr_html_(self) -> str:
         return f"<pre>{escape(str(self))}</pre>"
@@ -209,10 +203,7 @@ class ShearCertificate:
 
     def as_dict(self) -> dict[str, Any]:
         """The certificate as numbers, strings and truth values by name, for JSON."""
-        return {f.name: getattr(self, f.name) for f in fields(self)} | {
-            "error": self.error,
-            "ok": self.ok,
-        }
+        return as_numbers(self)
 
     @property
     def rows(self) -> tuple[tuple[str, str], ...]:

@@ -9,8 +9,9 @@ with H continued from the nearest piece, or any constant: F does not depend on i
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 from typing import Any
 
 import numpy as np
@@ -282,14 +283,7 @@ class PatchPressure(Density):
         )
 
     def _cauchy(self, z: Complex, side: int) -> Complex:
-        out = np.empty(z.shape, dtype=complex)
-        real = z.imag == 0.0
-        if real.any():
-            x = z.real[real]
-            out[real] = on_surface(self.hilbert(x), self(x), side)
-        if not real.all():
-            out[~real] = reflected(self._off_axis, z[~real])
-        return out
+        return potential_of(self, z, side)
 
     def _off_axis(self, z: Complex) -> Complex:
         points, k, _ = self.placed(z.real)
@@ -328,7 +322,7 @@ class PatchPressure(Density):
         return out
 
     def _around(self, z: Complex, side: int) -> Complex:
-        """The potential by Cauchy's formula on a circle that touches no traction.
+        """The derivative by Cauchy's formula.
 
         In contact the values of p beside the place serve.
         """
@@ -339,10 +333,7 @@ class PatchPressure(Density):
         on = inside & (z.imag == 0.0)
         out = np.empty(z.shape, dtype=complex)
         if (~on).any():
-            turn = np.exp(2j * np.pi * np.arange(AROUND) / AROUND)
-            circle = z[~on, None] + radius[~on, None] * turn
-            F = self._cauchy(circle.ravel(), 1).reshape(circle.shape)
-            out[~on] = (F * turn.conj()).mean(axis=1) / radius[~on]
+            out[~on] = by_circle(partial(self._cauchy, side=1), z[~on], radius[~on])
         if on.any():
             out[on] = self._derivative_inside(z.real[on], side)
         return out
@@ -367,3 +358,23 @@ class PatchPressure(Density):
     @cached_property
     def horizon(self) -> float:
         return np.inf if self.period < np.inf else super().horizon
+
+
+def potential_of(density: Any, z: Complex, side: int) -> Complex:
+    """The potential at places z (1-d): by values on the surface, as it is off the axis."""
+    out = np.empty(z.shape, dtype=complex)
+    real = z.imag == 0.0
+    if real.any():
+        x = z.real[real]
+        out[real] = on_surface(density.hilbert(x), density(x), side)
+    if not real.all():
+        out[~real] = reflected(density._off_axis, z[~real])
+    return out
+
+
+def by_circle(potential: Callable[[Complex], Complex], z: Complex, radius: Array) -> Complex:
+    """The derivative of a potential by Cauchy's formula, on circles that touch no traction."""
+    turn = np.exp(2j * np.pi * np.arange(AROUND) / AROUND)
+    circle = z[:, None] + radius[:, None] * turn
+    F = potential(circle.ravel()).reshape(circle.shape)
+    return np.asarray((F * turn.conj()).mean(axis=1) / radius)

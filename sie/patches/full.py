@@ -21,11 +21,11 @@ from sie import arguments
 from sie.contact.known_contact import Edges
 from sie.numerics import chebyshev
 from sie.numerics.interval import Interval
-from sie.traction.base import Density, on_surface, reflected, refuse_side, zero_or_nan
+from sie.traction.base import Density, refuse_side, zero_or_nan
 
 from .bounds import DEEPEST, NODES, TENSION, halves, lower_bound
 from .chord import Chord, Points
-from .density import AROUND, NARROW
+from .density import NARROW, by_circle, potential_of
 from .measure import NEAR
 from .panels import Patches
 from .pieces import Pieces
@@ -203,14 +203,7 @@ class FullPressure(Density):
     def cauchy(self, z: ArrayLike, side: int = 1) -> Complex:
         refuse_side(side)
         z = arguments.complexes("z", z)
-        flat = z.ravel()
-        out = np.empty(flat.shape, dtype=complex)
-        real = flat.imag == 0.0
-        if real.any():
-            out[real] = on_surface(self.hilbert(flat.real[real]), self(flat.real[real]), side)
-        if not real.all():
-            out[~real] = reflected(self._off_axis, flat[~real])
-        return np.asarray(out.reshape(z.shape))
+        return np.asarray(potential_of(self, z.ravel(), side).reshape(z.shape))
 
     def _off_axis(self, z: Complex) -> Complex:
         z = self.within(z.real) + 1j * z.imag
@@ -227,13 +220,8 @@ class FullPressure(Density):
         refuse_side(side)
         z = arguments.complexes("z", z)
         flat = z.ravel()
-        radius = np.where(flat.imag == 0.0, 1e-3 * self.period, NARROW * np.abs(flat.imag))
-        turn = np.exp(2j * np.pi * np.arange(AROUND) / AROUND)
-        out = np.empty(flat.shape, dtype=complex)
-        off = flat.imag != 0.0
-        circle = flat[off, None] + radius[off, None] * turn
-        F = self.cauchy(circle.ravel()).reshape(circle.shape)
-        out[off] = (F * turn.conj()).mean(axis=1) / radius[off]
+        out, off = np.empty(flat.shape, dtype=complex), flat.imag != 0.0
+        out[off] = by_circle(self.cauchy, flat[off], NARROW * np.abs(flat.imag[off]))
         x = flat.real[~off]
         step = 1e-3 * self.period
         weights = np.array([1.0, -8.0, 8.0, -1.0]) / (12.0 * step)

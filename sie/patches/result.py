@@ -67,10 +67,7 @@ class PatchCertificate:
         return max(self.tol, self.measured_to)
 
     def as_dict(self) -> dict[str, Any]:
-        numbers = {f.name: getattr(self, f.name) for f in fields(self) if f.name != "shear"}
-        numbers |= {name: list(map(list, numbers[name])) for name in ("tension", "overlap")}
-        numbers |= {"notes": list(self.notes), "error": self.error, "ok": self.ok}
-        return numbers | ({} if self.shear is None else {"shear": self.shear.as_dict()})
+        return as_numbers(self)
 
     def __str__(self) -> str:
         rows = [
@@ -111,3 +108,16 @@ def worst_of(found: Sequence[PatchCertificate]) -> PatchCertificate:
         tension=tuple(v for c in found for v in c.tension),
         overlap=tuple(v for c in found for v in c.overlap),
     )
+
+
+def as_numbers(certificate: Any) -> dict[str, Any]:
+    """A certificate as numbers, lists and strings by name; without the shear where it has none."""
+
+    def plain(value: Any) -> Any:
+        if isinstance(value, tuple):
+            return [plain(v) for v in value]
+        return value.as_dict() if hasattr(value, "as_dict") else value
+
+    values = {f.name: getattr(certificate, f.name) for f in fields(certificate)}
+    found = {name: plain(value) for name, value in values.items() if value is not None}
+    return found | {"error": certificate.error, "ok": certificate.ok}
