@@ -182,7 +182,7 @@ def test_stick_zones_over_those_without_a_guess(benchmark, monkeypatch):
 
     def without():
         with monkeypatch.context() as patch:
-            patch.setattr(sie.path_contacts.KnownZones, "guess", lambda *_: None)
+            patch.setattr(sie.paths.path_contacts.KnownZones, "guess", lambda *_: None)
             run()
 
     benchmark.extra_info["ratio"] = compared(without, run)[1]

@@ -30,6 +30,7 @@ Units are free: any consistent set works, and nothing depends on scale.
 131.935
 """
 
+from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 from . import interrupt as interrupt
@@ -117,21 +118,18 @@ __all__ = [
 ]
 
 
+PARTS = {"charts": "sie.sweeps.charts", "teaching": "sie.live.teaching", "plots": "sie.plots"}
+
+
 def __getattr__(name: str) -> Any:
     """What a contact under its normal load does not need, imported when it is asked for.
 
     Of the public modules `sie.plots` needs Matplotlib.
     """
-    if name == "charts":
-        import sie.charts
-    elif name == "plots":
-        import sie.plots
-    elif name == "teaching":
-        import sie.teaching  # noqa: F401
-    elif name in __all__:
+    if name in PARTS:
+        return import_module(PARTS[name])
+    if name in __all__:
         from . import later
 
         return getattr(later, name)
-    else:
-        raise AttributeError(f"module 'sie' has no attribute {name!r}")
-    return globals()[name]
+    raise AttributeError(f"module 'sie' has no attribute {name!r}")

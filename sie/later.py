@@ -5,14 +5,14 @@
 
 from .cauchy.equation import CauchyEquation
 from .certificate.trace_noise import TraceReport
-from .history import History, follow
+from .paths.history import History, follow
+from .paths.steady_state import SteadyCycle, steady_cycle
 from .planning import Plan, plan
-from .smoothing_search import least_smoothing
-from .steady_state import SteadyCycle, steady_cycle
 from .stress.fatigue import CriticalPlane
 from .stress.fretting import Cycle
 from .stress.half_plane import Stress
 from .stress.yield_limit import Peak, YieldPoint
+from .sweeps.smoothing_search import least_smoothing
 from .sweeps.sweep import Interrupted, sweep
 from .sweeps.work import QUANTITIES
 

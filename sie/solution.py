@@ -44,11 +44,11 @@ if TYPE_CHECKING:  # what a stage needs is imported when it is computed
     from .friction.full_stick import Component
     from .friction.goodman.slip import GoodmanSlip
     from .friction.slip_state import Slip, Step
-    from .history import History
     from .patches.answer import SeveralPatches
     from .patches.friction import PatchesUnder
     from .patches.full import FullContact
     from .patches.result import PatchCertificate
+    from .paths.history import History
 
 Array = NDArray[np.float64]
 

@@ -27,11 +27,8 @@ LAYERS = (
         "interrupt",
         "inheritance",
         "errors",
-        "messages",
         "files",
-        "streams",
         "arguments",
-        "workers",
         "progress_bar",
     ),
     ("numerics",),
@@ -42,29 +39,29 @@ LAYERS = (
     ("patches",),
     ("certificate",),
     ("planning", "stages"),
-    ("frictionless", "stress_answers", "solution", "path_contacts"),
-    ("smoothing_search", "history"),
-    ("sweeps", "charts", "steady_state", "teaching"),
+    ("frictionless", "stress_answers", "solution"),
+    ("paths",),
+    ("sweeps",),
     ("later",),
     ("io",),
     ("plots", "live"),
-    ("command_parser", "command_requests", "shell_completion", "cli", "__main__"),
+    ("cli", "__main__"),
 )
 
 
 # Methods that stand where users look for them and hand their work to a module above, which they
 # import when they are called.
 HANDED_UP = {
-    ("sie.history", "sie.io.html_report"),
-    ("sie.history", "sie.plots.one_axes"),
+    ("sie.paths.history", "sie.io.html_report"),
+    ("sie.paths.history", "sie.plots.one_axes"),
     ("sie.io.html_report", "sie.plots.contact_plot"),
     ("sie.problem.load_path", "sie.io.html_report"),
     ("sie.problem.scene", "sie.io.scene_writing"),
     ("sie.profiles.base", "sie.profiles.derived"),
-    ("sie.solution", "sie.history"),
+    ("sie.solution", "sie.paths.history"),
     ("sie.solution", "sie.io.html_report"),
     ("sie.solution", "sie.plots.one_axes"),
-    ("sie.steady_state", "sie.io.html_report"),
+    ("sie.paths.steady_state", "sie.io.html_report"),
     ("sie.stress.fretting", "sie.io.html_report"),
 }
 
@@ -228,7 +225,7 @@ def modules_after(statement):
     return subprocess.run(command, capture_output=True, text=True, check=True).stdout.split()
 
 
-UNNEEDED = {"cauchy", "friction", "history", "live", "patches", "plots", "steady_state", "sweeps"}
+UNNEEDED = {"cauchy", "friction", "live", "patches", "paths", "plots", "sweeps"}
 
 
 @pytest.mark.slow

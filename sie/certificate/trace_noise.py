@@ -36,8 +36,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from sie.arguments import named_rows
 from sie.contact.known_contact import Edges
-from sie.messages import named_rows
 from sie.numerics.interval import EPS, Interval
 from sie.problem.scene import Scene
 from sie.profiles.fitting import Gap

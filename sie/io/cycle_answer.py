@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie.errors import ContactError
-from sie.history import History, follow
+from sie.paths.history import History, follow
 from sie.problem.load_path import Path
 from sie.problem.material import Elastic
 from sie.progress_bar import reported

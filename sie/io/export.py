@@ -70,7 +70,7 @@ from .scene_file import SceneFile
 from .scene_writing import tables_of
 
 if TYPE_CHECKING:
-    from sie.history import History
+    from sie.paths.history import History
 
 Array = NDArray[np.float64]
 

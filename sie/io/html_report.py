@@ -10,12 +10,12 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from html import escape
 from typing import Any
 
+from sie.arguments import NAMES
 from sie.errors import ContactError
-from sie.history import History
-from sie.messages import NAMES
+from sie.paths.history import History
+from sie.paths.steady_state import SteadyCycle
 from sie.problem.load_path import Path
 from sie.solution import Solution
-from sie.steady_state import SteadyCycle
 
 from .report import edges_summary, peak_summary, shear_summary
 from .scene_file import UNITS

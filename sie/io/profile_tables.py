@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 from functools import partial
 from typing import Any, NamedTuple
 
-from sie.messages import choices, nearest, suggestion
+from sie.arguments import choices, nearest, suggestion
 from sie.profiles.base import Profile
 from sie.profiles.kinds import KINDS
 from sie.profiles.row import Periodic, Row

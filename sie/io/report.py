@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from sie.messages import WIDE, named_rows
+from sie.arguments import WIDE, named_rows
 from sie.problem.request import energy_costs
 from sie.solution import Solution
 
@@ -19,7 +19,7 @@ from .sample_points import SAME_PEAK, ceiling, full, peak, reach
 from .scene_file import SceneFile, Units
 
 if TYPE_CHECKING:
-    from sie.history import History
+    from sie.paths.history import History
 
 SAME_PLACE = 1e-7  # of the half-width: rounding of p leaves a smooth peak uncertain by as much
 NOTHING = 1e-13  # of its scale: a smaller number is rounding, and is printed as 0

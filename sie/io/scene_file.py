@@ -53,7 +53,7 @@ from importlib import resources
 from typing import Any
 
 from sie import files
-from sie.messages import suggestion, with_short_words
+from sie.arguments import suggestion, with_short_words
 from sie.problem.load_path import Path
 from sie.problem.material import RIGID, Body, Elastic
 from sie.problem.request import WANTS

@@ -14,7 +14,7 @@ from typing import Any, Literal, NamedTuple
 
 from numpy.typing import ArrayLike
 
-from sie.messages import choices, nearest, suggestion
+from sie.arguments import choices, nearest, suggestion
 from sie.profiles.base import Parity
 from sie.profiles.kinds import KINDS
 from sie.profiles.sampled import Sampled

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any, NoReturn
 
-from sie.messages import shortened
+from sie.arguments import shortened
 
 Reader = Callable[[str, Any], Any]
 

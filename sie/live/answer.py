@@ -16,13 +16,13 @@ from typing import Any
 
 import numpy as np
 
-from sie import teaching
+from sie.arguments import with_short_words
 from sie.errors import ContactError
-from sie.messages import with_short_words
 from sie.problem.scene import Scene
 from sie.profiles.shapes import RoundedFlat
 from sie.solution import Solution, solve
 
+from . import teaching
 from .controls import ACROSS, BANDS, DOWN, LIVE, OF_FILE, ROUNDED, SAVED, SHAPES, Control, shapes
 
 LOAD = 0.4  # of the four indenters, over E* R

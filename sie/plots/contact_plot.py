@@ -28,10 +28,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from sie.history import History, PathSolution, follow
 from sie.io.answers import slip_of
 from sie.io.sample_points import ABOVE_ORDINARY, abscissae, ceiling, full, peak, reach, summits
 from sie.io.scene_file import UNITS, Units
+from sie.paths.history import History, PathSolution, follow
 from sie.solution import Solution
 
 from . import style

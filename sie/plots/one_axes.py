@@ -6,9 +6,9 @@ from typing import Any
 
 from matplotlib.axes import Axes
 
-from sie.history import History
+from sie.arguments import suggestion
 from sie.io.scene_file import Units
-from sie.messages import suggestion
+from sie.paths.history import History
 from sie.solution import Solution
 from sie.sweeps.unit_labels import labels
 

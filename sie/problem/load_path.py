@@ -9,7 +9,7 @@ from numbers import Integral
 from typing import Any
 
 from sie import arguments
-from sie.messages import listed
+from sie.arguments import abridged
 
 MOST_POINTS = 10**6  # of a path cut into parts
 TOUCHING = "the bodies must touch all along the path, which may begin at (0, 0, 0)"
@@ -142,8 +142,8 @@ class Path:
 
     def __repr__(self) -> str:
         more = ("tilt", self.tilt), ("moment", self.moment)
-        shown = "".join(f", {name}=[{listed(values)}]" for name, values in more if values)
-        return f"Path([{listed(self.points)}]{shown})"
+        shown = "".join(f", {name}=[{abridged(values)}]" for name, values in more if values)
+        return f"Path([{abridged(self.points)}]{shown})"
 
 
 def _of_points(name: str, values: Any, number: int) -> tuple[float, ...]:

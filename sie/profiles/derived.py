@@ -14,8 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie import arguments
+from sie.arguments import with_middle_cut
 from sie.inheritance import override
-from sie.messages import with_middle_cut
 
 from .base import Parity, Profile, of_any_x
 from .power_law import PowerLaw

@@ -19,7 +19,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from sie.messages import nearest, shortened
+from sie.arguments import nearest, shortened
 
 Array = NDArray[np.float64]
 

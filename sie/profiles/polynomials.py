@@ -14,8 +14,8 @@ from numpy.polynomial import polynomial
 from numpy.typing import NDArray
 
 from sie import arguments
+from sie.arguments import abridged
 from sie.inheritance import override
-from sie.messages import listed
 
 from .base import Profile, of_any_x
 from .slope import JUMP, Slope, polynomial_slope
@@ -59,7 +59,7 @@ class Polynomial(Profile):
     coefficients: tuple[float, ...]
 
     def __repr__(self) -> str:
-        return f"Polynomial(coefficients=({listed(self.coefficients)}))"
+        return f"Polynomial(coefficients=({abridged(self.coefficients)}))"
 
     def __post_init__(self) -> None:
         c = _coefficients(
@@ -147,8 +147,8 @@ class Piecewise(Profile):
 
     def __repr__(self) -> str:
         comma = "," * (len(self.coefficients) == 1)
-        pieces = f"({listed(self.coefficients)}{comma})"
-        return f"Piecewise(breaks=({listed(self.ends)}), pieces={pieces})"
+        pieces = f"({abridged(self.coefficients)}{comma})"
+        return f"Piecewise(breaks=({abridged(self.ends)}), pieces={pieces})"
 
     @cached_property
     def pieces(self) -> Slope:

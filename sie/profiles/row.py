@@ -18,8 +18,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from sie import arguments
+from sie.arguments import abridged
 from sie.inheritance import override
-from sie.messages import listed
 
 from .base import Profile, of_any_x
 from .closed_trace import closed, open_seams
@@ -78,7 +78,7 @@ class Row(Profile):
         object.__setattr__(self, "profiles", given)
 
     def __repr__(self) -> str:
-        return f"Row([{listed(self.profiles)}])"
+        return f"Row([{abridged(self.profiles)}])"
 
     @cached_property
     def lowest(self) -> tuple[tuple[float, float, int], ...]:

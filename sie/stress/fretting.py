@@ -19,8 +19,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from sie import arguments
+from sie.arguments import abridged
 from sie.errors import ContactError
-from sie.messages import listed
 
 from . import fatigue
 from .fatigue import CriticalPlane
@@ -123,7 +123,7 @@ class Cycle:
         object.__setattr__(self, "states", states)  # a generator gives them once only
 
     def __repr__(self) -> str:
-        return f"Cycle([{listed(self.states)}])"
+        return f"Cycle([{abridged(self.states)}])"
 
     def _repr_html_(self) -> str:
         from sie.io.html_report import cycle_html  # noqa: PLC0415 -- a higher layer

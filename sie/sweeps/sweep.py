@@ -28,7 +28,7 @@ from sie import arguments
 from sie.problem.scene import Scene
 from sie.progress_bar import Progress
 from sie.solution import Solution
-from sie.workers import Outcome, outcomes
+from sie.sweeps.workers import Outcome, outcomes
 
 from .chunks import Chunks
 from .file import SweepFile

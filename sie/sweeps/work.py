@@ -19,7 +19,7 @@ from sie.errors import ContactError
 from sie.problem.scene import Scene
 from sie.progress_bar import Progress
 from sie.solution import Solution, solve
-from sie.workers import is_death
+from sie.sweeps.workers import is_death
 
 from .result import Answer
 

@@ -16,8 +16,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from sie import arguments
+from sie.arguments import abridged
 from sie.inheritance import override
-from sie.messages import listed
 
 from .base import ZERO, Density
 
@@ -43,7 +43,7 @@ class Combination(Density):
     terms: tuple[tuple[float, Density], ...]
 
     def __repr__(self) -> str:
-        return f"Combination(({listed(self.terms)}))"
+        return f"Combination(({abridged(self.terms)}))"
 
     @cached_property
     def resultant(self) -> float:  # type: ignore[override]

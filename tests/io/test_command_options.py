@@ -11,7 +11,7 @@ import pytest
 import sie
 from sie import progress_bar
 from sie.cli import main
-from sie.command_parser import COMMANDS
+from sie.cli.parser import COMMANDS
 from sie.io import scene_file
 from sie.stages import LOG
 

@@ -65,7 +65,7 @@ def test_a_long_list_is_printed_with_its_first_and_its_last(name):
 
 def test_public_modules_are_there_when_they_are_asked_for_and_not_before():
     program = (
-        "import sie, sys; assert 'sie.teaching' not in sys.modules; "
+        "import sie, sys; assert 'sie.live.teaching' not in sys.modules; "
         "sie.teaching.solve; sie.charts; sie.no_such"
     )
     done = subprocess.run(

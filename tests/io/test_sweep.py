@@ -17,10 +17,11 @@ import pytest
 from sweep_cases import LOADS, SCENE, TILTS, plain, single
 
 import sie
-from sie import progress_bar, workers
+from sie import progress_bar
 from sie.sweeps import chunks as sweep_chunks
 from sie.sweeps import result as sweep_result
 from sie.sweeps import work as sweep_work
+from sie.sweeps import workers
 
 module = sys.modules["sie.sweeps.sweep"]
 

@@ -17,7 +17,7 @@ import pytest
 from sweep_cases import LOADS, SCENE, plain, single
 
 import sie
-from sie import workers
+from sie.sweeps import workers
 
 THREE_WIDTHS = {"over": {"normal_load": [0.1, 0.2, 0.3]}, "want": "half_width"}
 FOUR_WIDTHS = {"over": {"normal_load": [0.1, 0.2, 0.3, 0.4]}, "want": "half_width"}

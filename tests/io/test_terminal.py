@@ -10,13 +10,12 @@ import pytest
 from command import run
 
 import sie
-from sie import streams
-from sie.cli import main
-from sie.command_parser import COMMANDS
+from sie.arguments import WIDE
+from sie.cli import main, streams
+from sie.cli.parser import COMMANDS
 from sie.io import scene_file
 from sie.io.report import table
 from sie.io.scene_file import example, parse
-from sie.messages import WIDE
 from sie.problem.request import WANTS
 
 # Examples, and what each has no answer for.

@@ -8,7 +8,7 @@ from history_cases import P0, F, Points, S
 
 import sie
 from sie.friction.load_history.load_steps import loads_of, turning_points
-from sie.history import History
+from sie.paths.history import History
 from sie.problem.request import ECONOMY
 
 # Points are (P/P0, Q/F, σ/S, tilt).

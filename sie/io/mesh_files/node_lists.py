@@ -18,7 +18,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from sie.messages import shortened
+from sie.arguments import shortened
 from sie.profiles.trace_files import MESH, text_lines
 
 from .names import QUANTITIES, Meaning, meaning, spelling

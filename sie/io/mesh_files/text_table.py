@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from sie.messages import nearest, shortened
+from sie.arguments import nearest, shortened
 from sie.profiles.trace_files import MESH, Table, read_table
 
 from .names import QUANTITIES, WORDS, Meaning, meaning, negative_in_compression, spelling

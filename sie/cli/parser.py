@@ -9,10 +9,11 @@ import re
 from collections.abc import Mapping, Sequence
 from typing import Any, NoReturn
 
-from . import __version__
-from .io.mesh_files.names import BODIES, QUANTITIES
-from .messages import nearest
-from .problem.request import GRID, POINTS, UNASKED, WANTS
+from sie import __version__
+from sie.arguments import nearest
+from sie.io.mesh_files.names import BODIES, QUANTITIES
+from sie.problem.request import GRID, POINTS, UNASKED, WANTS
+
 from .streams import print_text
 
 COMMANDS = {

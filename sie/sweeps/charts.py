@@ -12,15 +12,15 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import arguments
-from .problem.scene import Scene
-from .profiles.shapes import Parabola, RoundedFlat
-from .progress_bar import counted
-from .solution import Solution, solve
-from .stress.half_plane import Stress, Tractions
-from .stress.yield_limit import YieldPoint, peak_tension
-from .traction.base import Density
-from .traction.combination import superposed
+from sie import arguments
+from sie.problem.scene import Scene
+from sie.profiles.shapes import Parabola, RoundedFlat
+from sie.progress_bar import counted
+from sie.solution import Solution, solve
+from sie.stress.half_plane import Stress, Tractions
+from sie.stress.yield_limit import YieldPoint, peak_tension
+from sie.traction.base import Density
+from sie.traction.combination import superposed
 
 Array = NDArray[np.float64]
 

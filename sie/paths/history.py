@@ -37,29 +37,30 @@ from typing import Any, overload
 import numpy as np
 from numpy.typing import NDArray
 
-from .certificate.result import ShearCertificate
-from .certificate.shear_check import marched_certificate
-from .contact.known_contact import Normal
-from .errors import ContactError
-from .friction.load_history.load_steps import Followable, points_of_loads, turning_points
-from .friction.load_history.marching import march
-from .friction.load_history.path_slip import MarchedSlip, PathSlip, held, step_shift, touched
-from .friction.load_history.turning_point import TurningPoint
-from .friction.loads import Loads
-from .friction.slip_state import Slip
-from .patches.answer import SeveralPatches
-from .patches.full import FullContact
-from .patches.path_energy import PathEnergy
-from .patches.result import PatchCertificate
+from sie.certificate.result import ShearCertificate
+from sie.certificate.shear_check import marched_certificate
+from sie.contact.known_contact import Normal
+from sie.errors import ContactError
+from sie.friction.load_history.load_steps import Followable, points_of_loads, turning_points
+from sie.friction.load_history.marching import march
+from sie.friction.load_history.path_slip import MarchedSlip, PathSlip, held, step_shift, touched
+from sie.friction.load_history.turning_point import TurningPoint
+from sie.friction.loads import Loads
+from sie.friction.slip_state import Slip
+from sie.patches.answer import SeveralPatches
+from sie.patches.full import FullContact
+from sie.patches.path_energy import PathEnergy
+from sie.patches.result import PatchCertificate
+from sie.planning import Plan, Step
+from sie.problem.load_path import Path
+from sie.problem.path_scene import one_after_the_other, unsheared
+from sie.problem.request import ECONOMY
+from sie.problem.scene import Scene
+from sie.progress_bar import counted
+from sie.solution import Solution, solve
+from sie.traction.of_slope import SlopeDensity
+
 from .path_contacts import PathContacts
-from .planning import Plan, Step
-from .problem.load_path import Path
-from .problem.path_scene import one_after_the_other, unsheared
-from .problem.request import ECONOMY
-from .problem.scene import Scene
-from .progress_bar import counted
-from .solution import Solution, solve
-from .traction.of_slope import SlopeDensity
 
 Array = NDArray[np.float64]
 
@@ -132,7 +133,7 @@ class History(PathContacts, Sequence[Solution]):
     -----
     A history is a sequence: `history[k]` is the `Solution` at turning point k, made when it is
     asked for. `history.path` is the path. The contacts that the points share are solved once
-    (`sie.path_contacts`).
+    (`path_contacts`).
     """
 
     def __init__(

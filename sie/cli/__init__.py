@@ -30,18 +30,19 @@ from collections.abc import Iterable, Sequence
 from importlib.util import find_spec
 from typing import TYPE_CHECKING, Any
 
-from . import __version__, files, interrupt
-from .command_parser import STANDARD, TOL, parse
-from .command_requests import outputs_of, picture_style, refuse_overwriting, scene_of
-from .errors import ContactError
-from .interrupt import INTERRUPTED, SENTENCE
-from .io import scene_file
-from .io.scene_file import SceneFile
-from .messages import WIDE, with_short_words
-from .problem.request import GRID, refuse_unknown_poisson
-from .progress_bar import Progress
-from .solution import Solution, solve
-from .stages import LOG
+from sie import __version__, files, interrupt
+from sie.arguments import WIDE, with_short_words
+from sie.errors import ContactError
+from sie.interrupt import INTERRUPTED, SENTENCE
+from sie.io import scene_file
+from sie.io.scene_file import SceneFile
+from sie.problem.request import GRID, refuse_unknown_poisson
+from sie.progress_bar import Progress
+from sie.solution import Solution, solve
+from sie.stages import LOG
+
+from .parser import STANDARD, TOL, parse
+from .requests import outputs_of, picture_style, refuse_overwriting, scene_of
 from .streams import (
     broken,
     discard_output,
@@ -52,7 +53,7 @@ from .streams import (
 )
 
 if TYPE_CHECKING:  # a command imports what it does when it runs
-    from .io.mesh_difference import Comparison
+    from sie.io.mesh_difference import Comparison
 
 CERTIFIED, NOT_CERTIFIED, REFUSED, UNREAD = 0, 1, 2, 141
 
@@ -132,13 +133,13 @@ def _solution(file: SceneFile, tol: float) -> Solution:
     """The solution of the scene, or of the last point of its path."""
     if not file.load_path:
         return solve(file.scene, tol=tol)
-    from .history import follow
+    from sie.paths.history import follow
 
     return follow(file.scene, file.load_path, tol=tol)[-1]
 
 
 def _cycle(solution: Solution, file: SceneFile) -> dict[str, Any]:
-    from .io.cycle_answer import cycle_of
+    from sie.io.cycle_answer import cycle_of
 
     return cycle_of(solution, file)
 
@@ -149,8 +150,8 @@ def _progress(arguments: argparse.Namespace) -> Progress:
 
 
 def _compare(arguments: argparse.Namespace) -> int:
-    from .io.mesh_comparison import compare
-    from .io.mesh_result import read_mesh
+    from sie.io.mesh_comparison import compare
+    from sie.io.mesh_result import read_mesh
 
     if arguments.mesh is None:
         raise ValueError(
@@ -190,10 +191,10 @@ def _compared(
     kind: str, path: pathlib.Path, solution: Solution, comparison: Comparison, file: SceneFile
 ) -> bytes:
     if kind == "json":
-        from .io import export
+        from sie.io import export
 
         return export.strict_json(comparison.as_dict()).encode()
-    from .plots.comparison_plot import overlay
+    from sie.plots.comparison_plot import overlay
 
     figure = overlay(solution, comparison, file.units, file.title)
     return picture_style().picture_bytes(figure, path.suffix[1:].lower())
@@ -203,7 +204,7 @@ def _plan(arguments: argparse.Namespace) -> int:
     file = scene_of(arguments)
     _refuse_open_path(file)
     _solution(file, TOL)  # computes nothing, but refuses a scene that is not covered
-    from .planning import plan
+    from sie.planning import plan
 
     print_text(f"{broken(str(plan(file.scene, file.want)), terminal_width())}\n")
     return CERTIFIED
@@ -219,7 +220,7 @@ def _live(arguments: argparse.Namespace) -> int:
     # They take a second, and only this command needs them.
     import webbrowser
 
-    from .live.server import serve
+    from sie.live.server import serve
 
     def announce(address: str) -> None:
         print_text(f"{address}  (Ctrl-C ends it)\n")
@@ -243,8 +244,8 @@ def _example(arguments: argparse.Namespace) -> int:
 
 def _benchmark_set(arguments: argparse.Namespace) -> int:
     """Write the set into a new or an empty folder: all of its files, or none."""
-    from .io import export
-    from .io.benchmark_set import benchmark_set
+    from sie.io import export
+    from sie.io.benchmark_set import benchmark_set
 
     folder = files.empty_folder(arguments.folder)
     texts = benchmark_set({"csv": export.csv_text, "json": export.json_text})
@@ -255,14 +256,14 @@ def _benchmark_set(arguments: argparse.Namespace) -> int:
 
 
 def _schema(_arguments: argparse.Namespace) -> int:
-    from .io.scene_schema import schema_text
+    from sie.io.scene_schema import schema_text
 
     print_text(schema_text())
     return CERTIFIED
 
 
 def _completion(arguments: argparse.Namespace) -> int:
-    from .shell_completion import script
+    from .completion import script
 
     print_text(script(arguments.shell))
     return CERTIFIED
@@ -283,7 +284,7 @@ COMMANDS = {
 def _refuse_open_path(file: SceneFile) -> None:
     """ValueError if a cycle is wanted of a path that does not close."""
     if "cycle" in file.want:
-        from .io.cycle_answer import start_of_cycle
+        from sie.io.cycle_answer import start_of_cycle
 
         start_of_cycle(file.load_path)
 
@@ -301,7 +302,7 @@ def _content(
     cycle: dict[str, Any] | None,
 ) -> bytes:
     if kind == "field":
-        from .io.stress_grid import Grid, file_bytes
+        from sie.io.stress_grid import Grid, file_bytes
 
         units, (x1, x2) = file.units, solution.edges
         head = (
@@ -312,7 +313,7 @@ def _content(
         )
         return file_bytes(Grid(solution, *(arguments.grid or GRID)), path.suffix[1:].lower(), head)
     if kind in ("csv", "json"):
-        from .io import export
+        from sie.io import export
     if kind == "csv":
         return export.csv_text(solution, file, arguments.points).encode()
     if kind == "json":
@@ -323,10 +324,10 @@ def _content(
 def _picture(solution: Solution, file: SceneFile, suffix: str) -> bytes:
     """The picture of the contact; contours of the stress if that is wanted."""
     if {"stress", "yield"} & set(file.want):
-        from .plots.stress_plot import contours
+        from sie.plots.stress_plot import contours
 
         return picture_style().picture_bytes(contours(solution, file.units, file.title), suffix)
-    from .plots.contact_plot import picture
+    from sie.plots.contact_plot import picture
 
     return picture_style().picture_bytes(picture(solution, file.units, file.title), suffix)
 
@@ -337,7 +338,7 @@ def _report(
     written: Iterable[pathlib.Path],
     cycle: dict[str, Any] | None,
 ) -> str:
-    from .io.report import summary
+    from sie.io.report import summary
 
     paragraphs = [
         summary(solution, file, cycle, terminal_width()),

@@ -12,7 +12,7 @@ import textwrap
 from collections.abc import Iterator
 from typing import TextIO
 
-from .messages import WIDE
+from sie.arguments import WIDE
 
 LOG = logging.getLogger("sie")
 # Characters that are printed at once: if standard output is not buffered, Python does not report an

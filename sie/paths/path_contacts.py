@@ -13,25 +13,25 @@ from dataclasses import replace
 from functools import cached_property
 from typing import Any
 
-from .contact.inequalities import slope_rises
-from .contact.known_contact import Normal
-from .errors import LoadError
-from .friction.dissipation import Dissipation
-from .friction.load_history.known_zones import KnownZones
-from .friction.loads import Loads
-from .friction.slip_state import NoSlip, Slip
-from .friction.states import OneSignedSlip
-from .friction.step_conditions import OneZone, Zones
-from .numerics.interval import EPS, Interval
-from .patches.answer import SeveralPatches
-from .patches.dissipation import PatchDissipation, Untouched
-from .patches.friction import PatchSlip, refuse_stretch
-from .patches.full import FullContact
-from .patches.step_zones import PatchZones
-from .problem.load_path import Path
-from .problem.path_scene import unsheared
-from .problem.scene import Scene
-from .traction.of_slope import SlopeDensity
+from sie.contact.inequalities import slope_rises
+from sie.contact.known_contact import Normal
+from sie.errors import LoadError
+from sie.friction.dissipation import Dissipation
+from sie.friction.load_history.known_zones import KnownZones
+from sie.friction.loads import Loads
+from sie.friction.slip_state import NoSlip, Slip
+from sie.friction.states import OneSignedSlip
+from sie.friction.step_conditions import OneZone, Zones
+from sie.numerics.interval import EPS, Interval
+from sie.patches.answer import SeveralPatches
+from sie.patches.dissipation import PatchDissipation, Untouched
+from sie.patches.friction import PatchSlip, refuse_stretch
+from sie.patches.full import FullContact
+from sie.patches.step_zones import PatchZones
+from sie.problem.load_path import Path
+from sie.problem.path_scene import unsheared
+from sie.problem.scene import Scene
+from sie.traction.of_slope import SlopeDensity
 
 # P, and what is added to the scene's tilt or moment.
 Under = tuple[float, float]

@@ -5,15 +5,15 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 
-from .errors import ContactError
-from .problem.scene import Scene, refuse_no_scene
-from .profiles.base import Profile
-from .profiles.derived import Derived
-from .profiles.placed_traces import traces_in
-from .profiles.sampled import Sampled
-from .profiles.splines import longest_lambda
-from .progress_bar import reported, step_done
-from .solution import solve
+from sie.errors import ContactError
+from sie.problem.scene import Scene, refuse_no_scene
+from sie.profiles.base import Profile
+from sie.profiles.derived import Derived
+from sie.profiles.placed_traces import traces_in
+from sie.profiles.sampled import Sampled
+from sie.profiles.splines import longest_lambda
+from sie.progress_bar import reported, step_done
+from sie.solution import solve
 
 COARSE = 10.0  # λ is multiplied by this until there is one patch ...
 HALVINGS = 2  # ... and then that step is halved in the logarithm so often

@@ -5,10 +5,11 @@ from __future__ import annotations
 import argparse
 from typing import Any
 
-from .command_parser import parser
-from .io.scene_file import example_names
-from .messages import suggestion
-from .problem.request import WANTS
+from sie.arguments import suggestion
+from sie.io.scene_file import example_names
+from sie.problem.request import WANTS
+
+from .parser import parser
 
 FILES = ("scene", "mesh", "nodes", "plot", "csv", "json", "field")
 
@@ -16,7 +17,7 @@ FILES = ("scene", "mesh", "nodes", "plot", "csv", "json", "field")
 def script(shell: str) -> str:
     """The script of shtab for a shell. ValueError without shtab, or for a shell it lacks."""
     try:
-        import shtab  # noqa: PLC0415 -- an extra
+        import shtab  # an extra
     except ImportError:
         raise ValueError('completion needs shtab: pip install "plane-contact[cli]"') from None
     if shell not in shtab.SUPPORTED_SHELLS:

@@ -23,26 +23,27 @@ from typing import Any, overload
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import arguments
-from .errors import ContactError
-from .friction.load_history.changing_contact import ChangingContact
-from .friction.load_history.load_steps import steady_points
-from .friction.load_history.path_slip import step_slip
-from .friction.load_history.turning_point import TurningPoint
-from .friction.loads import Loads
-from .friction.memory import LoadMemory
-from .friction.slip_state import Slip
+from sie import arguments
+from sie.errors import ContactError
+from sie.friction.load_history.changing_contact import ChangingContact
+from sie.friction.load_history.load_steps import steady_points
+from sie.friction.load_history.path_slip import step_slip
+from sie.friction.load_history.turning_point import TurningPoint
+from sie.friction.loads import Loads
+from sie.friction.memory import LoadMemory
+from sie.friction.slip_state import Slip
+from sie.numerics.zones import within
+from sie.problem.load_path import Path, loads_at
+from sie.problem.path_scene import refuse_uncovered
+from sie.problem.request import ECONOMY
+from sie.problem.scene import Scene
+from sie.solution import Solution
+from sie.stress.fretting import Cycle
+from sie.stress.half_plane import Stress, Tractions
+from sie.traction.base import Density, on_line
+from sie.traction.combination import superposed
+
 from .history import History
-from .numerics.zones import within
-from .problem.load_path import Path, loads_at
-from .problem.path_scene import refuse_uncovered
-from .problem.request import ECONOMY
-from .problem.scene import Scene
-from .solution import Solution
-from .stress.fretting import Cycle
-from .stress.half_plane import Stress, Tractions
-from .traction.base import Density, on_line
-from .traction.combination import superposed
 
 Array = NDArray[np.float64]
 TOUCHING = "the bodies must touch all along the cycle; give P > 0"

@@ -13,15 +13,16 @@ from dataclasses import replace
 from itertools import combinations
 from types import ModuleType
 
-from . import files
-from .command_parser import STANDARD
-from .io import scene_file
-from .io.answers import wanted
-from .io.scene_file import SceneFile
-from .io.stress_grid import SUFFIXES
-from .messages import choices
-from .problem.request import WANTS
-from .stages import LOG
+from sie import files
+from sie.arguments import choices
+from sie.io import scene_file
+from sie.io.answers import wanted
+from sie.io.scene_file import SceneFile
+from sie.io.stress_grid import SUFFIXES
+from sie.problem.request import WANTS
+from sie.stages import LOG
+
+from .parser import STANDARD
 
 OUTPUTS = ("plot", "csv", "json", "field")
 
@@ -117,7 +118,7 @@ def _check_picture(path: pathlib.Path) -> None:
 def picture_style() -> ModuleType:
     """The module of the pictures' style; its import shows whether Matplotlib is installed."""
     try:
-        from .plots import style  # noqa: PLC0415
+        from sie.plots import style
     except ImportError:
         raise ValueError('--plot needs Matplotlib: pip install "plane-contact[plot]"') from None
     return style
