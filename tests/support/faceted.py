@@ -6,6 +6,7 @@ from functools import cached_property
 import numpy as np
 
 import sie
+from sie.profiles.slope import Slope
 
 
 @dataclass(frozen=True)
@@ -16,7 +17,7 @@ class Faceted(sie.Profile):
     facet: float
 
     @cached_property
-    def pieces(self):
+    def pieces(self) -> Slope:
         corners = self.facet * np.arange(-100, 101)
         slopes = 0.5 * (corners[1:] + corners[:-1]) / self.radius
-        return sie.Piecewise(corners, [[slope] for slope in slopes]).pieces
+        return sie.Piecewise(corners.tolist(), [[slope] for slope in slopes]).pieces

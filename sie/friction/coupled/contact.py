@@ -16,7 +16,7 @@ from functools import cached_property, lru_cache
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from sie.numerics.interval import EPS, Interval, interval_about
+from sie.numerics.interval import Interval, interval_about
 from sie.profiles.base import Profile
 from sie.traction.base import on_line, zero_or_nan
 from sie.traction.in_contact import InContact
@@ -34,7 +34,6 @@ from .traction import CoupledTraction, joined_panels
 
 Array = NDArray[np.float64]
 
-WIDER = 1.0 + 64.0 * EPS  # than the frictionless contact: as far as P' is known
 FALLING = 1e-9  # of the largest P': below it a negative one is not rounding
 ON_PANEL = 24
 CLOSEST = 1e-17  # of r: as near a contact begins the sum over wider ones, not smooth there

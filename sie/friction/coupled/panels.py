@@ -11,8 +11,6 @@ from numpy.typing import NDArray
 
 from sie.numerics.gauss_jacobi import with_weight
 
-from .stretching import APART, stretched
-
 Array = NDArray[np.float64]
 
 NODES = 16
@@ -23,6 +21,22 @@ FAR = 1e300  # stands for no singularity
 # Of the half-width: what is nearer to the place of first contact has the values there, as quotients
 # of the half-width and that distance overflow
 INNERMOST = 1e-280
+APART = 1e17  # times its length, from an interval: there a singularity is none
+
+
+def stretched(length: Any, before: Any, after: Any, grown: Array, left: Array) -> tuple[Any, ...]:
+    """Places of an interval by v = ln((B + y)/(C + L - y)): y and L - y, and dy/dv.
+
+    `grown` of v lies behind and `left` ahead. y and L - y are the distances from the ends.
+
+    A function that is singular at y = -B and y = C + L, and nowhere else on the line beside the
+    interval, is analytic in v for |Im v| < π.
+    """
+    ratio, rise, back = before / (after + length), np.expm1(grown), np.expm1(left)
+    below = 1.0 + ratio * (1.0 + rise)
+    to_end = after * back / (1.0 + after / (before + length) * (1.0 + back))
+    rate = before * (1.0 + ratio) * (1.0 + rise) / (below * below)
+    return before * rise / below, to_end, rate
 
 
 @lru_cache(maxsize=64)

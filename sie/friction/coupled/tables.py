@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from sie.numerics import chebyshev
 
-from .stretching import APART, stretched
+from .panels import APART, stretched
 
 Array = NDArray[np.float64]
 
