@@ -8,9 +8,9 @@ from dataclasses import dataclass
 from html import escape
 from typing import Any
 
+from sie.arguments import as_numbers
 from sie.contact.inequalities import TOLERATED, Intervals, shown
 from sie.numerics.interval import EPS
-from sie.patches.result import as_numbers
 
 PROMISE = (
     "At a distance d from the nearer edge the pressure is wrong by at most 3 (error + edges "

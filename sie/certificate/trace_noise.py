@@ -211,9 +211,12 @@ def _drawn(
     known = placed.misfits(reference, period) - placed.misfits(trace, period)
     draws = np.random.default_rng(0).normal(scale=noise, size=(DRAWS, len(x)))
     return changes(
-        several,
-        placed.with_heights(trace.points, known, 0.0, period),
-        [placed.with_heights(x, draw, reference.lam, period) for draw in draws],
+        several.found,
+        several.pressure,
+        [
+            placed.with_heights(trace.points, known, 0.0, period),
+            *(placed.with_heights(x, draw, reference.lam, period) for draw in draws),
+        ],
         SPREAD,
         scene.moment is not None,
     )

@@ -20,10 +20,9 @@ from numpy.typing import NDArray
 
 from sie.profiles.base import Profile
 
-from .answer import SeveralPatches
 from .density import PatchPressure
 from .newton import conditions, missed
-from .operator import Operator, operator_of
+from .operator import Found, Operator, operator_of
 from .profile_pieces import of_profile
 from .state import Given, State
 
@@ -50,21 +49,21 @@ class PatchErrors(NamedTuple):
 
 
 def changes(
-    several: SeveralPatches, known: Profile, samples: Sequence[Profile], spread: float, moment: bool
+    found: Found, pressure: PatchPressure, errors: Sequence[Profile], spread: float, moment: bool
 ) -> PatchErrors:
-    """The changes where the profile changes by `known`, and by `spread` times the `samples`.
+    """The changes where the profile changes by the first error, and by `spread` times the others.
 
     All are of the same period. `moment`: whether that is given, and the tilt changes.
     """
-    P = several.found.state.patches
+    P = found.state.patches
     angle = np.pi * (np.arange(PLACES) + 0.5) / PLACES
     places = P.c[:, None] - INNER * P.r[:, None] * np.cos(angle)
-    first, *others = (_changed(several, error, places, moment) for error in (known, *samples))
+    half_modulus = pressure.half_modulus
+    first, *others = (_changed(found, half_modulus, one, places, moment) for one in errors)
     p, moved = (
         np.abs(first[k]) + spread * np.sqrt(np.mean([o[k] ** 2 for o in others], axis=0))
         for k in (0, 1)
     )
-    pressure = several.pressure
     peak = float(pressure(places).max())
     inner = float(p.max()) / peak
     edges = moved.reshape(-1, 2)
@@ -78,20 +77,19 @@ def changes(
 
 
 def _changed(
-    several: SeveralPatches, error: Profile, places: Array, moment: bool
+    found: Found, half_modulus: float, error: Profile, places: Array, moment: bool
 ) -> tuple[Array, Array]:
     """δp at places and the shifts of the edges (2N,) by an error; sharp edges stay."""
-    state = several.found.state
+    state = found.state
     P, sharp = state.patches, state.sharp
-    pieces = of_profile(error, several.found.operator.pieces.domain, TOLERANCE)
+    pieces = of_profile(error, found.operator.pieces.domain, TOLERANCE)
     none = Given(0.0, 0.0, 0.0 if moment else None)
     still = State(P, np.ones(2 * P.number, dtype=bool), np.zeros(2 * P.number), 0.0)
     o = operator_of(still, pieces)
     linear = conditions(still, o, none)
-    whole = conditions(state, several.found.operator, none)
+    whole = conditions(state, found.operator, none)
     moved = np.where(sharp, 0.0, 2.0 / np.where(sharp, 1.0, whole.intensity))
     y = linear.charged(-missed(still, o, none, linear)[:, None])[:, 0]
     charged = Operator(P, pieces, y[:-1])
-    G, tilt = several.pressure.half_modulus, float(y[-1])
-    p = PatchPressure(charged, G, tilt, 0.0)(places)
+    p = PatchPressure(charged, half_modulus, float(y[-1]), 0.0)(places)
     return p, moved * y[:-1]

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import textwrap
 from collections.abc import Sequence
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
+
+from sie.arguments import as_numbers
 
 GRADING = 0.4  # parts of a panel shrink towards its ends by this factor
 LEAST = 8.0 * float(np.finfo(float).eps)
@@ -108,16 +110,3 @@ def worst_of(found: Sequence[PatchCertificate]) -> PatchCertificate:
         tension=tuple(v for c in found for v in c.tension),
         overlap=tuple(v for c in found for v in c.overlap),
     )
-
-
-def as_numbers(certificate: Any) -> dict[str, Any]:
-    """A certificate as numbers, lists and strings by name; without the shear where it has none."""
-
-    def plain(value: Any) -> Any:
-        if isinstance(value, tuple):
-            return [plain(v) for v in value]
-        return value.as_dict() if hasattr(value, "as_dict") else value
-
-    values = {f.name: getattr(certificate, f.name) for f in fields(certificate)}
-    found = {name: plain(value) for name, value in values.items() if value is not None}
-    return found | {"error": certificate.error, "ok": certificate.ok}
