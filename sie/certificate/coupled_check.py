@@ -39,7 +39,7 @@ from .shear_check import ENDS, excess
 Array = NDArray[np.float64]
 
 PROMISED, OF_SHEAR = 1e-11, 1e-10  # of the largest pressure, and of the largest shear in (12)
-NODES, RATIO = 14, 3.0  # panels towards a mark, in the root of the distance from it
+NODES, RATIO = 18, 3.0  # panels towards a mark, in the root of the distance from it
 ROOT = 3.0
 AT_EDGE, INSIDE, OF_MANY = 17, 9, 3  # such panels at an edge, at a mark, at one of many
 MANY = 24  # marks: most of them are faint kinks of a trace
