@@ -277,8 +277,9 @@ class Nodes(Places):
         part = (np.arange(looks) + 0.53) / looks
         x = (self.marks[:-1, None] + self.width[:, None] * part)[wide].ravel()
         first, last = self.x[self.regular][[0, -1]]
-        x = x[(x > first) & (x < last)]
-        return self.at(x[:: max(1, -(-len(x) // MOST))])
+        x = x[(x > first) & (x < last)][:: max(1, -(-len(x) // MOST))]
+        after = np.searchsorted(self.x, x)  # rounding is least halfway between two nodes
+        return self.at(0.5 * (self.x[after - 1] + self.x[after]))
 
     def _apart(self, at: Places) -> Array:
         """x - t of places and nodes (places, nodes), by what tells the node best."""
@@ -301,9 +302,9 @@ class Nodes(Places):
         return found
 
     def rounding(self, at: Places) -> Array:
-        """What the rounding of places does to these integrals: the root of sums of squares.
+        """What the rounding of places does to these integrals: a bound, the sum over the nodes.
 
-        Of f it is that of its change from node to node.
+        What it changes of f is taken from the change of f from node to node.
         """
         if not at.x.size:
             return np.zeros(2)
@@ -314,7 +315,7 @@ class Nodes(Places):
         change = np.zeros(self.rows.shape)
         change[:, 1:] = np.abs(np.diff(self.rows)) * (ulp[1:] / np.maximum(step, ulp[1:]))
         apart = np.maximum(np.abs(self._apart(at)), ulp)
-        moved = [np.linalg.norm(self.weight * f / apart, axis=1).max() for f in change]
+        moved = [(self.weight * f / apart).sum(axis=1).max() for f in change]
         return np.array(moved) / math.pi
 
 
