@@ -23,9 +23,10 @@ from sie.problem.scene import Scene
 from sie.profiles.base import Profile
 from sie.profiles.look import across, falls, values
 from sie.profiles.power_law import PowerLaw
+from sie.profiles.profile_pieces import one_piece
 from sie.profiles.resolution import refined
 from sie.profiles.slope import Slope
-from sie.profiles.unresolved import Pieces, between_pieces, between_points, expanded
+from sie.profiles.unresolved import between_pieces, between_points, expanded
 
 from . import given_moment
 from .edges import PLACES, Found, Search
@@ -316,7 +317,7 @@ def _unseen_by_series(found: Normal, profile: Profile, tol: float) -> bool:
     """Whether the slope has features that the series of the contact does not show."""
     assert found.series is not None
     contact = found.edges.contact
-    series = Pieces(np.array([contact.x1]), np.array([contact.x2]), found.series[None])
+    series = one_piece(contact.x1, contact.x2, found.series)
     return bool(between_points(found.slope(profile), (series.H,), contact, resolution(tol)))
 
 
@@ -338,7 +339,7 @@ def _unseen(
         final = expanded(slope, resolved, contact)
         places += between_pieces(slope, final, contact, accuracy)
     else:
-        final = Pieces(np.array([contact.x1]), np.array([contact.x2]), series[None])
+        final = one_piece(contact.x1, contact.x2, series)
     return places + between_points(slope, (pieces.H, final.H), contact, accuracy)
 
 

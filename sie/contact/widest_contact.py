@@ -16,7 +16,7 @@ import numpy as np
 
 from sie.errors import LoadError
 from sie.numerics.root_finding import false_position
-from sie.profiles.resolution import integral
+from sie.profiles.profile_pieces import integral
 from sie.profiles.slope import Slope, polynomial_slope
 from sie.progress_bar import reported
 

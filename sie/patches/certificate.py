@@ -19,13 +19,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie.numerics.interval import EPS
+from sie.profiles.pieces import ROUNDINGS
 from sie.progress_bar import reported
 
 from .density import PatchPressure
 from .gap import gap
 from .newton import Linear, conditions
 from .operator import Found, Operator
-from .pieces import ROUNDINGS
 from .result import CLOSE, LEAST, PatchCertificate
 from .rule import SHORT, Rule, principal_value
 from .state import Given, Unseen
@@ -164,9 +164,9 @@ def _charge_of_closed_corners(o: Operator) -> float:
     """
     k, pieces, ends = o.panels, o.pieces, np.stack(o.ends)
     at, length = k.piece + np.array([[0], [1]]), ends[1] - ends[0]
-    concave = np.zeros(len(pieces.ends))
+    concave = np.zeros(len(pieces.breaks))
     concave[1:-1] = np.maximum(-pieces.steps, 0.0)
-    meets = np.abs(ends - pieces.ends[at]) <= SHORT * length
+    meets = np.abs(ends - pieces.breaks[at]) <= SHORT * length
     ulp = np.spacing(np.maximum(np.abs(ends), o.patches.r[k.patch]))
     charge = np.where(meets, concave[at] * ulp, 0.0) / np.pi
     long = length > 0.0  # rounding may leave a panel no length: no place is on it

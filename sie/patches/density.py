@@ -126,7 +126,9 @@ class PatchPressure(Density):
     def breaks(self) -> tuple[float, ...]:
         o = self.operator
         P = o.patches
-        inner = [o.pieces.ends[(o.pieces.ends > a) & (o.pieces.ends < b)] for a, b in self.patches]
+        inner = [
+            o.pieces.breaks[(o.pieces.breaks > a) & (o.pieces.breaks < b)] for a, b in self.patches
+        ]
         return tuple(np.unique(np.concatenate((P.edges, *inner))).tolist())
 
     @property
@@ -256,7 +258,7 @@ class PatchPressure(Density):
         real = np.clip(np.real(z.x), P.a[k], P.b[k])
         piece = np.where(real == P.b[k], pieces.locate(real, "left"), pieces.locate(real))
         away = np.abs(z.x - real)
-        edge = pieces.ends[piece], pieces.ends[piece + 1]
+        edge = pieces.breaks[piece], pieces.breaks[piece + 1]
         own = np.minimum(real - edge[0], edge[1] - real)
         follows = away <= pieces.reach[piece] + np.where(
             np.abs(np.imag(z.offset)) > 0.0, 0.0, np.maximum(own, 0.0)
@@ -343,7 +345,7 @@ class PatchPressure(Density):
         o = self.operator
         piece = o.pieces.locate(points.x)
         steep = self.half_modulus * o.pieces.curvature(piece, points.x)
-        room = np.minimum(points.x - o.pieces.ends[piece], o.pieces.ends[piece + 1] - points.x)
+        room = np.minimum(points.x - o.pieces.breaks[piece], o.pieces.breaks[piece + 1] - points.x)
         room = np.minimum(np.abs(points.offset), np.where(room > 0.0, room, np.inf))
         step = 0.05 * np.maximum(room, np.spacing(np.abs(points.x)))
         weights = np.array([1.0, -8.0, 8.0, -1.0]) / 12.0

@@ -8,9 +8,10 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from sie.profiles.pieces import Pieces
+
 from .bounds import CLOSED
 from .panels import Patches
-from .pieces import Pieces
 from .state import Event, State
 
 Array = NDArray[np.float64]

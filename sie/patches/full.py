@@ -21,6 +21,7 @@ from sie import arguments
 from sie.contact.known_contact import Edges
 from sie.numerics import chebyshev
 from sie.numerics.interval import Interval
+from sie.profiles.pieces import Pieces
 from sie.traction.base import Density, refuse_side, zero_or_nan
 
 from .bounds import DEEPEST, NODES, TENSION, halves, lower_bound
@@ -28,7 +29,6 @@ from .chord import Chord, Points
 from .density import NARROW, by_circle, potential_of
 from .measure import NEAR
 from .panels import Patches
-from .pieces import Pieces
 from .result import CLOSE, GRADING, LEAST, PatchCertificate
 from .rule import Rule, principal_value
 
@@ -165,7 +165,7 @@ class FullPressure(Density):
         own_sum = (w[panels] * exact * smooth).sum(axis=1)
         residue = self.pieces.value(own[panels], shifted, 0.0) - reference[rows]
         real = np.real(shifted)
-        e = self.pieces.ends
+        e = self.pieces.breaks
         beyond = np.maximum(
             np.maximum(e[own[panels]] - real, real - e[own[panels] + 1]), np.abs(np.imag(shifted))
         )
@@ -327,7 +327,7 @@ def full_contact(
     pieces: Pieces, start: float, period: float, half_modulus: float, load: float
 ) -> FullContact | None:
     """Full contact, if p >= 0 everywhere."""
-    inside = pieces.void & (pieces.ends[:-1] < start + period) & (pieces.ends[1:] > start)
+    inside = pieces.void & (pieces.breaks[:-1] < start + period) & (pieces.breaks[1:] > start)
     if inside.any():
         return None
     pressure = FullPressure(pieces, start, period, half_modulus, load)

@@ -311,7 +311,7 @@ def gap(o: Operator, x: Array) -> Array:
     out[finite[inside]] = 0.0
     lo, hi = pieces.domain
     piece = pieces.locate(at)
-    walled = pieces.void[piece] & (at > pieces.ends[piece])
+    walled = pieces.void[piece] & (at > pieces.breaks[piece])
     beside = np.flatnonzero(~inside & ~walled & (at >= lo) & (at <= hi))
     if not beside.size:
         return out

@@ -24,9 +24,10 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from sie.profiles.pieces import Pieces
+
 from .chord import Points
 from .panels import Patches, PatchPanels, patch_panels
-from .pieces import Pieces
 from .sums import Groups, far_sums, multiply, parts
 from .tree import Level, Tree
 
@@ -297,7 +298,7 @@ def integrals(o: Measure, panel: Index, nu: Array, t: Targets) -> Any:
     step = np.where(step == 0.0, np.inf, step)
     sums[other] = (nu[other] * ((o.H[q] - ref[:, None]) / step)).sum(axis=1)
     residue = o.pieces.value(own[other], x.anchor, x.offset) - o.H0 - ref
-    lo, hi = o.pieces.ends[own[other]], o.pieces.ends[own[other] + 1]
+    lo, hi = o.pieces.breaks[own[other]], o.pieces.breaks[own[other] + 1]
     real = np.real(x.x)
     beyond = np.maximum(np.maximum(lo - real, real - hi), np.abs(np.imag(x.offset)))
     counts = (beyond <= o.pieces.reach[own[other]]) & (residue != 0.0)

@@ -24,13 +24,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie.numerics.interval import EPS
+from sie.profiles.pieces import Pieces
 from sie.progress_bar import step_done
 
 from .edge_charges import EdgeCharges
 from .edge_moves import INSISTS, INWARD, Damping, event_of, moved, turning_smooth
 from .measure import edge_ratio
 from .operator import Operator, at_edges, gap_values, operator_of
-from .pieces import Pieces
 from .repairs import after
 from .state import Event, Given, State, balances
 from .sums import parts
@@ -334,7 +334,7 @@ def closed(o: Operator) -> Array:
     width = np.bincount(k.gap, k.dx.sum(axis=1), n)
     integral = np.bincount(k.gap, excess.sum(axis=1), n)
     risen = np.where(simple, 0.0, pieces.rises(b, a, walls=True) - base * width)
-    break_, middle = (pieces.ends[next_[broken]], 0.0), (b[broken], 0.5 * (a - b)[broken])
+    break_, middle = (pieces.breaks[next_[broken]], 0.0), (b[broken], 0.5 * (a - b)[broken])
     risen[broken] = pieces.rise(next_[broken], break_, middle)
     risen[broken] -= pieces.rise(own[broken], break_, middle)
     return np.asarray(risen - integral)

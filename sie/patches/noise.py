@@ -19,11 +19,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie.profiles.base import Profile
+from sie.profiles.profile_pieces import of_profile
 
 from .density import PatchPressure
 from .newton import conditions, missed
 from .operator import Found, Operator, operator_of
-from .profile_pieces import of_profile
 from .state import Given, State
 
 Array = NDArray[np.float64]

@@ -9,11 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie.problem.scene import Scene
+from sie.profiles.pieces import Pieces
+from sie.profiles.profile_pieces import of_profile
 from sie.profiles.slope import Slope
 
 from .chord import Chord
-from .pieces import Pieces
-from .profile_pieces import of_profile
 from .state import Effort, Given
 
 Array = NDArray[np.float64]

@@ -22,10 +22,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from sie.profiles.pieces import Pieces
+
 from .chord import Points
 from .measure import Measure, Targets, close, integrals
 from .panels import GapPanels, gap_panels
-from .pieces import Pieces
 from .state import Findings, State
 from .sums import Groups, add, far_sums, parts, ranges, steps
 from .tree import Level, Separation, Tree

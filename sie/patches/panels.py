@@ -17,9 +17,9 @@ from numpy.typing import NDArray
 
 from sie.numerics import chebyshev
 from sie.numerics.zones import Zones
+from sie.profiles.pieces import Pieces
 
 from .chord import Chord, Points
-from .pieces import Pieces
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
@@ -112,7 +112,7 @@ class Patches:
         return np.stack((self.a, self.b), axis=1).ravel()
 
     def rule(self, pieces: Pieces) -> Rule:
-        inside = np.searchsorted(pieces.ends, self.b) - np.searchsorted(pieces.ends, self.a)
+        inside = np.searchsorted(pieces.breaks, self.b) - np.searchsorted(pieces.breaks, self.a)
         many = inside.sum() > MANY * self.number and not pieces.series.any()
         return SHORT if many else LONG
 
@@ -278,10 +278,10 @@ def gap_panels(
     edge = np.where(at_right, a[k], b[k])
     piece = np.where(at_right, pieces.locate(a)[k], pieces.locate(b, "left")[k])
     width = np.where(inner, patches.gaps[number], np.inf)
-    own = np.where(at_right, edge - pieces.ends[piece], pieces.ends[piece + 1] - edge)
+    own = np.where(at_right, edge - pieces.breaks[piece], pieces.breaks[piece + 1] - edge)
     followed = np.minimum(own + pieces.reach[piece], pieces.plain[piece])
     size = 2.0 * patches.r[k]
-    stop = np.where(at_right, edge - pieces.ends[0], pieces.ends[-1] - edge)
+    stop = np.where(at_right, edge - pieces.breaks[0], pieces.breaks[-1] - edge)
     far = np.sqrt(np.minimum(np.maximum(stop, 0.0), farthest * patches.hull))
     nearest = np.where(inner, 2.0 * np.arcsinh(np.sqrt(size / width)), np.sqrt(size))
     end = np.where(inner, 0.5 * np.pi, far)
@@ -292,7 +292,7 @@ def gap_panels(
 
     limit = as_parameter(followed)
     # waves of the pressure show beside an edge, and so does a kink of H close to it
-    inward = edge - pieces.ends[piece + at_right]
+    inward = edge - pieces.breaks[piece + at_right]
     # its integral asks for that of H' only, its values between the nodes for that of H'' as well
     bent = (outside | pieces.bends(piece, at_right)) & (np.abs(inward) < size)
     near = np.sqrt(np.abs(inward) / np.where(inner, width, 1.0))

@@ -6,10 +6,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie.errors import LoadError
+from sie.profiles.pieces import Pieces
 
 from .chord import Chord
 from .panels import Patches
-from .pieces import Pieces
 from .state import Event, Findings, Overlap, State
 
 Array = NDArray[np.float64]
@@ -184,7 +184,7 @@ def _at_walls(a: Array, b: Array, pieces: Pieces) -> tuple[Array, Array]:
     void = np.flatnonzero(pieces.void)
     if not void.size:
         return a, b
-    lo, hi = pieces.ends[void], pieces.ends[void + 1]
+    lo, hi = pieces.breaks[void], pieces.breaks[void + 1]
     ends: list[list[float]] = []
     for start, stop in zip(a.tolist(), b.tolist(), strict=True):
         crossed = (lo > start) & (hi < stop)
@@ -200,9 +200,9 @@ def _off_higher_sides(a: Array, b: Array, pieces: Pieces) -> tuple[Array, Array]
 
     The higher side of it cannot touch there, and what is short on it comes from a grid.
     """
-    walls = np.flatnonzero(pieces.void & (np.diff(pieces.ends) == 0.0))
+    walls = np.flatnonzero(pieces.void & (np.diff(pieces.breaks) == 0.0))
     a, b = a.copy(), b.copy()
-    for x, rise in zip(pieces.ends[walls].tolist(), pieces.across[walls].tolist(), strict=True):
+    for x, rise in zip(pieces.breaks[walls].tolist(), pieces.across[walls].tolist(), strict=True):
         before, after = np.flatnonzero(b == x), np.flatnonzero(a == x)
         if not (before.size and after.size):
             continue

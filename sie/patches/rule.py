@@ -77,10 +77,10 @@ def rule_of(o: Measure) -> tuple[Rule, Rule]:
 def _jumps_at_ends(o: Measure) -> Mask:
     """Whether H jumps at the end k.lo and at the end k.hi of each panel, (2, p)."""
     k, pieces = o.panels, o.pieces
-    jump = np.zeros(len(pieces.ends), dtype=bool)
+    jump = np.zeros(len(pieces.breaks), dtype=bool)
     jump[1:-1] = pieces.steps != 0.0
     ends = np.stack(o.ends)
-    closest = pieces.ends[k.piece + np.array([[0], [1]])]
+    closest = pieces.breaks[k.piece + np.array([[0], [1]])]
     reached = np.abs(ends - closest) <= SHORT * (ends[1] - ends[0])
     left, right = reached & jump[k.piece + np.array([[0], [1]])]
     return np.where(k.right, (right, left), (left, right)) & (np.stack((k.lo, k.hi)) > 0.0)

@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 
 from sie.errors import ContactError, LoadError, ResolutionError
 from sie.profiles.look import beside, narrow_parts
+from sie.profiles.pieces import Pieces
 from sie.progress_bar import reported
 
 from . import newton
@@ -27,7 +28,6 @@ from .newton import FINAL, MOST_STEPS
 from .of_scene import Problem
 from .operator import Found, Operator, operator_of
 from .panels import Patches
-from .pieces import Pieces
 from .repairs import after, apart, bounded, mended
 from .start import cells_of, grid_pressure
 from .start_state import start_of

@@ -7,9 +7,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from sie.profiles.pieces import Pieces
+
 from .chord import Chord
 from .of_scene import Problem
-from .pieces import Pieces
 from .repairs import apart, bounded, one_period
 from .start import FEW, Grid, Patch, patches_on
 from .state import State

@@ -76,7 +76,7 @@ def _at_corners(o: Operator) -> tuple[list[tuple[int, float, float, float, float
     widths, deepest = [], np.full(corners.shape, np.inf)
     for side in ("left", "right"):
         piece = pieces.locate(corners, side)
-        end = pieces.ends[piece] if side == "left" else pieces.ends[piece + 1]
+        end = pieces.breaks[piece] if side == "left" else pieces.breaks[piece + 1]
         edge = P.a[patch] if side == "left" else P.b[patch]
         room = np.minimum(np.abs(end - corners), np.abs(edge - corners))
         width = room[:, None] * 0.5 ** np.arange(1.0, HALVED)

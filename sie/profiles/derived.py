@@ -19,7 +19,7 @@ from sie.inheritance import override
 
 from .base import Parity, Profile, of_any_x
 from .power_law import PowerLaw
-from .resolution import integral
+from .profile_pieces import integral
 from .slope import Slope
 
 Array = NDArray[np.float64]

@@ -14,6 +14,8 @@ from sie.errors import LoadError
 from sie.numerics import chebyshev
 from sie.numerics.root_finding import false_position
 
+from .pieces import root_bound
+from .profile_pieces import without_functions
 from .slope import Slope
 
 Array = NDArray[np.float64]
@@ -66,10 +68,7 @@ def _finite_ends(slope: Slope) -> Array:
     """
     ends = np.stack((slope.breaks[:-1], slope.breaks[1:]), axis=1)
     for k, j in np.argwhere(~np.isfinite(ends)):
-        c = np.abs(slope.coefficients[k])
-        degree = int(np.flatnonzero(c)[-1]) if c.any() else 0
-        powers = 1.0 / np.arange(degree, 0, -1)
-        bound = 2.0 * float(((c[:degree] / c[degree]) ** powers).max()) if degree else 1.0
+        bound = root_bound(slope.coefficients[k]) or 1.0
         finite = ends[k][np.isfinite(ends[k])]
         origin = slope.origins[k]
         start = origin if not finite.size else finite[0]
@@ -166,25 +165,8 @@ def _height(slope: Slope, ends: Array, z: float) -> float:
     return float((length * (H @ w)).sum())
 
 
-def raised(slope: Slope, touch: tuple[float, float], x: Array) -> Array:
-    """h(x) minus its lowest value, by Gauss-Legendre integration from the lowest points."""
-    z1, z2 = touch
-    pieces = slope.split_at(z1).split_at(z2)
-    g, w = chebyshev.gauss_legendre(2 + pieces.degree // 2)
-    k = np.clip(np.searchsorted(pieces.breaks, x, side="right") - 1, 0, len(pieces.origins) - 1)
-    out = np.zeros(x.shape)
-    for j in range(len(pieces.origins)):
-        a, b = pieces.breaks[j], pieces.breaks[j + 1]
-        right = a >= z2
-        if not right and b > z1:
-            continue
-        # from the end nearer to the touch, as far as x or to the other end
-        start = a if right else b
-        end = np.clip(x, a, b)
-        beyond = k >= j if right else k <= j
-        length = np.where(beyond, end - start, 0.0)
-        H = pieces.local(
-            np.full(len(x), j), np.full(len(x), start), np.zeros(len(x)), length[:, None] * g
-        )
-        out += length * (H @ w)
-    return out
+def raised(resolved: Slope, touch: tuple[float, float], x: Array) -> Array:
+    """h(x) minus its lowest value, which it has at the lowest points [z1, z2] given."""
+    z1, z2 = (np.full(x.shape, z) for z in touch)
+    pieces = without_functions(resolved)
+    return pieces.rises(z2, np.maximum(x, z2)) - pieces.rises(np.minimum(x, z1), z1)

@@ -201,43 +201,5 @@ def refined(slope: Slope, lo: float, hi: float, tol: float, cuts: Array | None =
         return slope
     inner = slope.breaks[(slope.breaks > lo) & (slope.breaks < hi)]
     breaks, degrees = resolved(slope.inside, np.concatenate(([lo], inner, [hi])), tol, cuts)
-    k = np.clip(
-        np.searchsorted(slope.breaks, breaks[:-1], side="right") - 1, 0, len(slope.origins) - 1
-    )
+    k = slope.locate(breaks[:-1])
     return replace(slope.chosen(k, breaks), degrees=np.maximum(degrees, slope.degrees[k]))
-
-
-def integral(slope: Slope, start: float, x: Array) -> Array:
-    """∫ H from start to each x (any shape), by resolved pieces; inf beyond the indenter's ends."""
-    lo, hi = slope.domain
-    inside = np.clip(x, lo, hi)
-    out = np.zeros(np.shape(x))
-    for sign in (-1.0, 1.0):
-        ahead = sign * (inside - start)
-        if ahead.size == 0 or ahead.max() <= 0.0:
-            continue
-        end = start + sign * float(ahead.max())
-        a, b = min(start, end), max(start, end)
-        pieces = refined(slope.within(a, b), a, b, EPS)
-        out = np.where(ahead > 0.0, _antiderivative(pieces, start, inside), out)
-    return np.where((x < lo) | (x > hi), np.inf, out)
-
-
-def _antiderivative(pieces: Slope, start: float, x: Array) -> Array:
-    """∫ H from start, on the resolved pieces (start is one of their ends)."""
-    k = np.arange(len(pieces.degrees))
-    lo, length = pieces.breaks[:-1], np.diff(pieces.breaks)
-    n = int(pieces.degrees.max()) + 1
-    c = chebyshev.transform(
-        pieces.local(k, lo, np.zeros(len(k)), 0.5 * length[:, None] * (1.0 + chebyshev.points(n)))
-    )
-    primitive = chebyshev.antiderivative(c) * (0.5 * length)[:, None]
-    before = np.concatenate(([0.0], np.cumsum(primitive.sum(axis=1))))
-    before -= before[int(np.searchsorted(pieces.breaks, start))]
-    flat = x.ravel()
-    j = np.clip(np.searchsorted(pieces.breaks, flat, side="right") - 1, 0, len(k) - 1)
-    s = np.clip(2.0 * ((flat - lo[j]) / length[j]) - 1.0, -1.0, 1.0)
-    values = before[j] + np.array(
-        [chebyshev.evaluate(primitive[a], b) for a, b in zip(j, s, strict=True)]
-    )
-    return values.reshape(x.shape)

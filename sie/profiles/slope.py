@@ -15,7 +15,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,6 +26,7 @@ from sie.numerics.interval import EPS, recentred, two_sum
 from .slope_row import Row
 
 Array = NDArray[np.float64]
+Index = NDArray[np.int64]
 Vectorised = Callable[[Array], Any]
 
 # Up to so many pieces of so low a degree, a loop over floats is cheaper than NumPy's calls.
@@ -74,6 +75,11 @@ class Slope:
     functions: tuple[FunctionTerm, ...] = ()
     tails: Array | float = 0.0
 
+    def locate(self, x: Any, side: Literal["left", "right"] = "right") -> Index:
+        """The piece at x; at a break the one on that side of it."""
+        k = np.searchsorted(self.breaks, x, side=side) - 1
+        return np.asarray(np.clip(k, 0, len(self.origins) - 1))
+
     def local(self, k: Any, start: Array, tail: Array, u: Array) -> Array:
         """H at t = (start + tail) + u on the pieces k, without rounding t.
 
@@ -118,8 +124,7 @@ class Slope:
 
     def inside(self, x: Array) -> Array:
         """H at points x (K, n), each row inside one piece."""
-        right = np.searchsorted(self.breaks, x[:, x.shape[1] // 2], side="right")
-        k = np.clip(right - 1, 0, len(self.origins) - 1)
+        k = self.locate(x[:, x.shape[1] // 2])
         return self.local(k, np.zeros(len(k)), np.zeros(len(k)), x)
 
     def _on(self, k: NDArray[np.int64], x: Array) -> Array:

@@ -20,16 +20,17 @@ from __future__ import annotations
 import math
 import zlib
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from functools import lru_cache
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from sie.numerics import chebyshev
 from sie.numerics.interval import EPS, Interval
 
 from .look import values
+from .pieces import Pieces
+from .profile_pieces import in_series
 from .resolution import NOISE, refuse_non_finite, rounding_noise
 from .slope import Slope
 
@@ -51,32 +52,13 @@ JUMP = 0.25  # of the difference between two pieces, from one double to the next
 BISECTIONS = 200
 
 
-class Pieces(NamedTuple):
-    """The pieces of a resolution in the contact."""
-
-    lo: Array  # (K,)
-    hi: Array  # (K,)
-    c: Array  # (K, n), Chebyshev coefficients
-
-    def H(self, x: Array) -> Array:
-        """H at x, by the pieces."""
-        lo, hi, c = self
-        if len(c) == 1:
-            s = (2.0 * x - lo[0] - hi[0]) / (hi[0] - lo[0])
-            return np.asarray(chebyshev.evaluate(c[0], s))
-        k = np.clip(np.searchsorted(hi, x), 0, len(hi) - 1)
-        s = (2.0 * x - lo[k] - hi[k]) / (hi[k] - lo[k])
-        return np.asarray(chebyshev.evaluate(c.T[:, k], s))
-
-
 def expanded(slope: Slope, resolved: Slope, contact: Interval) -> Pieces:
     """The Chebyshev series of H on the pieces of its resolution inside a contact."""
     ends = resolved.breaks
     kept = np.flatnonzero((ends[1:] > contact.x1) & (ends[:-1] < contact.x2))
-    lo, hi = ends[:-1][kept], ends[1:][kept]
-    s = chebyshev.points(int(resolved.degrees[kept].max()) + 1)
-    x = 0.5 * (lo + hi)[:, None] + 0.5 * (hi - lo)[:, None] * s
-    return Pieces(lo, hi, chebyshev.transform(slope.inside(x)))
+    breaks = ends[kept[0] : kept[-1] + 2]
+    of_slope = slope.chosen(slope.locate(0.5 * (breaks[1:] + breaks[:-1])), breaks)
+    return in_series(replace(of_slope, degrees=resolved.degrees[kept]))
 
 
 def start_of(edges: tuple[float, ...]) -> float:
@@ -143,7 +125,7 @@ def largest_misfit(slope: Slope, known: Known, resolved: Slope, contact: Interva
     """
     pieces = expanded(slope, resolved, contact)
     where, difference = _apart(slope, pieces, contact)
-    length = pieces.hi - pieces.lo
+    length = np.diff(pieces.breaks)
     where &= np.maximum(length[:-1], length[1:]) > EPS * contact.r
     apart = float(difference[where].max(initial=0.0))
     x, missed = misfit(slope, [known], contact, start_at=SAMPLES)
@@ -180,7 +162,7 @@ def between_pieces(
     slope: Slope, pieces: Pieces, contact: Interval, tol: float = EPS
 ) -> tuple[float, ...]:
     """Breaks where two pieces of a resolution differ at their common end, which is no break."""
-    lo, hi, _ = pieces
+    lo, hi = pieces.breaks[:-1], pieces.breaks[1:]
     apart, difference = _apart(slope, pieces, contact, tol)
     length = hi - lo
     near = np.maximum(
@@ -200,7 +182,7 @@ def _apart(
     slope: Slope, pieces: Pieces, contact: Interval, tol: float = EPS
 ) -> tuple[NDArray[np.bool_], Array]:
     """(where two neighbouring pieces differ by more than rounding, by how much), (K - 1,) each."""
-    lo, hi, c = pieces
+    lo, hi, c = pieces.breaks[:-1], pieces.breaks[1:], pieces.series
     difference = np.abs(c.sum(axis=1)[:-1] - (c @ (-1.0) ** np.arange(c.shape[1]))[1:])
     if not difference.size:
         return difference > 0.0, difference

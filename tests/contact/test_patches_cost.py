@@ -9,8 +9,8 @@ from sie.patches.chord import Chord, Points
 from sie.patches.edge_moves import Damping
 from sie.patches.operator import Operator
 from sie.patches.panels import Patches
-from sie.patches.profile_pieces import of_profile
 from sie.patches.state import State
+from sie.profiles.profile_pieces import of_profile
 
 
 def rough(points, seed=3):

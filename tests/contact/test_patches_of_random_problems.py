@@ -10,7 +10,7 @@ from analytic import two_parabolas
 from sie.contact import normal
 from sie.patches import newton, solver
 from sie.patches.of_scene import problem_of
-from sie.patches.profile_pieces import of_profile
+from sie.profiles.profile_pieces import of_profile
 from sie.profiles.resolution import rounding_noise
 
 

@@ -1,6 +1,4 @@
-"""The slope H of a profile on its pieces.
-
-Its values, divided differences and rises keep their digits.
+"""A slope H on its pieces without functions: its values, divided differences and rises.
 
 On a piece H is a polynomial about an origin of its own, plus (where the profile has functions) a
 Chebyshev series. What the integrals ask for beside values are
@@ -17,7 +15,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -41,17 +39,17 @@ ROUNDINGS = 4.0
 class Pieces:
     """H on K pieces.
 
-    ends       (K + 1,), ascending; the outer two may be infinite
-    origin     (K,) and power (K, D): polynomial coefficients about it, low order first
-    series     (K, E): Chebyshev coefficients on [ends[k], ends[k + 1]], E = 0 without functions
+    breaks     (K + 1,), ascending; the outer two may be infinite
+    origins    (K,) and coefficients (K, D): polynomials about them, low order first
+    series     (K, E): Chebyshev coefficients on [breaks[k], breaks[k + 1]], E = 0 without functions
     void       (K,): whether there is no indenter there
     across     (K,): h at the upper end less h at the lower one, of a void piece
     blur       (K,): the rounding of that
     """
 
-    ends: Array
-    origin: Array
-    power: Array
+    breaks: Array
+    origins: Array
+    coefficients: Array
     series: Array
     void: NDArray[np.bool_]
     across: Array
@@ -59,25 +57,22 @@ class Pieces:
 
     @property
     def domain(self) -> tuple[float, float]:
-        return float(self.ends[0]), float(self.ends[-1])
+        """The first and the last break, lengths."""
+        return float(self.breaks[0]), float(self.breaks[-1])
 
     @cached_property
     def _centre(self) -> Array:
         with np.errstate(invalid="ignore"):
-            return np.asarray(0.5 * (self.ends[:-1] + self.ends[1:]))
+            return np.asarray(0.5 * (self.breaks[:-1] + self.breaks[1:]))
 
     @cached_property
     def _half(self) -> Array:
-        return np.asarray(0.5 * np.diff(self.ends))
-
-    @cached_property
-    def degree(self) -> int:
-        return max(self.power.shape[1], self.series.shape[1]) - 1
+        return np.asarray(0.5 * np.diff(self.breaks))
 
     @cached_property
     def reach(self) -> Array:
         """The length by which each piece may be continued beyond its ends."""
-        n = max(self.power.shape[1] - 1, 1)
+        n = max(self.coefficients.shape[1] - 1, 1)
         length = 2.0 * self._half
         reach = length * (EASY if n < 4 else 2.0 / n**2)
         if self.series.shape[1] > 1:
@@ -89,7 +84,7 @@ class Pieces:
     @cached_property
     def plain(self) -> Array:
         """A length over which each piece is as good as a polynomial of low degree."""
-        n = np.full(len(self.origin), self.power.shape[1] - 1)
+        n = np.full(len(self.origins), self.coefficients.shape[1] - 1)
         if self.series.shape[1]:
             order = np.arange(self.series.shape[1])
             n = np.maximum(n, np.where(self.series != 0.0, order, 0).max(axis=1))
@@ -100,38 +95,38 @@ class Pieces:
     def cuts(self) -> Array:
         """The ends, and between them as many places as the degree of a series asks for."""
         bounded = np.isfinite(self.plain) & np.isfinite(self._half)
-        parts = np.ones(len(self.origin))
+        parts = np.ones(len(self.origins))
         parts[bounded] = 2.0 * self._half[bounded] / (WAVES * self.plain[bounded])
         if not (parts > 1.0).any():
-            return self.ends
+            return self.breaks
         count = np.maximum(np.ceil(parts), 1.0).astype(int)
         inner = [
             np.linspace(a, b, n + 1)[:-1]
-            for a, b, n in zip(self.ends, self.ends[1:], count)
+            for a, b, n in zip(self.breaks, self.breaks[1:], count)
             if n > 1
         ]
-        return np.union1d(self.ends, np.concatenate(inner))
+        return np.union1d(self.breaks, np.concatenate(inner))
 
-    def locate(self, x: Any, side: str = "right") -> Index:
+    def locate(self, x: Any, side: Literal["left", "right"] = "right") -> Index:
         """The piece at x; at a break the one on that side of it."""
-        k = np.searchsorted(self.ends, x, side="right" if side == "right" else "left") - 1
-        return np.asarray(np.clip(k, 0, len(self.origin) - 1))
+        k = np.searchsorted(self.breaks, x, side=side) - 1
+        return np.asarray(np.clip(k, 0, len(self.origins) - 1))
 
     def value(self, k: Any, anchor: Any, offset: Any) -> Any:
         """H of the pieces k at anchor + offset, continued where that is outside."""
-        y = (anchor - self.origin[k]) + offset
-        column = self.power.T
+        y = (anchor - self.origins[k]) + offset
+        column = self.coefficients.T
         total = column[-1][k] + 0.0 * y
         for c in column[-2::-1]:
             total = total * y + c[k]
         if self.series.shape[1]:
             s = ((anchor - self._centre[k]) + offset) / self._half[k]
-            total = total + _clenshaw(self.series.T, k, s)
+            total = total + chebyshev.evaluate(self.series.T[:, k], s)
         return total
 
     def divided(self, k: Any, t: tuple[Any, Any], x: tuple[Any, Any]) -> Any:
         """H[t, x] of the pieces k at two points (anchor, offset)."""
-        return self._divided(self.power.T, self.series.T, k, t, x)
+        return self._divided(self.coefficients.T, self.series.T, k, t, x)
 
     def rise(self, k: Any, x: tuple[Any, Any], y: tuple[Any, Any]) -> Any:
         """h(y) - h(x) on the pieces k."""
@@ -140,9 +135,9 @@ class Pieces:
 
     @cached_property
     def _antiderivative(self) -> tuple[Array, Array]:
-        K, D = self.power.shape
+        K, D = self.coefficients.shape
         power = np.zeros((K, D + 1))
-        power[:, 1:] = self.power / np.arange(1, D + 1)
+        power[:, 1:] = self.coefficients / np.arange(1, D + 1)
         series = self.series
         if series.shape[1]:
             series = chebyshev.antiderivative(series) * self._half[:, None]
@@ -151,19 +146,20 @@ class Pieces:
     @cached_property
     def derivative(self) -> Pieces:
         """H' on the same pieces; jumps of H are not in it."""
-        degrees = np.arange(1, max(self.power.shape[1], 2))
-        power = self.power[:, 1:] * degrees if self.power.shape[1] > 1 else 0.0 * self.power
+        width = self.coefficients.shape[1]
+        power = self.coefficients[:, 1:] * np.arange(1, width)
+        power = power if width > 1 else np.zeros_like(self.coefficients)
         series = self.series
         if series.shape[1] > 1:
             series = np.polynomial.chebyshev.chebder(series, axis=1) / self._half[:, None]
         elif series.shape[1]:
             series = 0.0 * series
-        return replace(self, power=power, series=series)
+        return replace(self, coefficients=power, series=series)
 
     @cached_property
     def steps(self) -> Array:
         """By how much H jumps up at the inner ends, (K - 1,); 0 where that is rounding."""
-        k, x = np.arange(len(self.origin) - 1), self.ends[1:-1]
+        k, x = np.arange(len(self.origins) - 1), self.breaks[1:-1]
         with np.errstate(invalid="ignore"):
             step = self.value(k + 1, x, 0.0) - self.value(k, x, 0.0)
             # H itself may be next to nothing there
@@ -172,17 +168,17 @@ class Pieces:
 
     def terms(self, k: Index, x: Array) -> Array:
         """The sum of the magnitudes of what H of the pieces k at x is the sum of."""
-        degree = np.arange(self.power.shape[1])
-        power = np.abs(self.power[k]) * np.abs(x - self.origin[k])[:, None] ** degree
+        degree = np.arange(self.coefficients.shape[1])
+        power = np.abs(self.coefficients[k]) * np.abs(x - self.origins[k])[:, None] ** degree
         return np.asarray(power.sum(axis=1) + np.abs(self.series[k]).sum(axis=1))
 
     def jumps(self, lo: Array, hi: Array) -> NDArray[np.bool_]:
         """Whether H jumps anywhere inside intervals."""
-        x = self.ends[1:-1][self.steps != 0.0]
+        x = self.breaks[1:-1][self.steps != 0.0]
         return np.asarray(np.searchsorted(x, hi) > np.searchsorted(x, lo, "right"))
 
     def _divided(self, power: Array, series: Array, k: Any, t: Any, x: Any) -> Any:
-        yt, yx = (p[0] - self.origin[k] + p[1] for p in (t, x))
+        yt, yx = (p[0] - self.origins[k] + p[1] for p in (t, x))
         value = power[-1][k] + 0.0 * yt
         slope = np.zeros(np.broadcast(yt, yx).shape, dtype=np.result_type(yt, yx))
         for c in power[-2::-1]:
@@ -198,7 +194,7 @@ class Pieces:
         kx = self.locate(x, "left" if walls else "right")
         ky = np.maximum(self.locate(y, "right" if walls else "left"), kx)
         same = kx == ky
-        upper, lower = np.where(same, y, self.ends[kx + 1]), np.where(same, y, self.ends[ky])
+        upper, lower = np.where(same, y, self.breaks[kx + 1]), np.where(same, y, self.breaks[ky])
         total = np.where(self.void[kx] & (y > x), self.across[kx], 0.0)
         total += np.where(self.void[ky] & ~same, self.across[ky], 0.0)
         solid = ~self.void[kx]
@@ -217,7 +213,7 @@ class Pieces:
         """h at the upper end less h at the lower one of each piece (0 of an unbounded one)."""
         k = np.flatnonzero(np.isfinite(self._half) & ~self.void)
         whole = np.where(self.void, self.across, 0.0)
-        whole[k] = self.rise(k, (self.ends[k], 0.0), (self.ends[k + 1], 0.0))
+        whole[k] = self.rise(k, (self.breaks[k], 0.0), (self.breaks[k + 1], 0.0))
         return whole
 
     def rounding(self, x: Array, y: Array) -> Array:
@@ -230,26 +226,26 @@ class Pieces:
         ky = np.maximum(kx, ky)
         total = np.zeros(x.shape)
         for k, from_, to in (
-            (kx, x, np.where(kx == ky, y, self.ends[kx + 1])),
-            (ky, np.where(kx == ky, y, self.ends[ky]), y),
+            (kx, x, np.where(kx == ky, y, self.breaks[kx + 1])),
+            (ky, np.where(kx == ky, y, self.breaks[ky]), y),
         ):
             total += self._rounding(k, from_, to)
         until = np.concatenate(([0.0], np.cumsum(self._roundings)))
         total += np.maximum(until[ky] - until[np.minimum(kx + 1, ky)], 0.0)
-        corners = np.concatenate(([0.0], np.cumsum(np.abs(self.ends[1:-1] * self._drops))))
+        corners = np.concatenate(([0.0], np.cumsum(np.abs(self.breaks[1:-1] * self._drops))))
         total += corners[ky] - corners[kx]
         return np.asarray(ROUNDINGS * EPS * total)
 
     def H(self, x: Array) -> Array:
         """H at places x, by the pieces that they are on."""
-        return np.asarray(self.value(self.locate(x), x, 0.0))
+        return np.asarray(self.value(0 if len(self.origins) == 1 else self.locate(x), x, 0.0))
 
     def missed(self, slope: Callable[[Array], Array], x: Array) -> Array:
         """The places among x of a window on which the pieces differ from a function.
 
         What is narrower than the pieces that resolved it shows there.
         """
-        inside = x[(x >= self.ends[0]) & (x <= self.ends[-1])]
+        inside = x[(x >= self.breaks[0]) & (x <= self.breaks[-1])]
         with np.errstate(all="ignore"):
             H, found = slope(inside), self.H(inside)
             size = np.abs(self.series).sum(axis=1)[self.locate(inside)]
@@ -260,16 +256,13 @@ class Pieces:
 
         On the line: the finite ends, and the roots of the outer polynomials (Fujiwara's bound).
         """
-        ends = self.ends[np.isfinite(self.ends)]
+        ends = self.breaks[np.isfinite(self.breaks)]
         reach = [np.abs(ends[[0, -1], None] - c).max()] if ends.size else [0.0]
-        for k in {0, len(self.origin) - 1}:
-            power = np.abs(self.power[k])
-            power[0] += abs(tilt)
-            degree = int(np.flatnonzero(power)[-1]) if power.any() else 0
-            if degree and not np.isfinite(self._half[k]):
-                order = 1.0 / np.arange(degree, 0, -1)
-                bound = 2.0 * ((power[:degree] / power[degree]) ** order).max()
-                reach.append(np.abs(self.origin[k] - c).max() + bound)
+        for k in {0, len(self.origins) - 1}:
+            power = self.coefficients[k].copy()
+            power[0] += np.copysign(tilt, power[0])
+            if power[1:].any() and not np.isfinite(self._half[k]):
+                reach.append(np.abs(self.origins[k] - c).max() + root_bound(power))
         return float(max(reach))
 
     @cached_property
@@ -280,8 +273,8 @@ class Pieces:
     def _roundings(self) -> Array:
         """The terms of h over each piece (0 of an unbounded one)."""
         k = np.flatnonzero(np.isfinite(self._half))
-        found = np.zeros(len(self.origin))
-        found[k] = self._rounding(k, self.ends[k], self.ends[k + 1])
+        found = np.zeros(len(self.origins))
+        found[k] = self._rounding(k, self.breaks[k], self.breaks[k + 1])
         return found
 
     def _rounding(self, k: Index, x: Array, y: Array) -> Array:
@@ -296,26 +289,26 @@ class Pieces:
     def solid_around(self, x: Array) -> tuple[Array, Array]:
         """The ends of the interval without walls that each x is in."""
         void = np.flatnonzero(self.void)
-        starts = np.concatenate((self.ends[:1], self.ends[void + 1]))
-        stops = np.concatenate((self.ends[void], self.ends[-1:]))
+        starts = np.concatenate((self.breaks[:1], self.breaks[void + 1]))
+        stops = np.concatenate((self.breaks[void], self.breaks[-1:]))
         k = np.clip(np.searchsorted(starts, x, side="right") - 1, 0, len(starts) - 1)
         return starts[k], stops[k]
 
     @cached_property
     def concave(self) -> Array:
         """Concave corners, where H jumps down between two pieces of the indenter."""
-        return np.asarray(self.ends[1:-1][(self.steps < 0.0) & ~(self.void[:-1] | self.void[1:])])
+        return np.asarray(self.breaks[1:-1][(self.steps < 0.0) & ~(self.void[:-1] | self.void[1:])])
 
     @cached_property
     def never_closed(self) -> Array:
         """Places that no contact covers: walls, and concave corners."""
-        walls = self.ends[1:-1][self.void[:-1] | self.void[1:]]
+        walls = self.breaks[1:-1][self.void[:-1] | self.void[1:]]
         return np.union1d(self.concave, walls)
 
     def bends(self, k: Index, above: NDArray[np.bool_]) -> NDArray[np.bool_]:
         """Whether H' jumps at the upper ends of pieces, or at the lower ones."""
-        other = np.clip(np.where(above, k + 1, k - 1), 0, len(self.origin) - 1)
-        x = self.ends[k + above]
+        other = np.clip(np.where(above, k + 1, k - 1), 0, len(self.origins) - 1)
+        x = self.breaks[k + above]
         with np.errstate(invalid="ignore"):
             own, theirs = self.curvature(k, x), self.curvature(other, x)
             jump = np.abs(own - theirs) > CORNER * np.maximum(np.abs(own), np.abs(theirs))
@@ -326,13 +319,15 @@ class Pieces:
         return self.divided(k, (x, 0.0), (x, 0.0))
 
 
-def _clenshaw(c: Array, k: Any, s: Any) -> Any:
-    if len(c) == 1:
-        return c[0][k] + 0.0 * s
-    high, higher = c[-1][k] + 0.0 * s, 0.0
-    for row in c[-2:0:-1]:
-        high, higher = row[k] + 2.0 * s * high - higher, high
-    return c[0][k] + s * high - higher
+def root_bound(c: Array) -> float:
+    """The distance from its origin within which a polynomial has all of its roots (Fujiwara 1916).
+
+    It is 0 for a constant.
+    """
+    size = np.abs(c)
+    degree = int(np.flatnonzero(size)[-1]) if size.any() else 0
+    powers = 1.0 / np.arange(degree, 0, -1)
+    return 2.0 * float(((size[:degree] / size[degree]) ** powers).max(initial=0.0))
 
 
 def _divided_series(c: Array, k: Any, t: Any, x: Any) -> Any:

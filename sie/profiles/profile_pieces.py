@@ -10,20 +10,20 @@ from numpy.typing import NDArray
 
 from sie.numerics import chebyshev
 from sie.numerics.interval import EPS
-from sie.profiles.base import Profile
-from sie.profiles.look import across, narrow_parts
-from sie.profiles.resolution import refined
-from sie.profiles.slope import Slope
 
+from .base import Profile
+from .look import across, narrow_parts
 from .pieces import Pieces
+from .resolution import refined
+from .slope import Slope
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
 
 # Periods: patches are found from one cut to the next, wherever that is.
 COPIES = (-1.0, 0.0, 1.0, 2.0)
+LEFT_OUT = 1e-15  # of the largest coefficient: what of a series is left out
 FEW = 16  # ends of parts about narrow valleys: beyond, they are cut only where they are missed
-ROUNDING = 1e-15  # of the largest coefficient: what of a series is left out
 
 
 def of_profile(
@@ -41,7 +41,7 @@ def of_profile(
     parts = []
     for turn in COPIES:
         shift = turn * profile.period
-        parts.append(replace(pieces, ends=pieces.ends + shift, origin=pieces.origin + shift))
+        parts.append(replace(pieces, breaks=pieces.breaks + shift, origins=pieces.origins + shift))
     return _joined(parts)
 
 
@@ -49,10 +49,12 @@ def _joined(parts: list[Pieces]) -> Pieces:
     """Pieces of intervals that follow each other."""
     most = max(p.series.shape[1] for p in parts)
     series = [np.pad(p.series, ((0, 0), (0, most - p.series.shape[1]))) for p in parts]
-    names = ("origin", "power", "void", "across", "blur")
-    origin, power, *others = (np.concatenate([getattr(p, n) for p in parts]) for n in names)
-    ends = np.concatenate([parts[0].ends[:1], *(p.ends[1:] for p in parts)])
-    return Pieces(ends, origin, power, np.concatenate(series), *others)
+    names = ("origins", "coefficients", "void", "across", "blur")
+    return Pieces(
+        breaks=np.concatenate([parts[0].breaks[:1], *(p.breaks[1:] for p in parts)]),
+        series=np.concatenate(series),
+        **{name: np.concatenate([getattr(p, name) for p in parts]) for name in names},
+    )
 
 
 def _resolved(slope: Slope, window: tuple[float, float], tol: float, cuts: Array | None) -> Pieces:
@@ -80,17 +82,17 @@ def _with_walls(pieces: Pieces, walls: tuple[tuple[float, float], ...], profile:
         repeated = profile.period < np.inf
         if not repeated and (hi <= first_end or lo >= last_end):
             continue  # beside the window
-        if repeated and hi > pieces.ends[-1]:  # the rest of a period
-            pieces = _inserted(pieces, len(pieces.origin), hi)
-            first, last = len(pieces.origin) - 1, 0
+        if repeated and hi > pieces.breaks[-1]:  # the rest of a period
+            pieces = _inserted(pieces, len(pieces.origins), hi)
+            first, last = len(pieces.origins) - 1, 0
         elif lo == hi:
-            k = int(np.searchsorted(pieces.ends, lo))
-            at_end = k == len(pieces.ends) - 1
+            k = int(np.searchsorted(pieces.breaks, lo))
+            at_end = k == len(pieces.breaks) - 1
             pieces = _inserted(pieces, k, lo)
             first, last = k, 0 if at_end else k + 1
         else:
-            first = max(int(np.searchsorted(pieces.ends, lo, "right")) - 1, 0)
-            last = int(np.searchsorted(pieces.ends, min(hi, last_end)))
+            first = max(int(np.searchsorted(pieces.breaks, lo, "right")) - 1, 0)
+            last = int(np.searchsorted(pieces.breaks, min(hi, last_end)))
             if first == last:
                 continue
             pieces.void[first:last] = True
@@ -107,20 +109,22 @@ def _with_walls(pieces: Pieces, walls: tuple[tuple[float, float], ...], profile:
 
 def _inserted(pieces: Pieces, k: int, end: float) -> Pieces:
     """A void piece before piece k, up to `end`."""
-    return Pieces(
-        np.insert(pieces.ends, k + 1, end) if k < len(pieces.ends) else np.append(pieces.ends, end),
-        np.insert(pieces.origin, k, end),
-        np.insert(pieces.power, k, 0.0, axis=0),
-        np.insert(pieces.series, k, 0.0, axis=0),
-        np.insert(pieces.void, k, True),
-        np.insert(pieces.across, k, 0.0),
-        np.insert(pieces.blur, k, 0.0),
+    inserted = {
+        name: np.insert(getattr(pieces, name), k, 0.0, axis=0)
+        for name in ("coefficients", "series", "across", "blur")
+    }
+    return replace(
+        pieces,
+        breaks=np.insert(pieces.breaks, min(k + 1, len(pieces.breaks)), end),
+        origins=np.insert(pieces.origins, k, end),
+        void=np.insert(pieces.void, k, True),
+        **inserted,
     )
 
 
 def _height(pieces: Pieces, k: Index, profile: Profile, side: float) -> Array:
     """h at the lower ends of pieces k, from inside; of those before k at the upper ends (-1)."""
-    x = pieces.ends[k]
+    x = pieces.breaks[k]
     k = k if side > 0.0 else k - 1
     inner = x + side * np.minimum(pieces._half[k], 1.0)
     return np.asarray(profile.height(inner) - pieces.rise(k, (x, 0.0), (inner, 0.0)))
@@ -128,17 +132,57 @@ def _height(pieces: Pieces, k: Index, profile: Profile, side: float) -> Array:
 
 def from_slope(slope: Slope, window: tuple[float, float], tol: float) -> Pieces:
     """The pieces of a slope; its functions are resolved on the window."""
-    resolved = refined(slope, *window, tol)
-    K = len(resolved.origins)
-    series = np.zeros((K, 0))
+    return without_functions(refined(slope, *window, tol))
+
+
+def without_functions(resolved: Slope) -> Pieces:
+    """The pieces of a slope whose functions are resolved: these become series."""
+    K, none = len(resolved.origins), np.zeros((len(resolved.origins), 1))
+    series = none[:, :0]
     if resolved.functions:
-        lo, length = resolved.breaks[:-1], np.diff(resolved.breaks)
-        n = int(resolved.degrees.max()) + 1
-        u = 0.5 * length[:, None] * (1.0 + chebyshev.points(n))
-        only = replace(resolved, coefficients=np.zeros((K, 1)))
-        series = chebyshev.transform(only.local(np.arange(K), lo, np.zeros(K), u))
-        series[np.abs(series) < ROUNDING * np.abs(series).max()] = 0.0
-    none, zero = np.zeros(K, dtype=bool), np.zeros(K)
+        series = _series(replace(resolved, coefficients=none))
+        series[np.abs(series) < LEFT_OUT * np.abs(series).max()] = 0.0
     return Pieces(
-        resolved.breaks, resolved.origins, resolved.coefficients, series, none, zero, zero.copy()
+        *(resolved.breaks, resolved.origins, resolved.coefficients),
+        series=series,
+        void=np.zeros(K, dtype=bool),
+        across=np.zeros(K),
+        blur=np.zeros(K),
     )
+
+
+def in_series(resolved: Slope) -> Pieces:
+    """The pieces of a resolved slope, polynomials too as series."""
+    flat = replace(resolved, coefficients=np.zeros((len(resolved.origins), 1)), functions=())
+    return replace(without_functions(flat), series=_series(resolved))
+
+
+def one_piece(lo: float, hi: float, c: Array) -> Pieces:
+    """One piece by its Chebyshev coefficients."""
+    zero = np.zeros(1)
+    flat = Slope(np.array([lo, hi]), zero, zero[:, None], np.array([len(c) - 1]))
+    return replace(without_functions(flat), series=c[None])
+
+
+def _series(resolved: Slope) -> Array:
+    """The Chebyshev coefficients of H on each piece."""
+    lo, length = resolved.breaks[:-1], np.diff(resolved.breaks)
+    K, n = len(lo), int(resolved.degrees.max()) + 1
+    u = 0.5 * length[:, None] * (1.0 + chebyshev.points(n))
+    return chebyshev.transform(resolved.local(np.arange(K), lo, np.zeros(K), u))
+
+
+def integral(slope: Slope, start: float, x: Array) -> Array:
+    """∫ H from start to each x (any shape), by resolved pieces; inf beyond the indenter's ends."""
+    lo, hi = slope.domain
+    inside = np.clip(x, lo, hi)
+    out = np.zeros(np.shape(x))
+    for sign in (-1.0, 1.0):
+        ahead = sign * (inside - start)
+        if ahead.size == 0 or ahead.max() <= 0.0:
+            continue
+        a, b = sorted((start, start + sign * float(ahead.max())))
+        pieces = without_functions(refined(slope.within(a, b), a, b, EPS))
+        places = inside[ahead > 0.0], np.full(np.count_nonzero(ahead > 0.0), start)
+        out[ahead > 0.0] = sign * pieces.rises(*places[:: int(-sign)])
+    return np.where((x < lo) | (x > hi), np.inf, out)
