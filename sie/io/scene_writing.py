@@ -31,7 +31,7 @@ import numpy as np
 from sie.problem.material import Body, Elastic
 from sie.problem.scene import Scene
 from sie.profiles.base import Profile
-from sie.profiles.derived import Mirrored, Raised, Shifted, Sum, Tilted
+from sie.profiles.derived import Placed, parts_of
 from sie.profiles.expression import Expression
 from sie.profiles.from_function import FromFunction
 from sie.profiles.kinds import KINDS
@@ -57,8 +57,6 @@ HELD_BY: Mapping[type, Mapping[str, str]] = {
     Sampled: {"x": "points", "h": "heights"},
     Wedge: {"slope": "rise"},
 }
-# From the outermost modifier to the innermost.
-MODIFIED = ((Raised, "raised", "dz"), (Shifted, "shifted", "dx"), (Tilted, "tilted", "tilt"))
 
 
 def scene_of(tables: Mapping[str, Any]) -> Scene:
@@ -104,13 +102,7 @@ def tables_of(scene: Scene) -> Tables:
             tables["indenter"] = _body(scene.indenter)
     for name in ("pair", "load"):
         tables[name] = {key: given[key] for key in TABLES[name] if key in given}
-    tables = {name: table for name, table in tables.items() if table}
-    if from_tables(tables).scene != scene:
-        raise ValueError(
-            f"{scene.profile!r} cannot be named in a scene file, which mirrors, tilts, shifts and "
-            "raises each term in this order before it adds them: build the profile in this order"
-        )
-    return tables
+    return {name: table for name, table in tables.items() if table}
 
 
 def tables_of_file(file: SceneFile) -> Tables:
@@ -163,32 +155,34 @@ def toml_text(tables: Mapping[str, Any]) -> str:
 def _profile(profile: Profile) -> Tables:
     if isinstance(profile, Periodic):
         return {**_profile(profile.profile), "period": profile.repeats}
-    first, *others = profile.terms if isinstance(profile, Sum) else (profile,)
-    plus = {"plus": [_term(term) for term in others]} if others else {}
-    return {**_term(first), **plus}
+    first, *others = map(_term, parts_of(profile))
+    return {**first, "plus": others} if others else first
 
 
-def _term(profile: Profile) -> Tables:
-    """One term of a profile: what it is, then its modifiers in the order of a scene file."""
-    modifiers: Tables = {}
-    for modified, name, amount in MODIFIED:
-        if isinstance(profile, (Raised, Shifted, Tilted)) and type(profile) is modified:
-            modifiers[name] = getattr(profile, amount)
-            profile = profile.profile
-    if isinstance(profile, Mirrored):
+def _term(part: Placed) -> Tables:
+    """One term of a profile: what it is, then its modifiers."""
+    profile = part.profile
+    names = zip(("raised", "shifted", "tilted"), (part.rise, part.shift, part.tilt), strict=True)
+    modifiers: Tables = {name: value for name, value in names if value}
+    if part.sign < 0.0:
         modifiers["mirrored"] = True
-        profile = profile.profile
     if isinstance(profile, Row):
-        return {"kind": "row", **modifiers, "of": [_term(one) for one in profile.profiles]}
+        indenters = [_term(*parts_of(one)) for one in profile.profiles if _is_one(one)]
+        return {"kind": "row", **modifiers, "of": indenters}
     return {**_unmoved(profile), **modifiers}
 
 
-def _unmoved(profile: Profile) -> Tables:
-    if isinstance(profile, Sum):
+def _is_one(profile: Profile) -> bool:
+    """Whether a profile is one term. ValueError where it is not."""
+    if len(parts_of(profile)) > 1:
         raise ValueError(
-            f"{profile!r} cannot be named in a scene file as a part of another profile: mirror, "
-            "tilt, shift and raise each term before they are added, and add no terms in a row"
+            f"{profile!r} cannot be named in a scene file as an indenter of a row: give a profile "
+            "that is not a sum"
         )
+    return True
+
+
+def _unmoved(profile: Profile) -> Tables:
     kind = next((name for name, make in KINDS.items() if type(profile) is make), None)
     if kind is None or not isinstance(getattr(profile, "function", Expression("x")), Expression):
         raise ValueError(

@@ -215,7 +215,7 @@ class Profile(ABC):
         array([0. , 0.5])
         """
         slope = arguments.measure("tilted", slope)
-        return self if slope == 0.0 else _derived("Tilted", self, slope)
+        return self if slope == 0.0 else _derived("tilted", self, slope)
 
     def shifted(self, dx: float) -> Profile:
         """The profile h(x - dx).
@@ -242,9 +242,8 @@ class Profile(ABC):
         2.0
         """
         dx = arguments.measure("shifted", dx)
-        return (
-            self if abs(dx) * arguments.LARGEST_COEFFICIENT < 1.0 else _derived("Shifted", self, dx)
-        )
+        nothing = abs(dx) * arguments.LARGEST_COEFFICIENT < 1.0
+        return self if nothing else _derived("shifted", self, dx)
 
     def mirrored(self) -> Profile:
         """The profile h(-x).
@@ -260,7 +259,7 @@ class Profile(ABC):
         >>> sie.Parabola(1.0).shifted(2.0).mirrored().axis
         -2.0
         """
-        return self if self.parity == "even" else _derived("Mirrored", self)
+        return self if self.parity == "even" else _derived("mirrored", self)
 
     def raised(self, dz: float) -> Profile:
         """The profile h(x) + dz. The height matters only among the indenters of a row.
@@ -287,7 +286,7 @@ class Profile(ABC):
         array([0.5, 1. ])
         """
         dz = arguments.measure("raised", dz)
-        return self if dz == 0.0 else _derived("Raised", self, dz)
+        return self if dz == 0.0 else _derived("raised", self, dz)
 
     @property
     def period(self) -> float:
@@ -308,12 +307,12 @@ class Profile(ABC):
                 raise ValueError(
                     f"{profile!r} is repeated: add profiles first, then repeat the sum"
                 )
-        return _derived("Sum", self, other)
+        return _derived("added", self, other)
 
 
-def _derived(kind: str, *arguments: Any) -> Profile:
-    """The profile of a class in `derived`, which imports this module."""
+def _derived(function: str, *arguments: Any) -> Profile:
+    """The profile that a function of `derived` makes, which imports this module."""
     from . import derived  # noqa: PLC0415 -- a higher layer
 
-    made: Profile = getattr(derived, kind)(*arguments)
+    made: Profile = getattr(derived, function)(*arguments)
     return made

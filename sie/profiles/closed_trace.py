@@ -24,7 +24,7 @@ from sie.numerics.interval import EPS
 
 from . import fitting
 from .base import Profile
-from .derived import Derived, Placed
+from .derived import Placed, parts_of, total_tilt, with_part
 from .sampled import Sampled
 from .spline_profile import SplineProfile
 from .splines import Spline, closed_spline
@@ -90,8 +90,7 @@ class ClosedTrace(SplineProfile):
 def closed(profile: Profile, period: float) -> Profile:
     """The profile with periodic splines for the traces in it whose ends meet."""
     for part in _traces(profile):
-        new = spline_of(part, period)
-        profile = profile.with_part(part.profile, new) if isinstance(profile, Derived) else new
+        profile = with_part(profile, part.profile, spline_of(part, period))
     return profile
 
 
@@ -109,8 +108,10 @@ def open_seams(profile: Profile, period: float) -> tuple[Seam, ...]:
 
 
 def _traces(profile: Profile) -> list[Placed]:
-    parts = profile.placed if isinstance(profile, Derived) else (Placed(profile, 1.0, 0.0, 0.0),)
-    return [part for part in parts if isinstance(part.profile, Sampled)]
+    """The traces in a profile, each with the tilt of all parts."""
+    tilt = total_tilt(profile)
+    traces = (part for part in parts_of(profile) if isinstance(part.profile, Sampled))
+    return [part._replace(tilt=tilt) for part in traces]
 
 
 def _same_place(x: Array, period: float) -> bool:

@@ -1,190 +1,124 @@
 """Profiles made of others: tilted, shifted, mirrored, raised and added ones.
 
-The methods of `Profile` make them.
+The methods of `Profile` make them. Whatever is done in whatever order, the result is a sum of
+profiles, each mirrored or not, then tilted, shifted and raised: h is
+
+    Σ h_k(sign_k (x - shift_k)) + tilt_k (x - shift_k) + rise_k
 """
 
 from __future__ import annotations
 
-from abc import abstractmethod
-from dataclasses import dataclass, fields, replace
-from functools import cached_property, reduce
-from typing import Any, NamedTuple
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from sie import arguments
 from sie.arguments import with_middle_cut
 from sie.inheritance import override
 
-from .base import Parity, Profile, of_any_x
+from .base import Profile, of_any_x
 from .power_law import PowerLaw
 from .profile_pieces import integral
 from .slope import Slope
 
 Array = NDArray[np.float64]
+Pair = tuple[float, float]
 
 
 class Placed(NamedTuple):
-    """h(sign (x - shift)) + tilt x + a constant, of a profile that is not made of others."""
+    """The part h(sign (x - shift)) + tilt (x - shift) + rise of a profile."""
 
     profile: Profile
-    sign: float
-    shift: float
-    tilt: float
+    sign: float = 1.0
+    tilt: float = 0.0
+    shift: float = 0.0
+    rise: float = 0.0
 
-
-class Derived(Profile):
-    """A profile made of others, to any depth.
-
-    No method is recursive, so that Python's stack does not limit the depth. Each level takes
-    `reach` and `axis` from the level below when it is built: O(n) for n levels.
-    """
-
-    def __post_init__(self) -> None:
-        _ = self.reach, self.axis
+    def __str__(self) -> str:
+        """The code that makes it."""
+        names = zip(("tilted", "shifted", "raised"), self[2:], strict=True)
+        calls = [f".{name}({value!r})" for name, value in names if value]
+        mirrored = ".mirrored()" if self.sign < 0.0 else ""
+        return f"{self.profile!r}{mirrored}{''.join(calls)}"
 
     @property
-    @abstractmethod
-    def reach(self) -> tuple[float, float]:
-        """The domain, to rounding. Raises ValueError where nothing is left of it."""
+    def axis(self) -> float | None:
+        """The x about which it is symmetric, None if it is not known to be."""
+        axis = self.profile.axis
+        return None if axis is None or self.tilt else self.sign * axis + self.shift
 
     @property
-    @abstractmethod
-    def operands(self) -> tuple[Profile, ...]:
-        """The profiles that it is made of; for a sum its terms, none of which is a sum."""
+    def slope(self) -> Slope:
+        """H, on its breaks."""
+        slope = self.profile.pieces if self.sign > 0.0 else self.profile.pieces.mirrored()
+        return slope.tilted(self.tilt).shifted(self.shift)
 
-    @property
-    @abstractmethod
-    def step(self) -> tuple[Any, ...]:
-        """(kind, number of operands, further arguments): the way it is made of them."""
+    def height(self, x: Array) -> Array:
+        """h at finite x."""
+        u = x - self.shift
+        return self.profile.height(self.sign * u) + self.tilt * u + self.rise
 
-    @cached_property
-    def steps(self) -> tuple[Any, ...]:
-        """The profiles that it is made of and how, in postfix order.
+    def mirrored(self) -> Placed:
+        """The part at -x; a profile that is even is left as it is."""
+        sign = self.sign if self.profile.axis == 0.0 else -self.sign
+        return Placed(self.profile, sign, -self.tilt, -self.shift, self.rise)
 
-        Equality, hash and pickle are those of this tuple.
-        """
-        steps: list[Any] = []
-        todo: list[Profile] = [self]
-        while todo:
-            node = todo.pop()
-            steps.append(node.step if isinstance(node, Derived) else node)
-            todo += node.operands if isinstance(node, Derived) else ()
-        return tuple(reversed(steps))
 
-    def with_part(self, old: Profile, new: Profile) -> Profile:
-        """The same profile with `new` wherever it is made of `old`, which is not made of others."""
-        return _assembled(tuple(new if step is old else step for step in self.steps))
+@dataclass(frozen=True, repr=False)
+class Composite(Profile):
+    """The sum of placed profiles, none of which is made of others, on their common domain."""
 
-    def __eq__(self, other: object) -> bool:
-        return self.steps == other.steps if isinstance(other, Derived) else NotImplemented
-
-    def __hash__(self) -> int:
-        return hash(self.steps)
-
-    def __reduce__(self) -> tuple[Any, ...]:
-        return _assembled, (self.steps,)
+    parts: tuple[Placed, ...]
+    reach: Pair = field(compare=False)
 
     def __repr__(self) -> str:
-        text: list[str] = []
-        todo: list[Profile | str] = [self]
-        while todo:  # from the end of the text to its beginning
-            item = todo.pop()
-            if isinstance(item, Sum):
-                todo += [part for term in item.terms for part in (" + ", term)][1:]
-            elif isinstance(item, Derived):
-                (operand,), (kind, _, *arguments) = item.operands, item.step
-                todo += ["(", operand, ")"] if isinstance(operand, Sum) else [operand]
-                todo.append(f".{kind.__name__.lower()}({', '.join(map(repr, arguments))})")
-            else:
-                text.append(item if isinstance(item, str) else repr(item))
-        return with_middle_cut("".join(reversed(text)))
-
-    @cached_property
-    def _parts(self) -> tuple[tuple[Placed, ...], float]:
-        """The placed profiles that add up to this one, each with its own tilt; the tilt of sums."""
-        parts, tilt = [], 0.0
-        todo: list[Placed] = [Placed(self, 1.0, 0.0, 0.0)]
-        while todo:
-            part = todo.pop()
-            node, sign, shift, own = part
-            if isinstance(node, Tilted):
-                todo.append(Placed(node.profile, sign, shift, own + sign * node.tilt))
-            elif isinstance(node, Shifted):
-                todo.append(Placed(node.profile, sign, shift + sign * node.dx, own))
-            elif isinstance(node, Mirrored):
-                todo.append(Placed(node.profile, -sign, shift, own))
-            elif isinstance(node, Raised):
-                todo.append(Placed(node.profile, sign, shift, own))
-            elif isinstance(node, Sum):
-                tilt += own
-                todo += [Placed(term, sign, shift, 0.0) for term in reversed(node.terms)]
-            else:
-                parts.append(part)
-        return tuple(parts), tilt
+        return with_middle_cut(" + ".join(map(str, self.parts)))
 
     @cached_property
     def pieces(self) -> Slope:
         """H on its declared breaks, the sum of the slopes of all parts."""
-        parts, tilt = self._parts
-        slopes = [
-            (part.profile.pieces if part.sign > 0.0 else part.profile.pieces.mirrored())
-            .tilted(part.tilt)
-            .shifted(part.shift)
-            for part in parts
-        ]
+        slopes = [part.slope for part in self.parts]
         while len(slopes) > 1:  # in pairs, so that no break is merged more than log2 n times
             pairs = [one + other for one, other in zip(slopes[::2], slopes[1::2], strict=False)]
             slopes = pairs + slopes[2 * len(pairs) :]
-        return slopes[0].tilted(tilt)
+        return slopes[0]
 
     @of_any_x
     @override
     def height(self, x: Array) -> Array:
         total = np.zeros(np.shape(x))
-        todo: list[tuple[Profile, Array]] = [(self, x)]
-        while todo:
-            node, u = todo.pop()
-            if isinstance(node, Raised):
-                total = total + node.dz
-            if isinstance(node, Tilted):
-                total = total + node.tilt * u
-            if isinstance(node, Shifted):
-                u = u - node.dx
-            elif isinstance(node, Mirrored):
-                u = -u
-            if isinstance(node, Derived):
-                todo += [(operand, u) for operand in node.operands]
-            else:
-                total = total + node.height(u)
+        for part in self.parts:
+            total = total + part.height(x)
         return total
 
-    @property
-    def placed(self) -> tuple[Placed, ...]:
-        """The profiles that add up to this one, placed, each with the tilt of all of them."""
-        parts, tilt = self._parts
-        return tuple(part._replace(tilt=part.tilt + tilt) for part in parts)
-
     @cached_property
+    def axis(self) -> float | None:
+        """The axis that all parts have, None if they have none in common."""
+        axes = {part.axis for part in self.parts}
+        return axes.pop() if len(axes) == 1 else None
+
+    @property
+    @override
     def power_law(self) -> PowerLaw | None:
         """The law of the part, placed; None for several parts or a tilted one."""
-        part, *others = self.placed
+        part, *others = self.parts
         law = part.profile.power_law if part.tilt == 0.0 and not others else None
         return law and replace(law, axis=part.sign * law.axis + part.shift)
 
     @cached_property
     def convex(self) -> bool:
         """Whether all parts are known to be convex; then h is."""
-        return all(part.profile.convex for part in self._parts[0])
+        return all(part.profile.convex for part in self.parts)
 
     @cached_property
-    def walls(self) -> tuple[tuple[float, float], ...]:
+    def walls(self) -> tuple[Pair, ...]:
         """Those of the profiles that add up to this one."""
         lo, hi = self.domain
         placed = [
             sorted((part.sign * one + part.shift, part.sign * other + part.shift))
-            for part in self._parts[0]
+            for part in self.parts
             for one, other in part.profile.walls
         ]
         return joined(tuple((max(a, lo), min(b, hi)) for a, b in placed if a < hi and b > lo))
@@ -193,18 +127,18 @@ class Derived(Profile):
     def ends_are_corners(self) -> tuple[bool, bool]:
         """Whether each end is a corner of the profile whose domain ends there."""
         corners = [True, True]
-        for profile, sign, shift, _ in self._parts[0]:
-            ends = zip(profile.domain, profile.ends_are_corners, strict=True)
+        for part in self.parts:
+            ends = zip(part.profile.domain, part.profile.ends_are_corners, strict=True)
             for end, is_corner in ends:
-                here = sign * end + shift
+                here = part.sign * end + part.shift
                 for k in (0, 1):
                     corners[k] &= is_corner or here != self.domain[k]
         return corners[0], corners[1]
 
 
-def joined(intervals: tuple[tuple[float, float], ...]) -> tuple[tuple[float, float], ...]:
+def joined(intervals: tuple[Pair, ...]) -> tuple[Pair, ...]:
     """The union of intervals, ascending."""
-    found: list[tuple[float, float]] = []
+    found: list[Pair] = []
     for lo, hi in sorted(intervals):
         if found and lo <= found[-1][1]:
             found[-1] = found[-1][0], max(found[-1][1], hi)
@@ -213,168 +147,73 @@ def joined(intervals: tuple[tuple[float, float], ...]) -> tuple[tuple[float, flo
     return tuple(found)
 
 
-def _reach(profile: Profile) -> tuple[float, float]:
-    return profile.reach if isinstance(profile, Derived) else profile.domain
+def parts_of(profile: Profile) -> tuple[Placed, ...]:
+    """The placed profiles that add up to a profile."""
+    return profile.parts if isinstance(profile, Composite) else (Placed(profile),)
 
 
-def _assembled(steps: tuple[Any, ...]) -> Profile:
-    """The profile that `Derived.steps` lists."""
-    made: list[Profile] = []
-    for step in steps:
-        if isinstance(step, Profile):
-            made.append(step)
-            continue
-        kind, count, *arguments = step
-        operands = made[-count:]
-        made[-count:] = [reduce(Sum, operands) if kind is Sum else kind(*operands, *arguments)]
-    return made.pop()
+def total_tilt(profile: Profile) -> float:
+    """The tilt of all parts together."""
+    return sum(part.tilt for part in parts_of(profile))
 
 
-@dataclass(frozen=True, repr=False, eq=False)
-class _OfOne(Derived):
-    profile: Profile
-
-    @cached_property
-    def reach(self) -> tuple[float, float]:
-        return _reach(self.profile)
-
-    @cached_property
-    def axis(self) -> float | None:
-        return self.profile.axis
-
-    @property
-    def operands(self) -> tuple[Profile, ...]:
-        return (self.profile,)
-
-    @property
-    def step(self) -> tuple[Any, ...]:
-        return type(self), 1, *(getattr(self, f.name) for f in fields(self)[1:])
+def with_part(profile: Profile, old: Profile, new: Profile) -> Profile:
+    """The profile with another wherever it is made of `old`."""
+    parts = (p._replace(profile=new) if p.profile is old else p for p in parts_of(profile))
+    return _made(tuple(parts), _reach(profile))
 
 
-@dataclass(frozen=True, repr=False, eq=False)
-class Tilted(_OfOne):
-    """h(x) + tilt x."""
-
-    tilt: float
-
-    @cached_property
-    def axis(self) -> float | None:
-        """None: a tilted profile is not known to be symmetric."""
-        return None
-
-    @override
-    def tilted(self, slope: float) -> Profile:
-        return self.profile.tilted(self.tilt + arguments.measure("tilted", slope))
+def tilted(profile: Profile, slope: float) -> Profile:
+    """h(x) + slope x."""
+    first, *others = parts_of(profile)
+    first = first._replace(tilt=first.tilt + slope, rise=first.rise + slope * first.shift)
+    return _made((first, *others), _reach(profile))
 
 
-@dataclass(frozen=True, repr=False, eq=False)
-class Shifted(_OfOne):
-    """h(x - dx)."""
-
-    dx: float
-
-    @cached_property
-    def reach(self) -> tuple[float, float]:
-        """The domain, to rounding. ValueError where doubles keep nothing of it."""
-        lo, hi = _reach(self.profile)
-        if not lo + self.dx < hi + self.dx:
-            raise ValueError(
-                f"shifted({self.dx:g}) leaves nothing of a profile on ({lo:g}, {hi:g}), "
-                "doubles are farther apart there: shift it less"
-            )
-        return lo + self.dx, hi + self.dx
-
-    @cached_property
-    def axis(self) -> float | None:
-        """The axis of the given profile, moved by dx."""
-        return None if self.profile.axis is None else self.profile.axis + self.dx
-
-    @override
-    def shifted(self, dx: float) -> Profile:
-        return self.profile.shifted(self.dx + arguments.measure("shifted", dx))
+def shifted(profile: Profile, dx: float) -> Profile:
+    """h(x - dx). ValueError where doubles keep nothing of the domain."""
+    lo, hi = _reach(profile)
+    if not lo + dx < hi + dx:
+        raise ValueError(
+            f"shifted({dx:g}) leaves nothing of a profile on ({lo:g}, {hi:g}), "
+            "doubles are farther apart there: shift it less"
+        )
+    parts = tuple(part._replace(shift=part.shift + dx) for part in parts_of(profile))
+    return _made(parts, (lo + dx, hi + dx))
 
 
-@dataclass(frozen=True, repr=False, eq=False)
-class Mirrored(_OfOne):
+def mirrored(profile: Profile) -> Profile:
     """h(-x)."""
-
-    @cached_property
-    def reach(self) -> tuple[float, float]:
-        """The domain, to rounding."""
-        lo, hi = _reach(self.profile)
-        return -hi, -lo
-
-    @cached_property
-    def axis(self) -> float | None:
-        """The axis of the given profile, mirrored at x = 0."""
-        return None if self.profile.axis is None else -self.profile.axis
-
-    @override
-    def mirrored(self) -> Profile:
-        return self.profile
+    lo, hi = _reach(profile)
+    return _made(tuple(part.mirrored() for part in parts_of(profile)), (-hi, -lo))
 
 
-@dataclass(frozen=True, repr=False, eq=False)
-class Raised(_OfOne):
+def raised(profile: Profile, dz: float) -> Profile:
     """h(x) + dz."""
-
-    dz: float
-
-    @property
-    @override
-    def parity(self) -> Parity:
-        return self.profile.parity
-
-    @override
-    def raised(self, dz: float) -> Profile:
-        return self.profile.raised(self.dz + arguments.measure("raised", dz))
+    first, *others = parts_of(profile)
+    return _made((first._replace(rise=first.rise + dz), *others), _reach(profile))
 
 
-@dataclass(frozen=True, repr=False, eq=False)
-class Sum(Derived):
-    """The sum of two profiles, on the intersection of their domains; sums of sums are flattened."""
+def added(first: Profile, second: Profile) -> Profile:
+    """The sum, on the intersection of both domains. ValueError where there is none."""
+    one, other = _reach(first), _reach(second)
+    lo, hi = max(one[0], other[0]), min(one[1], other[1])
+    if not lo < hi:
+        raise ValueError(
+            f"profiles on {one} and {other} do not overlap: shift one of them before adding"
+        )
+    return Composite(parts_of(first) + parts_of(second), (lo, hi))
 
-    first: Profile
-    second: Profile
 
-    @cached_property
-    def reach(self) -> tuple[float, float]:
-        """The intersection of both domains. ValueError where there is none."""
-        one, other = _reach(self.first), _reach(self.second)
-        lo, hi = max(one[0], other[0]), min(one[1], other[1])
-        if not lo < hi:
-            raise ValueError(
-                f"profiles on {one} and {other} do not overlap: shift one of them before adding"
-            )
-        return lo, hi
+def _reach(profile: Profile) -> Pair:
+    """The domain, to rounding."""
+    return profile.reach if isinstance(profile, Composite) else profile.domain
 
-    @cached_property
-    def axis(self) -> float | None:
-        """The axis that both profiles have, None if they have none in common."""
-        return self.first.axis if self.first.axis == self.second.axis else None
 
-    @cached_property
-    def terms(self) -> tuple[Profile, ...]:
-        """The profiles that are added, none of which is a sum."""
-        terms: list[Profile] = []
-        todo: list[Profile] = [self]
-        while todo:
-            node = todo.pop()
-            if isinstance(node, Sum):
-                todo += (node.second, node.first)
-            else:
-                terms.append(node)
-        return tuple(terms)
-
-    @property
-    @override
-    def operands(self) -> tuple[Profile, ...]:
-        return self.terms
-
-    @property
-    @override
-    def step(self) -> tuple[Any, ...]:
-        return Sum, len(self.terms)
+def _made(parts: tuple[Placed, ...], reach: Pair) -> Profile:
+    """The sum of parts; the profile itself where it is one that stands where it stood."""
+    first = parts[0].profile
+    return first if parts == (Placed(first),) else Composite(parts, reach)
 
 
 def integrated(profile: Profile, x: Array) -> Array:

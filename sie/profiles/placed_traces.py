@@ -13,7 +13,7 @@ from sie.errors import ContactError
 from . import fitting
 from .base import Profile
 from .closed_trace import spline_of
-from .derived import Derived, Placed
+from .derived import Placed, parts_of, total_tilt
 from .row import Periodic
 from .sampled import Sampled
 
@@ -51,7 +51,7 @@ class PlacedTrace(NamedTuple):
 
         The spline is periodic if traces with this period are and the ends of this one meet.
         """
-        spline = spline_of(Placed(other, self.direction, 0.0, self.tilt), period)
+        spline = spline_of(Placed(other, self.direction, self.tilt), period)
         heights: Array = spline.height(np.clip(self.trace.points, *spline.domain))
         return self.trace.heights - heights
 
@@ -69,10 +69,10 @@ class PlacedTrace(NamedTuple):
 def traces_in(profile: Profile) -> Iterator[PlacedTrace]:
     """The traces in a profile that may be tilted, shifted, mirrored, added and repeated."""
     profile = profile.profile if isinstance(profile, Periodic) else profile
-    parts = profile.placed if isinstance(profile, Derived) else (Placed(profile, 1.0, 0.0, 0.0),)
-    for part, sign, shift, tilt in parts:
-        if isinstance(part, Sampled):
-            yield PlacedTrace(part, sign, -sign * shift, tilt)
+    tilt = total_tilt(profile)
+    for part in parts_of(profile):
+        if isinstance(part.profile, Sampled):
+            yield PlacedTrace(part.profile, part.sign, -part.sign * part.shift, tilt)
 
 
 def smoothing_remedy(profile: Profile) -> str:

@@ -23,7 +23,7 @@ from sie.inheritance import override
 
 from .base import Profile, of_any_x
 from .closed_trace import closed, open_seams
-from .derived import Derived, joined
+from .derived import joined, parts_of
 from .lowest_profile import finite_ends, inside, lowest_of
 from .slope import FunctionTerm, Slope
 
@@ -370,9 +370,5 @@ class Periodic(Profile):
 
 def asks_for_patches(profile: Profile) -> bool:
     """Whether a profile is a row or periodic, or made of rows: one patch is then not sought."""
-    parts = profile.placed if isinstance(profile, Derived) else ()
-    return (
-        profile.period < np.inf
-        or isinstance(profile, Row)
-        or any(isinstance(part.profile, Row) for part in parts)
-    )
+    rows = (isinstance(part.profile, Row) for part in parts_of(profile))
+    return profile.period < np.inf or any(rows)

@@ -7,10 +7,8 @@ from dataclasses import replace
 
 from sie.errors import ContactError
 from sie.problem.scene import Scene, refuse_no_scene
-from sie.profiles.base import Profile
-from sie.profiles.derived import Derived
+from sie.profiles.derived import with_part
 from sie.profiles.placed_traces import traces_in
-from sie.profiles.sampled import Sampled
 from sie.profiles.splines import longest_lambda
 from sie.progress_bar import reported, step_done
 from sie.solution import solve
@@ -68,7 +66,7 @@ def least_smoothing(scene: Scene, tol: float = 1e-13) -> float:
 
     def one_patch(lam: float) -> bool:
         step_done()
-        smooth = replace(scene, profile=_replaced(scene.profile, trace, trace.smoothed(lam)))
+        smooth = replace(scene, profile=with_part(scene.profile, trace, trace.smoothed(lam)))
         try:
             _ = solve(smooth, tol).one_patch()
         except ContactError:
@@ -97,8 +95,3 @@ def least_smoothing(scene: Scene, tol: float = 1e-13) -> float:
 def _rounded_up(lam: float) -> float:
     digit = 10.0 ** (math.floor(math.log10(lam)) + 1 - DIGITS)
     return float(f"{math.ceil(lam / digit) * digit:.{DIGITS - 1}e}")
-
-
-def _replaced(profile: Profile, old: Sampled, new: Sampled) -> Profile:
-    """The profile with another trace in the place of one."""
-    return profile.with_part(old, new) if isinstance(profile, Derived) else new

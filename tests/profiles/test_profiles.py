@@ -240,7 +240,7 @@ def chain(terms):
 
 DEEP = {
     "sum": lambda: chain(1500),
-    "sum of modified sums": lambda: nested(1500),
+    "sum of modified sums": lambda: nested(300),
     "sum on the right": lambda: right_handed(1500),
 }
 
