@@ -79,7 +79,6 @@ class Sampled(SplineProfile):
     heights: Array
     smoothing: Smoothing
     mended: Mended
-    source: str
     reading: Reading
 
     def __init__(
@@ -91,9 +90,7 @@ class Sampled(SplineProfile):
         object.__setattr__(self, "points", points)
         object.__setattr__(self, "heights", heights)
         object.__setattr__(self, "smoothing", smoothing_of(smoothing, points))
-        object.__setattr__(self, "mended", mended)
-        object.__setattr__(self, "source", "")
-        object.__setattr__(self, "reading", Reading())
+        self._noted(mended, Reading())
 
     @classmethod
     def read(
@@ -139,7 +136,6 @@ class Sampled(SplineProfile):
         Returns
         -------
         Sampled
-            Printed as the call that reads it.
 
         Raises
         ------
@@ -152,7 +148,7 @@ class Sampled(SplineProfile):
         Examples
         --------
         >>> Sampled.read("pad.csv", units="um", length="mm", heights="surface")  # doctest: +SKIP
-        Sampled.read('pad.csv', units='um', heights='surface', length='mm')
+        Sampled(x=<201 points from -2 to 2 in pad.csv>, h=<from 0 to 0.01>)
         """
         x, h, in_head = read_trace(path, columns, skip, keep_missing=mend)
         known, file, side = stated(units), Path(path).name, side_of(heights, scale)
@@ -160,32 +156,16 @@ class Sampled(SplineProfile):
         x, h = scaled(x, h, factors(file, known, length, scale))
         made = cls(x, as_gap(h) if heights == "surface" else h, smoothing, mend)
         converted, factor = length if any(known) else "", "" if scale is None else repr(scale)
-        given = {
-            "columns": (columns, (0, 1)),
-            "scale": (scale, None),
-            "skip": (skip, 0),
-            "units": (units, ""),
-            "heights": (heights, ""),
-            "length": (converted, ""),
-            "smoothing": (smoothing, 0.0),
-            "mend": (mend, False),
-        }
-        options = "".join(
-            f", {name}={value!r}" for name, (value, default) in given.items() if value != default
-        )
-        object.__setattr__(made, "source", f"Sampled.read({str(path)!r}{options})")
-        object.__setattr__(made, "reading", Reading(file, known, converted, factor, side))
-        return made
+        return made._noted(made.mended, Reading(file, known, converted, factor, side))
 
     def __repr__(self) -> str:
-        if self.source:
-            return self.source
         x, h = self.points, self.heights
         if len(x) <= SHOWN:
             named = f"x={tuple(x.tolist())!r}, h={tuple(h.tolist())!r}"
         else:
+            file = f" in {self.reading.file}" if self.reading.file else ""
             named = (
-                f"x=<{len(x)} points from {x[0]:.6g} to {x[-1]:.6g}>, "
+                f"x=<{len(x)} points from {x[0]:.6g} to {x[-1]:.6g}{file}>, "
                 f"h=<from {h.min():.6g} to {h.max():.6g}>"
             )
         return f"Sampled({named}{f', smoothing={self.smoothing!r}' if self.smoothing else ''})"
@@ -301,7 +281,7 @@ class Sampled(SplineProfile):
         >>> Sampled([0, 1, 2, 3], [0, 1, 4, 9]).smoothed(0.5).lam
         0.5
         """
-        return self._remade(self.points, self.heights, smoothing, f"smoothed({smoothing!r})")
+        return self._remade(self.points, self.heights, smoothing)
 
     def without_outliers(self) -> Sampled:
         """The trace without the points that stand out of its noise, `outliers`.
@@ -318,7 +298,7 @@ class Sampled(SplineProfile):
         100
         """
         x, h = (np.delete(values, self.outliers) for values in (self.points, self.heights))
-        return self._remade(x, h, self.smoothing, "without_outliers()")
+        return self._remade(x, h, self.smoothing)
 
     def levelled(self, between: tuple[float, float] | None = None) -> Sampled:
         """The trace less a least-squares line.
@@ -354,8 +334,7 @@ class Sampled(SplineProfile):
             )
         offset, slope = fitting.line(self.points[part], self.heights[part])
         heights = self.heights - (offset + slope * self.points)
-        call = "levelled()" if between is None else f"levelled({between!r})"
-        return self._remade(self.points, heights, self.smoothing, call)
+        return self._remade(self.points, heights, self.smoothing)
 
     def fit_rounded_flat(self) -> fitting.RoundedFlatFit:
         """The rounded flat nearest to the measured points, by least squares.
@@ -389,10 +368,12 @@ class Sampled(SplineProfile):
         """
         return fitting.rounded_flat(self.points, self.heights)
 
-    def _remade(self, x: Array, h: Array, smoothing: Smoothing, call: str) -> Sampled:
-        """Another trace made by a call of a method, which is how one from a file is printed."""
-        made = Sampled(x, h, smoothing)
-        object.__setattr__(made, "mended", self.mended)
-        object.__setattr__(made, "reading", self.reading)
-        object.__setattr__(made, "source", f"{self.source}.{call}" if self.source else "")
-        return made
+    def _remade(self, x: Array, h: Array, smoothing: Smoothing) -> Sampled:
+        """Another trace that is made of this one."""
+        return Sampled(x, h, smoothing)._noted(self.mended, self.reading)
+
+    def _noted(self, mended: Mended, reading: Reading) -> Sampled:
+        """The trace, which was just built, with what was mended and how it was read."""
+        object.__setattr__(self, "mended", mended)
+        object.__setattr__(self, "reading", reading)
+        return self
