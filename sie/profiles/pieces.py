@@ -238,7 +238,9 @@ class Pieces:
 
     def H(self, x: Array) -> Array:
         """H at places x, by the pieces that they are on."""
-        return np.asarray(self.value(0 if len(self.origins) == 1 else self.locate(x), x, 0.0))
+        if len(self.origins) == 1 and not self.coefficients.any():  # of a function, and fast
+            return np.asarray(chebyshev.evaluate(self.series[0], (x - self._centre) / self._half))
+        return np.asarray(self.value(self.locate(x), x, 0.0))
 
     def missed(self, slope: Callable[[Array], Array], x: Array) -> Array:
         """The places among x of a window on which the pieces differ from a function.

@@ -159,21 +159,10 @@ class Piecewise(Profile):
             for row, (lo, hi) in zip(given, pairwise(self.ends), strict=True)
         ]
         c = [[float(v) for v in row] for _, row in rows]
-        tails = np.array([float(exact[0] - Fraction(row[0])) for (_, exact), row in zip(rows, c)])
+        tails = np.array(
+            [(float(exact[0] - Fraction(row[0])), 0.0) for (_, exact), row in zip(rows, c)]
+        )
         return polynomial_slope(self.ends, [o for o, _ in rows], c, tails)
-
-    @of_any_x
-    @override
-    def height(self, x: Array) -> Array:
-        zero = min(max(0.0, self.ends[0]), self.ends[-1])
-        lo, hi = np.minimum(x, zero), np.maximum(x, zero)
-        h = np.zeros(np.shape(x))
-        for row, (left, right) in zip(self.coefficients, pairwise(self.ends), strict=True):
-            integral = polynomial.polyint(row)
-            a, b = np.clip(lo, left, right), np.clip(hi, left, right)
-            h = h + (polynomial.polyval(b, integral) - polynomial.polyval(a, integral))
-        h = np.where(x < zero, -h, h)
-        return np.where((x < self.ends[0]) | (x > self.ends[-1]), INF, h)
 
     @cached_property
     def axis(self) -> float | None:

@@ -382,12 +382,12 @@ def polynomial_slope(
     coefficients: Sequence[Sequence[float]],
     tails: Array | float = 0.0,
 ) -> Slope:
-    """A Slope from rows of polynomial coefficients of unequal length, and tails of the first."""
+    """A Slope from rows of polynomial coefficients of unequal length, and their tails."""
     width = max(len(row) for row in coefficients)
     c = np.array([[*row, *[0.0] * (width - len(row))] for row in coefficients], dtype=float)
     degrees = np.array([max(len(row) - 1, 0) for row in coefficients], dtype=np.int64)
     ends, origin = np.asarray(breaks, dtype=float), np.asarray(origins, dtype=float)
-    return Slope(ends, origin, c, degrees, tails=np.multiply.outer(tails, (1.0, 0.0)))
+    return Slope(ends, origin, c, degrees, tails=tails)
 
 
 def _distance(origins: Array, breaks: Array) -> Array:
