@@ -16,8 +16,7 @@ from numpy.typing import NDArray
 
 from sie.numerics import chebyshev
 from sie.numerics.interval import Interval
-from sie.profiles.slope import SEEN_JUMP, Slope
-from sie.profiles.slope_row import Row
+from sie.profiles.slope import SEEN_JUMP, Row, Slope
 from sie.traction.piece_quadrature import (
     NARROW_ANGLE,
     Geometry,

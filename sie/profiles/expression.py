@@ -24,27 +24,12 @@ from sie.arguments import nearest, shortened
 Array = NDArray[np.float64]
 
 _ARGUMENTS = {
-    1: (
-        *(
-            "sin",
-            "cos",
-            "tan",
-            "arcsin",
-            "arccos",
-            "arctan",
-            "sinh",
-            "cosh",
-            "tanh",
-            "arcsinh",
-            "arccosh",
-            "arctanh",
-        ),
-        *("exp", "expm1", "log", "log1p", "sqrt", "cbrt", "abs", "sign"),
-    ),
-    2: ("arctan2", "hypot", "minimum", "maximum", "heaviside"),
-    3: ("where",),
+    1: "sin cos tan arcsin arccos arctan sinh cosh tanh arcsinh arccosh arctanh "
+    "exp expm1 log log1p sqrt cbrt abs sign",
+    2: "arctan2 hypot minimum maximum heaviside",
+    3: "where",
 }
-_ARITY = {name: n for n, names in _ARGUMENTS.items() for name in names}
+_ARITY = {name: n for n, names in _ARGUMENTS.items() for name in names.split()}
 _CONSTANTS = {"pi": np.pi, "e": np.e}
 NAMES = (*_ARITY, *_CONSTANTS)
 _OPERATORS: dict[type[ast.AST], Callable[..., Any]] = {

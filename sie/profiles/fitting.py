@@ -3,8 +3,7 @@
     h = c + t x + (|x - x0| - a)_+² / (2R)    flat |x - x0| <= a, arcs of radius R, tilt t
 
 c, t and 1/R enter linearly, so that only x0 and a are searched for (variable projection, Golub &
-Pereyra 1973). Both are scanned first, because a trace of a nearly flat pad has other minima. Least
-squares with all five parameters follow.
+Pereyra 1973). Both are scanned first, because a trace of a nearly flat pad has other minima.
 """
 
 from __future__ import annotations
@@ -201,30 +200,17 @@ def rounded_flat(x: Array, h: Array) -> RoundedFlatFit:
     m, r = 0.5 * float(x[0] + x[-1]), 0.5 * float(x[-1] - x[0])
     scale = float(np.ptp(h)) or 1.0
     s, y = (x - m) / r, (h - h.mean()) / scale
-
-    def model(s0: float, a: float) -> Array:
-        return np.stack(
-            (np.ones_like(s), s, 0.5 * np.maximum(np.abs(s - s0) - a, 0.0) ** 2), axis=1
-        )
-
-    start = _scanned(s, y)
-    linear = np.linalg.lstsq(model(*start), y, rcond=None)[0]
     fit = least_squares(
-        lambda v: model(v[0], v[1]) @ v[2:] - y,
-        [*start, *linear],
-        xtol=1e-14,
-        ftol=1e-14,
-        gtol=1e-14,
+        lambda v: _nearest(s, y, *v)[1], _scanned(s, y), xtol=1e-14, ftol=1e-14, gtol=1e-14
     )
-    s0, a, c, t, curvature = fit.x.tolist()
-    a = abs(a)
+    s0, a = float(fit.x[0]), abs(float(fit.x[1]))
+    (c, t, curvature), misfit = _nearest(s, y, s0, a)
     rises = np.abs(s - s0) > a
     if curvature <= 0.0 or not (rises & (s < s0)).any() or not (rises & (s > s0)).any():
         raise ValueError(
             "no flat with rounded edges is near this trace: it must rise on both sides of a base; "
             'a trace of surface heights is read by heights = "surface", or turned over as -h'
         )
-    residuals = h - (scale * (model(s0, a) @ [c, t, curvature]) + h.mean())
     tilt = scale * t / r
     return RoundedFlatFit(
         half_flat=a * r,
@@ -232,24 +218,25 @@ def rounded_flat(x: Array, h: Array) -> RoundedFlatFit:
         centre=m + s0 * r,
         tilt=tilt,
         offset=scale * c + float(h.mean()) - tilt * m,
-        residuals=tuple(residuals.tolist()),
+        residuals=tuple((-scale * misfit).tolist()),
     )
+
+
+def _nearest(s: Array, y: Array, s0: float, a: float) -> tuple[list[float], Array]:
+    """([c, t, 1/R] of the least squares for given s0 and a, the misfit)."""
+    arcs = 0.5 * np.maximum(np.abs(s - s0) - a, 0.0) ** 2
+    A = np.stack((np.ones_like(s), s, arcs), axis=1)
+    linear = np.linalg.lstsq(A, y, rcond=None)[0]
+    return linear.tolist(), A @ linear - y
 
 
 def _scanned(s: Array, y: Array) -> tuple[float, float]:
     """(s0, a) with the least sum of squares on a grid, among arcs that rise."""
     step = max(len(s) // MOST_SCANNED, 1)
-    s, y = s[::step], y[::step]
     best, place = np.inf, (0.0, 0.5)
     for s0 in np.linspace(-0.8, 0.8, SCAN).tolist():
         for a in np.linspace(0.0, 0.95, SCAN).tolist():
-            arcs = 0.5 * np.maximum(np.abs(s - s0) - a, 0.0) ** 2
-            A = np.stack((np.ones_like(s), s, arcs), axis=1)
-            normal = A.T @ A
-            if np.linalg.cond(normal) > 1e12:
-                continue
-            c = np.linalg.solve(normal, A.T @ y)
-            misfit = float(((y - A @ c) ** 2).sum())
-            if c[2] > 0.0 and misfit < best:
-                best, place = misfit, (s0, a)
+            (_, _, curvature), misfit = _nearest(s[::step], y[::step], s0, a)
+            if curvature > 0.0 and misfit @ misfit < best:
+                best, place = float(misfit @ misfit), (s0, a)
     return place

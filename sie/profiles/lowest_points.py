@@ -98,7 +98,8 @@ def _candidates(
     if not moving.size:
         return [(float(ends[0, 0]), float(ends[-1, 1]))]
     if sign[moving[0]] > 0:
-        found.append((float(ends[0, 0]), _left_end(slope, ends, x, piece, moving[0])))
+        k = int(piece[moving[0]])
+        found.append((float(ends[0, 0]), _root(slope, k, ends[k, 0], x[moving[0]])))
     turn = np.flatnonzero((sign[moving[:-1]] < 0) & (sign[moving[1:]] > 0))
     if len(turn) > SHORTLIST:
         height = np.concatenate(([0.0], np.cumsum(np.diff(x) * 0.5 * (H[1:] + H[:-1]))))
@@ -106,12 +107,8 @@ def _candidates(
     for i, j in zip(moving[turn].tolist(), moving[turn + 1].tolist(), strict=True):
         found.append(_change(slope, ends, (x[i], int(piece[i])), (x[j], int(piece[j]))))
     if sign[moving[-1]] < 0:
-        found.append(
-            (
-                _root(slope, int(piece[moving[-1]]), x[moving[-1]], ends[piece[moving[-1]], 1]),
-                float(ends[-1, 1]),
-            )
-        )
+        k = int(piece[moving[-1]])
+        found.append((_root(slope, k, x[moving[-1]], ends[k, 1]), float(ends[-1, 1])))
     return found
 
 
@@ -132,10 +129,6 @@ def _change(
     if z1 < end - ROUNDING * float(np.spacing(abs(end))):
         return z1, z1
     return (z2, z2) if z2 > start + ROUNDING * float(np.spacing(abs(start))) else (end, start)
-
-
-def _left_end(slope: Slope, ends: Array, x: Array, piece: NDArray[np.int64], i: int) -> float:
-    return _root(slope, int(piece[i]), ends[piece[i], 0], x[i])
 
 
 def _root(slope: Slope, k: int, lo: float, hi: float) -> float:

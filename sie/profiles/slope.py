@@ -15,15 +15,13 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any, Literal
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from sie import arguments
 from sie.numerics.interval import EPS, recentred, two_sum
-
-from .slope_row import Row
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
@@ -52,6 +50,25 @@ class FunctionTerm:
             if self.sign > 0.0:
                 return arguments.real_values("slope", self.function, offset)
             return -arguments.real_values("slope", self.function, -offset)
+
+
+class Row(NamedTuple):
+    """One piece of a slope as plain floats, which cost less than arrays where there are few.
+
+    Its coefficients are high order first.
+    """
+
+    lo: float
+    hi: float
+    origin: float
+    coefficients: tuple[float, ...]
+
+    def at(self, x: float) -> float:
+        """H at x."""
+        value = 0.0
+        for c in self.coefficients:
+            value = value * (x - self.origin) + c
+        return value
 
 
 @dataclass(frozen=True, eq=False)
@@ -229,20 +246,11 @@ class Slope:
         j = int(np.searchsorted(self.breaks, x))
         if not 0 < j < len(self.origins):
             return 0.0, 0.0
-        if self.few:  # a flat piece has no row
-            lower, upper = (
-                next((row for row in self.rows if row[end] == x), Row(x, x, x, ()))
-                for end in (1, 0)
-            )
-            below, above, kink = lower.at(x), upper.at(x), upper.steepness(x) - lower.steepness(x)
-        else:
-            k = np.array([j - 1, j])
-            start = np.array([x, x])
-            ulp = np.spacing(abs(x)) if self.functions else 0.0
-            beside = self.local(k, start, np.zeros(2), np.array([[-ulp], [ulp]]))
-            below, above = beside[:, 0].tolist()
-            steep = self.local_derivative(k, start, np.zeros(2), np.zeros((2, 1)))
-            kink = float(steep[1, 0] - steep[0, 0]) if isinstance(steep, np.ndarray) else 0.0
+        k, start, tail = np.array([j - 1, j]), np.array([x, x]), np.zeros(2)
+        ulp = np.spacing(abs(x)) if self.functions else 0.0
+        below, above = self.local(k, start, tail, np.array([[-ulp], [ulp]]))[:, 0].tolist()
+        steep = self.local_derivative(k, start, tail, np.zeros((2, 1)))
+        kink = float(steep[1, 0] - steep[0, 0]) if isinstance(steep, np.ndarray) else 0.0
         rounding = (SEEN_JUMP if self.functions else JUMP) * max(abs(below), abs(above))
         return (float(above - below) if abs(above - below) > rounding else 0.0), kink
 
