@@ -147,109 +147,101 @@ def test_a_contact_that_would_reach_the_end_of_the_trace_is_refused():
 # -- files -----------------------------------------------------------------------------------------
 
 
-TABLE = [
-    (x, h) for x, h in zip([-2.0, -1.0, 0.0, 1.0, 2.5], [4.0, 1.25, 0.0, 1.5, 6.0], strict=True)
-]
+TABLE = list(zip([-2.0, -1.0, 0.0, 1.0, 2.5], [4.0, 1.25, 0.0, 1.5, 6.0], strict=True))
+READ = sie.Sampled(*zip(*TABLE, strict=True))
 
 
-@pytest.mark.parametrize(
-    "text",
-    [
-        "x,h\n" + "\n".join(f"{x},{h}" for x, h in TABLE),
-        "# from a stylus\n# x h\n" + "\n".join(f"{x}  {h}   # point" for x, h in TABLE),
-        "Weg [mm];Höhe [mm]\n" + "\n".join(f"{x};{h}".replace(".", ",") for x, h in TABLE),
-        "\n".join(f"{x}\t{h}\t17" for x, h in TABLE) + "\n\n",
-        "% 3 lines\nfrom\nhere on\n" + "\n".join(f'"{x}","{h:e}"' for x, h in TABLE),
-        "\n".join(f"{x} {h}" for x, h in TABLE).replace("\n", "\r\n"),
-        "x h\n" + "\n".join(f"{x}  {h}".replace(".", ",") for x, h in TABLE),
-        "a trace of 5 points in 2 columns\n"
-        + "\n".join(f"{x}\t{h}".replace("\t", "  ") for x, h in TABLE),
-    ],
-    ids=[
-        "comma",
-        "blanks",
-        "semicolon",
-        "tab",
-        "quoted",
-        "windows",
-        "decimal commas between blanks",
-        "numbers in a sentence",
-    ],
-)
+def lines(form):
+    return "\n".join(form.format(k=k, x=x, h=h) for k, (x, h) in enumerate(TABLE))
+
+
+TEXTS = {
+    "comma": "x,h\n" + lines("{x},{h}"),
+    "blanks": "# from a stylus\n# x h\n" + lines("{x}  {h}   # point"),
+    "semicolon": "Weg [mm];Höhe [mm]\n" + lines("{x};{h}").replace(".", ","),
+    "tab": lines("{x}\t{h}\t17") + "\n\n",
+    "quoted": "% 3 lines\nfrom\nhere on\n" + lines('"{x}","{h:e}"'),
+    "windows": lines("{x} {h}").replace("\n", "\r\n"),
+    "decimal commas between blanks": "x h\n" + lines("{x}  {h}").replace(".", ","),
+    "numbers in a sentence": "a trace of 5 points in 2 columns\n" + lines("{x}  {h}"),
+}
+
+
+@pytest.fixture
+def trace(tmp_path):
+    """The trace in a file of a text, read with options."""
+
+    def trace(text, *columns, encoding="utf-8", **options):
+        file = tmp_path / "trace.csv"
+        file.write_text(text, encoding=encoding, newline="")
+        return sie.Sampled.read(file, *columns, **options)
+
+    return trace
+
+
+@pytest.mark.parametrize("text", TEXTS.values(), ids=TEXTS)
 @pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "latin-1", "utf-16"])
-def test_text_in_common_formats_is_read(text, encoding, tmp_path):
-    file = tmp_path / "trace.csv"
-    file.write_bytes(text.encode(encoding))
-    assert sie.Sampled.read(file) == sie.Sampled(*zip(*TABLE, strict=True))
+def test_text_in_common_formats_is_read(text, encoding, trace):
+    assert trace(text, encoding=encoding) == READ
 
 
 @pytest.mark.parametrize("scale", [1e308, (1e308, 1.0), (1.0, -1e308)])
-def test_a_scale_beyond_the_range_of_doubles_is_refused(scale, tmp_path):
-    file = tmp_path / "trace.csv"
-    file.write_text("".join(f"{x},{x * x}\n" for x in range(-20, 21)))
-    with pytest.raises(
-        ValueError, match=r"scale = .*beyond the range of doubles: choose other units"
-    ):
-        sie.Sampled.read(file, scale=scale)
+def test_a_scale_beyond_the_range_of_doubles_is_refused(scale, trace):
+    says = r"scale = .*beyond the range of doubles: choose other units"
+    with pytest.raises(ValueError, match=says):
+        trace("".join(f"{x},{x * x}\n" for x in range(-20, 21)), scale=scale)
 
 
-def test_columns_scale_and_skip(tmp_path):
-    file = tmp_path / "trace.txt"
-    file.write_text(
-        "1 2 3\nno, height (um), x (um)\n"
-        + "\n".join(f"{k}, {-1000 * h}, {1000 * x}" for k, (x, h) in enumerate(TABLE))
+def test_columns_are_named_as_in_the_header_or_by_number_and_scaled(trace):
+    text = "1 2 3\nno, height (um), X [um]\n" + "\n".join(
+        f"{k}, {-1000 * h}, {1000 * x}" for k, (x, h) in enumerate(TABLE)
     )
-    found = sie.Sampled.read(file, columns=("x", "height"), scale=(1e-3, -1e-3), skip=1)
-    assert found.points == pytest.approx([x for x, _ in TABLE])
-    assert found.heights == pytest.approx([h for _, h in TABLE])
-    assert sie.Sampled.read(file, columns=(2, 1), scale=(1e-3, -1e-3), skip=1) == found
+    options = {"scale": (1e-3, -1e-3), "skip": 1}
+    found = trace(text, ("x", "height"), **options)
+    assert found.points == pytest.approx(READ.points)
+    assert found.heights == pytest.approx(READ.heights)
+    for columns in (("X [um]", "height (um)"), (2, 1), tuple(np.array([2, 1]))):
+        assert trace(text, columns, **options) == found
+    assert trace("7 7\n" + lines("{h} {x}"), (1, 0), skip=np.int64(1)) == READ
 
 
-def test_a_column_may_be_named_as_in_the_header_with_its_unit(tmp_path):
-    file = tmp_path / "trace.csv"
-    file.write_text(
-        "n,X (um),Z [um]\n" + "\n".join(f"{k},{x},{h}" for k, (x, h) in enumerate(TABLE))
-    )
-    assert (
-        sie.Sampled.read(file, columns=("X (um)", "Z [um]"), length="um")
-        == sie.Sampled.read(file, columns=("x", "z"), length="um")
-        == sie.Sampled.read(file, (1, 2), length="um")
-    )
+@pytest.mark.parametrize(
+    ("text", "options", "says"),
+    [
+        ("-1,\n0,0\n1,nan\n", {}, "lacks a value in lines 3, 5: delete such lines"),
+        ("-1,\n0,0\n", {"skip": 3}, "lacks a value in line 6:"),
+        ("-1,abc\n0,0\n1,1\n", {}, "text where a number is wanted, in line 3"),
+        ("-1,abc\n0,0\n", {"skip": 1}, "text where a number is wanted, in line 4"),
+        ("-1,1\n0,0\n", {"columns": ("x", "z")}, "no column 'z', its header names x, h"),
+    ],
+)
+def test_missing_values_of_a_file_are_named_by_their_lines(text, options, says, trace):
+    before = "of an instrument\n" * options.get("skip", 0)
+    with pytest.raises(ValueError, match=says):
+        trace(f"{before}x,h\n-2,4\n{text}2,4\n3,9\n4,16\n", **options)
 
 
-def test_numbers_of_columns_and_lines_may_be_numpy_s(tmp_path):
-    file = tmp_path / "trace.txt"
-    file.write_text("7 7\n" + "\n".join(f"{h} {x}" for x, h in TABLE))
-    assert sie.Sampled.read(file, columns=tuple(np.array([1, 0])), skip=np.int64(1)) == sie.Sampled(
-        *zip(*TABLE, strict=True)
-    )
+def test_lines_that_lack_a_value_are_left_out_if_that_is_asked(trace):
+    assert trace("x,h\n-2,4\n-1,\n0,0\n1,nan\n2,4\n3,9\n", mend=True).points.tolist() == [
+        *(-2, 0, 2, 3)
+    ]
 
 
-def test_missing_values_of_a_file_are_named_by_their_lines(tmp_path):
-    file = tmp_path / "trace.csv"
-    file.write_text("x,h\n-2,4\n-1,\n0,0\n1,nan\n2,4\n3,9\n4,16\n")
-    with pytest.raises(ValueError, match="lacks a value in lines 3, 5: delete such lines"):
-        sie.Sampled.read(file)
-    assert sie.Sampled.read(file, mend=True).points.tolist() == [-2, 0, 2, 3, 4]
-    file.write_text("x,h\n-2,4\n-1,abc\n0,0\n1,1\n2,4\n")
-    with pytest.raises(ValueError, match="text where a number is wanted, in line 3"):
-        sie.Sampled.read(file)
-    with pytest.raises(ValueError, match="no column 'z', its header names x, h"):
-        sie.Sampled.read(file, columns=("x", "z"), length="um")
-    with pytest.raises(FileNotFoundError):
-        sie.Sampled.read(tmp_path / "nothing.csv")
+@pytest.mark.parametrize("path", [5, None, ["a.csv"], 1.5], ids=repr)
+def test_what_is_no_name_of_a_file_is_refused(path):
+    with pytest.raises(ValueError, match="is not the name of a file"):
+        sie.Sampled.read(path)
 
 
-@pytest.mark.parametrize("skip", [0, 1, 3])
-def test_skipped_lines_count_in_the_line_numbers_of_messages(skip, tmp_path):
-    file = tmp_path / "trace.csv"
-    table = "-2,4\n-1,\n0,0\n1,abc\n2,4\n3,9\n"
-    file.write_text("of an instrument\n" * skip + table.replace("abc", "1"))
-    with pytest.raises(ValueError, match=f"lacks a value in line {skip + 2}:"):
-        sie.Sampled.read(file, skip=skip)
-    file.write_text("of an instrument\n" * skip + table)
-    with pytest.raises(ValueError, match=f"text where a number is wanted, in line {skip + 4}:"):
-        sie.Sampled.read(file, skip=skip)
+class Scan:
+    dim = 1
+
+    @staticmethod
+    def read_topography(path):
+        return Scan()
+
+    def positions_and_heights(self):
+        return np.arange(5.0), np.ma.masked_array([4.0, 1.0, 0.0, 1.0, 4.0], mask=[0] * 5)
 
 
 def test_other_formats_are_surface_topography_s(tmp_path, monkeypatch):
@@ -258,28 +250,9 @@ def test_other_formats_are_surface_topography_s(tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "SurfaceTopography", None)
     with pytest.raises(ValueError, match=r"plane-contact\[traces\]"):
         sie.Sampled.read(file)
-
-
-def test_a_line_scan_of_surface_topography_is_taken(tmp_path, monkeypatch):
-    class Scan:
-        dim = 1
-
-        def positions_and_heights(self):
-            return np.arange(5.0), np.ma.masked_array(
-                [4.0, 1.0, 0.0, 1.0, 4.0], mask=[0, 0, 0, 0, 0]
-            )
-
-    class Library:
-        @staticmethod
-        def read_topography(path):
-            return Scan()
-
-    monkeypatch.setitem(sys.modules, "SurfaceTopography", Library)
-    file = tmp_path / "trace.opd"
-    file.write_bytes(b"\0\1")
-    assert sie.Sampled.read(file, scale=(1e-3, 1.0)).points == pytest.approx(
-        [0.0, 1e-3, 2e-3, 3e-3, 4e-3]
-    )
+    monkeypatch.setitem(sys.modules, "SurfaceTopography", Scan)
+    read = sie.Sampled.read(file, scale=(1e-3, 1.0))
+    assert read.points == pytest.approx(1e-3 * np.arange(5.0))
 
 
 # -- what a trace is like --------------------------------------------------------------------------

@@ -1,7 +1,6 @@
 """Contacts of sampled profiles: patches, shear, stress, and mesh results beside them."""
 
 import itertools
-import json
 import re
 
 import numpy as np
@@ -11,10 +10,7 @@ from hypothesis import strategies as st
 from traces import H, X, pressed
 
 import sie
-from sie.cli import main
 from sie.contact import normal
-from sie.io import scene_file
-from sie.io.mesh_result import read_mesh
 
 # -- repeated --------------------------------------------------------------------------------------
 
@@ -220,13 +216,8 @@ def test_waves_on_a_base_are_solved_or_refused(height, waves, load):
 
 def test_friction_stress_yield_and_tension_of_a_trace_are_those_of_its_function():
     x = np.linspace(-2.0, 2.0, 401)
-    given = {
-        "modulus": 1.0,
-        "normal_load": 0.5,
-        "friction": 0.5,
-        "tangential_load": 0.1,
-        "poisson": 0.3,
-    }
+    given = {"modulus": 1.0, "normal_load": 0.5, "poisson": 0.3}
+    given |= {"friction": 0.5, "tangential_load": 0.1}
     sampled = sie.solve(sie.Scene(profile=sie.Sampled(x, np.cosh(x) - 1.0), **given))
     exact = sie.solve(sie.Scene(profile=sie.FromFunction(np.sinh, domain=(-2.0, 2.0)), **given))
     assert sampled.check().ok
@@ -237,170 +228,3 @@ def test_friction_stress_yield_and_tension_of_a_trace_are_those_of_its_function(
     assert sampled.stress(at, 0.3).mises == pytest.approx(exact.stress(at, 0.3).mises, abs=1e-8)
     assert sampled.elastic_limit().stress == pytest.approx(exact.elastic_limit().stress, rel=1e-6)
     assert sampled.peak_tension().value == pytest.approx(exact.peak_tension().value, rel=1e-5)
-
-
-# -- a mesh result beside it -----------------------------------------------------------------------
-
-
-SCENE = """
-[profile]
-kind = "rounded-flat"
-half_flat = 0.5
-radius = 10.0
-[body]
-young = 1e4
-poisson = 0.3
-[load]
-normal_load = 100.0
-friction = 0.4
-tangential_load = 20.0
-"""
-
-
-@pytest.fixture
-def mesh(tmp_path, capsys):
-    """A scene file, its solution, and a writer of mesh results."""
-    scene = tmp_path / "scene.toml"
-    scene.write_text(SCENE)
-
-    def run(columns, *options):
-        file = tmp_path / "fem.csv"
-        np.savetxt(
-            file,
-            np.stack([np.ravel(c) for c in columns.values()], axis=1),
-            delimiter=",",
-            header=",".join(columns),
-            comments="",
-        )
-        code = main(["compare", str(scene), str(file), *options])
-        return code, *capsys.readouterr()
-
-    return sie.solve(scene_file.read(str(scene)).scene), run
-
-
-def test_a_mesh_result_passes_or_fails_by_its_l2_error(mesh):
-    solution, run = mesh
-    x = np.linspace(*solution.edges, 101)
-    columns = {"x": x, "CPRESS": 1.02 * solution.pressure(x), "CSHEAR1": solution.shear(x)}
-    assert run(columns, "--tol", "0.03")[0] == 0
-    code, printed, _ = run(columns, "--tol", "0.01")
-    assert code == 1
-    assert "EXCEEDS" in printed
-    assert "l2     2.000e-02" in printed
-
-
-def test_nodes_that_two_elements_share_leave_the_load_as_it_is(mesh):
-    solution, run = mesh
-    x = np.repeat(np.linspace(*solution.edges, 201), 2)
-    found = json.loads(run({"x": x, "p": solution.pressure(x)}, "--json")[1])["differences"]["p"]
-    assert found["resultant"] == pytest.approx(0.0, abs=1e-2)
-
-
-def test_a_column_called_depth_is_one(mesh):
-    solution, run = mesh
-    x = np.linspace(*solution.edges, 21)
-    code, _, _ = run(
-        {"X-coordinate": x, "depth": np.full(21, 0.4), "S11": solution.stress(x, 0.4).xx}
-    )
-    assert code == 0
-
-
-def test_the_shift_of_a_mesh_is_found(mesh):
-    solution, run = mesh
-    x = np.linspace(*solution.edges, 201)
-    found = json.loads(run({"x": x + 0.01, "p": solution.pressure(x)}, "--json")[1])["differences"][
-        "p"
-    ]
-    assert found["shift"] == pytest.approx(0.01, abs=1e-6)
-    assert found["l2_shifted"] < 1e-6 < found["l2"]
-    assert found["resultant"] == pytest.approx(0.0, abs=1e-2)
-
-
-@pytest.mark.slow
-def test_stresses_in_the_body_are_compared_whichever_way_y_points(mesh, tmp_path):
-    solution, run = mesh
-    x, y = np.meshgrid(np.linspace(-1.0, 1.2, 12), np.linspace(0.0, 1.0, 7))
-    stress = solution.stress(x, y)
-    down = {
-        "x": x,
-        "y": y,
-        "sxx": stress.xx,
-        "syy": stress.yy,
-        "sxy": stress.xy,
-        "szz": stress.zz,
-        "mises": stress.mises,
-    }
-    up = {
-        "x": x,
-        "y": -y,
-        "S-S11": stress.xx,
-        "S-S22": stress.yy,
-        "S-S12": -stress.xy,
-        "S-S33": stress.zz,
-        "S-Mises": stress.mises,
-    }
-    picture = tmp_path / "body.png"
-    for columns in (down, up):
-        code, printed, _ = run(columns, "--tol", "1e-12", "--plot", str(picture))
-        assert code == 0, printed
-    assert picture.stat().st_size > 1000
-    assert run(down | {"sxy": -stress.xy}, "--tol", "1e-2")[0] == 1
-
-
-@pytest.mark.parametrize(
-    ("columns", "says"),
-    [
-        ({"x": [0, 0.1], "z": [1, 1]}, "has the columns x, z"),
-        ({"x": [0, 0.1], "y": [-1, 1], "sxx": [1, 1]}, "on one side of y = 0"),
-        ({"x": [0, 0.1], "y": [1, 2], "p": [1, 1]}, "no points of p on the surface"),
-        ({"x": [100, 101], "p": [1, 1]}, "units of length, or the origins"),
-    ],
-)
-def test_a_file_that_cannot_be_compared_is_refused_with_a_reason(columns, says, mesh):
-    code, _, error = mesh[1](columns)
-    assert code == 2
-    assert says in error
-
-
-def test_columns_that_are_not_compared_are_named(mesh, tmp_path):
-    solution, run = mesh
-    x = np.linspace(*solution.edges, 21)
-    columns = {"x": x, "p": solution.pressure(x), "tangential": solution.shear(x)}
-    _, printed, _ = run(columns)
-    assert "not compared: the columns tangential of" in printed
-    assert json.loads(run(columns, "--json")[1])["not_compared"] == ["tangential"]
-    assert "not compared" not in run({"x": x, "p": solution.pressure(x)})[1]
-    bare = tmp_path / "bare.csv"
-    np.savetxt(bare, np.column_stack(list(columns.values())), delimiter=",")
-    assert read_mesh(bare).others == ("2",)
-
-
-@pytest.mark.parametrize(
-    ("factor", "asks"),
-    [
-        (-1.0, "factor -1 fits best, and leaves l2 = 0.000e+00: are the signs"),
-        (1e-6, "factor +1e-06"),
-        (1e6, "units of load"),
-        (1.3, ""),
-    ],
-)
-def test_other_units_and_signs_are_suspected_from_the_factor_that_fits(factor, asks, mesh):
-    solution, run = mesh
-    x = np.linspace(*solution.edges, 101)
-    code, printed, _ = run({"x": x, "p": factor * solution.pressure(x), "q": solution.shear(x)})
-    assert code == 1
-    assert ("factor" in printed) == bool(asks)
-    assert asks in printed
-
-
-def test_noise_is_no_suspicion(mesh):
-    solution, run = mesh
-    x = np.linspace(*solution.edges, 101)
-    noise = np.random.default_rng(0).normal(size=x.shape)
-    assert "factor" not in run({"x": x, "p": noise})[1]
-
-
-@pytest.mark.parametrize("path", [5, None, ["a.csv"], 1.5], ids=repr)
-def test_what_is_no_name_of_a_file_is_refused(path):
-    with pytest.raises(ValueError, match="is not the name of a file"):
-        sie.Sampled.read(path)
