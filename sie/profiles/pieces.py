@@ -110,7 +110,7 @@ class Pieces:
     def locate(self, x: Any, side: Literal["left", "right"] = "right") -> Index:
         """The piece at x; at a break the one on that side of it."""
         k = np.searchsorted(self.breaks, x, side=side) - 1
-        return np.asarray(np.clip(k, 0, len(self.origins) - 1))
+        return np.asarray(np.minimum(np.maximum(k, 0), len(self.origins) - 1))
 
     def value(self, k: Any, anchor: Any, offset: Any) -> Any:
         """H of the pieces k at anchor + offset, continued where that is outside."""

@@ -159,9 +159,8 @@ def in_series(resolved: Slope) -> Pieces:
 
 def one_piece(lo: float, hi: float, c: Array) -> Pieces:
     """One piece by its Chebyshev coefficients."""
-    zero = np.zeros(1)
-    flat = Slope(np.array([lo, hi]), zero, zero[:, None], np.array([len(c) - 1]))
-    return replace(without_functions(flat), series=c[None])
+    zero, solid = np.zeros(1), np.zeros(1, dtype=bool)
+    return Pieces(np.array([lo, hi]), zero, zero[:, None], c[None], solid, zero, zero)
 
 
 def _series(resolved: Slope) -> Array:

@@ -95,7 +95,7 @@ class Slope:
     def locate(self, x: Any, side: Literal["left", "right"] = "right") -> Index:
         """The piece at x; at a break the one on that side of it."""
         k = np.searchsorted(self.breaks, x, side=side) - 1
-        return np.asarray(np.clip(k, 0, len(self.origins) - 1))
+        return np.asarray(np.minimum(np.maximum(k, 0), len(self.origins) - 1))
 
     def local(self, k: Any, start: Array, tail: Array, u: Array) -> Array:
         """H at t = (start + tail) + u on the pieces k, without rounding t.
@@ -173,7 +173,7 @@ class Slope:
     @cached_property
     def degree(self) -> int:
         """The largest degree that resolves a piece."""
-        return int(self.degrees.max())
+        return int(self.degrees.max()) if self.functions else self.coefficients.shape[1] - 1
 
     @cached_property
     def rows(self) -> tuple[Row, ...]:
@@ -197,11 +197,9 @@ class Slope:
     @cached_property
     def few(self) -> bool:
         """Whether plain floats are faster than arrays."""
-        return (
-            not self.functions
-            and len(self.is_zero) - int(self.is_zero.sum()) <= FEW
-            and self.degree <= LOW
-        )
+        if self.functions or self.degree > LOW:
+            return False
+        return len(self.origins) <= FEW or np.count_nonzero(~self.is_zero) <= FEW
 
     @cached_property
     def without_functions(self) -> Slope:
@@ -223,13 +221,17 @@ class Slope:
     @cached_property
     def at_breaks(self) -> tuple[tuple[float, ...], tuple[float, ...]]:
         """The polynomials' H from the left and from the right of every inner break."""
-        if not self.few:
-            left, right = self._sides
-            return tuple(left.tolist()), tuple(right.tolist())
-        ends = self.breaks[1:-1].tolist()  # a flat piece has no row
-        below = {row.hi: row.at(row.hi) for row in self.rows}
-        above = {row.lo: row.at(row.lo) for row in self.rows}
-        return tuple(below.get(b, 0.0) for b in ends), tuple(above.get(b, 0.0) for b in ends)
+        ends = self.breaks[1:-1]
+        if self.few:  # a flat piece has no row
+            below = {row.hi: row.at(row.hi) for row in self.rows}
+            above = {row.lo: row.at(row.lo) for row in self.rows}
+            places = ends.tolist()
+            return tuple(below.get(b, 0.0) for b in places), tuple(
+                above.get(b, 0.0) for b in places
+            )
+        k, zero = np.arange(len(ends)), np.zeros(len(ends))
+        left, right = (self.local(j, ends, zero, zero[:, None])[:, 0] for j in (k, k + 1))
+        return tuple(left.tolist()), tuple(right.tolist())
 
     @cached_property
     def rises(self) -> tuple[tuple[float, float], ...]:
@@ -257,15 +259,6 @@ class Slope:
     def after(self, x: float) -> float:
         """H just right of x, of few pieces."""
         return next((row.at(x) for row in self.rows if row.lo <= x < row.hi), 0.0)
-
-    @cached_property
-    def _sides(self) -> tuple[Array, Array]:
-        inner, k = self.breaks[1:-1], np.arange(len(self.origins))
-        left, right = (
-            self.local(j, inner, np.zeros_like(inner), np.zeros((len(inner), 1)))[:, 0]
-            for j in (k[:-1], k[1:])
-        )
-        return left, right
 
     @cached_property
     def corners(self) -> Array:

@@ -41,6 +41,16 @@ X = np.array([-2.0, 0.5, 3.0])
         ("x.real", "contains 'x.real'"),
         ("", "is not a formula"),
         ("x +* 2", "is not a formula"),
+        ("x; x", "contains ';'"),
+        ("sin(x", "is not a formula"),
+        ("x = 1", "is not a formula"),
+        ("y + x", "uses 'y'"),
+        # nor code
+        ("__import__('os')", "contains"),
+        ("[x]", "contains '['"),
+        ("lambda: x", "contains"),
+        ("open('a')", "contains"),
+        ("x if x else 1", "contains 'if'"),
     ],
 )
 def test_text_that_is_no_formula_is_refused_with_a_suggestion(text, said):
