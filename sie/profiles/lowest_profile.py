@@ -44,7 +44,7 @@ def inside(profiles: tuple[Profile, ...], x: Array) -> Iterator[tuple[int, slice
 
 
 def lowest_of(profiles: tuple[Profile, ...]) -> Runs:
-    """(lo, hi, lowest profile) between all breaks and crossings of the lowest profiles.
+    """(lo, hi, lowest profile) from one crossing or end of the lowest profiles to the next.
 
     The profile is -1 where there is none.
     """
@@ -65,8 +65,16 @@ def lowest_of(profiles: tuple[Profile, ...]) -> Runs:
             pairs = zip(runs[::2], runs[1::2], strict=False)
             merged = [_lower(profiles, slopes, one, other) for one, other in pairs]
             runs = merged + runs[2 * len(merged) :]
-        found += runs[0] if runs else [(lo, hi, -1)]
+        for run in runs[0] if runs else [(lo, hi, -1)]:
+            _append(found, run)
     return found
+
+
+def _append(found: Runs, run: tuple[float, float, int]) -> None:
+    """Add a run behind others, or to the last one of them where the profile is the same."""
+    if found and found[-1][2] == run[2]:
+        run = found.pop()[0], run[1], run[2]
+    found.append(run)
 
 
 def _lower(profiles: tuple[Profile, ...], slopes: list[Slope], one: Runs, other: Runs) -> Runs:
@@ -81,10 +89,7 @@ def _lower(profiles: tuple[Profile, ...], slopes: list[Slope], one: Runs, other:
                 continue
             inner = _inner(a, b)
             k = i if float(profiles[i].height(inner)) <= float(profiles[j].height(inner)) else j
-            if found and found[-1][2] == k:
-                found[-1] = found[-1][0], b, k
-            else:
-                found.append((a, b, k))
+            _append(found, (a, b, k))
     return found
 
 

@@ -83,13 +83,7 @@ class Row(Profile):
     @cached_property
     def lowest(self) -> tuple[tuple[float, float, int], ...]:
         """(lo, hi, which profile is the lowest there), ascending; -1 where there is none."""
-        runs: list[tuple[float, float, int]] = []
-        for lo, hi, k in lowest_of(self.profiles):
-            if runs and runs[-1][2] == k:
-                runs[-1] = runs[-1][0], hi, k
-            else:
-                runs.append((lo, hi, k))
-        return tuple(runs)
+        return tuple(lowest_of(self.profiles))
 
     @cached_property
     def walls(self) -> tuple[tuple[float, float], ...]:

@@ -136,42 +136,36 @@ def factors(file: str, units: tuple[str, str], length: str, scale: Any) -> Any:
     x, h = units
     if not x and not h:
         return 1.0 if scale is None else scale
-    if scale is None and x == h == "mm":
-        length = length or "mm"  # as scene files have it
     head = f"{file} has x in {x or 'no stated unit'} and h in {h or 'no stated unit'}"
-    if scale is None and not (x and h):
+    if scale is not None:
+        if x and h:
+            _refuse_contradiction(head, units, length, scale)
+        return scale
+    if not (x and h):
         raise ValueError(f'{head}: state both, as units = ("{x or h}", "{x or h}")')
-    if scale is None and not unit_named(length):
-        wanted = (
-            f"and length = {length!r} is no unit"
-            if length
-            else "and the unit of the scene is not stated"
-        )
-        raise ValueError(
-            f'{head}, {wanted}: give length = "mm" or another, the unit to convert them to'
-        )
-    if scale is None:
-        return tuple(_ratio(unit, length) for unit in units)
-    given = tuple(scale) if isinstance(scale, (tuple, list)) else (scale, scale)
-    if len(given) == 2 and x and h:
-        _refuse_contradiction(head, units, length, given)
-    return scale
-
-
-def _refuse_contradiction(
-    head: str, units: tuple[str, str], length: str, given: tuple[Any, ...]
-) -> None:
-    """ValueError unless the factors are those of the units, or with no length their ratio."""
-    given = tuple(abs(arguments.finite("scale", f)) for f in given)
-    to = length if unit_named(length) else units[0]
-    wanted = tuple(_ratio(unit, to) for unit in units)
+    length = length or ("mm" if x == h == "mm" else "")  # as scene files have it
     if not unit_named(length):
-        wanted = given[0], given[0] * wanted[1]
+        wanted = f"length = {length!r} is no unit" if length else "the scene's unit is not stated"
+        raise ValueError(
+            f'{head}, and {wanted}: give length = "mm" or another, the unit to convert them to'
+        )
+    return tuple(_ratio(unit, length) for unit in units)
+
+
+def _refuse_contradiction(head: str, units: tuple[str, str], length: str, scale: Any) -> None:
+    """ValueError unless the factors are those of the units, or with no length their ratio."""
+    pair = scale if isinstance(scale, (tuple, list)) else (scale, scale)
+    if len(pair) != 2:
+        return  # which `scaled` refuses
+    given = [abs(arguments.finite("scale", f)) for f in pair]
+    if unit_named(length):
+        wanted = [_ratio(unit, length) for unit in units]
+    else:
+        wanted = [given[0], given[0] * _ratio(units[1], units[0])]
     if any(abs(f - w) > CLOSE * w for f, w in zip(given, wanted, strict=True)):
-        ask = f"({wanted[0]:g}, {wanted[1]:g})"
         raise ValueError(
             f"{head}, which scale = ({given[0]:g}, {given[1]:g}) contradicts: leave scale out, or "
-            f"give {ask}, or units = ... if the head is wrong"
+            f"give ({wanted[0]:g}, {wanted[1]:g}), or units = ... if the head is wrong"
         )
 
 
