@@ -26,7 +26,7 @@ LINES = {
     "paths": 1000,
     "plots": 1100,
     "problem": 1000,
-    "profiles": 5970,
+    "profiles": 5950,
     "stress": 2250,
     "sweeps": 1200,
     "traction": 2800,

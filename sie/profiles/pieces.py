@@ -126,22 +126,31 @@ class Pieces:
 
     def divided(self, k: Any, t: tuple[Any, Any], x: tuple[Any, Any]) -> Any:
         """H[t, x] of the pieces k at two points (anchor, offset)."""
-        return self._divided(self.coefficients.T, self.series.T, k, t, x)
+        power = self.coefficients.T
+        yt, yx = (p[0] - self.origins[k] + p[1] for p in (t, x))
+        value = power[-1][k] + 0.0 * yt
+        slope = np.zeros(np.broadcast(yt, yx).shape, dtype=np.result_type(yt, yx))
+        for c in power[-2::-1]:
+            slope = slope * yx + value
+            value = value * yt + c[k]
+        if self.series.shape[1] > 1:
+            st, sx = (((p[0] - self._centre[k]) + p[1]) / self._half[k] for p in (t, x))
+            slope = slope + _divided_series(self.series.T, k, st, sx) / self._half[k]
+        return slope
 
     def rise(self, k: Any, x: tuple[Any, Any], y: tuple[Any, Any]) -> Any:
         """h(y) - h(x) on the pieces k."""
-        power, series = self._antiderivative
-        return self._divided(power.T, series.T, k, y, x) * ((y[0] - x[0]) + (y[1] - x[1]))
+        return self._height.divided(k, y, x) * ((y[0] - x[0]) + (y[1] - x[1]))
 
     @cached_property
-    def _antiderivative(self) -> tuple[Array, Array]:
+    def _height(self) -> Pieces:
+        """h on the same pieces, each up to a constant of its own."""
         K, D = self.coefficients.shape
-        power = np.zeros((K, D + 1))
+        power, series = np.zeros((K, D + 1)), self.series
         power[:, 1:] = self.coefficients / np.arange(1, D + 1)
-        series = self.series
         if series.shape[1]:
             series = chebyshev.antiderivative(series) * self._half[:, None]
-        return power, series
+        return replace(self, coefficients=power, series=series)
 
     @cached_property
     def derivative(self) -> Pieces:
@@ -176,18 +185,6 @@ class Pieces:
         """Whether H jumps anywhere inside intervals."""
         x = self.breaks[1:-1][self.steps != 0.0]
         return np.asarray(np.searchsorted(x, hi) > np.searchsorted(x, lo, "right"))
-
-    def _divided(self, power: Array, series: Array, k: Any, t: Any, x: Any) -> Any:
-        yt, yx = (p[0] - self.origins[k] + p[1] for p in (t, x))
-        value = power[-1][k] + 0.0 * yt
-        slope = np.zeros(np.broadcast(yt, yx).shape, dtype=np.result_type(yt, yx))
-        for c in power[-2::-1]:
-            slope = slope * yx + value
-            value = value * yt + c[k]
-        if len(series) > 1:
-            st, sx = (((p[0] - self._centre[k]) + p[1]) / self._half[k] for p in (t, x))
-            slope = slope + _divided_series(series, k, st, sx) / self._half[k]
-        return slope
 
     def rises(self, x: Array, y: Array, *, walls: bool = False) -> Array:
         """h(y) - h(x) for x <= y, over any number of pieces; `walls`: those at x and y as well."""
