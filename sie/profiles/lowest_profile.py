@@ -9,6 +9,7 @@ from operator import itemgetter
 from typing import Any
 
 import numpy as np
+from numpy.polynomial import polynomial
 from numpy.typing import NDArray
 
 from .base import Profile
@@ -114,17 +115,14 @@ def _crossings(
         piece = int(np.searchsorted(slopes[k].breaks, inner)) - 1
         width = slopes[k].coefficients.shape[1]
         c = slopes[k].about(np.array([piece]), np.array([inner]), width)[0][0]
-        rows.append(
-            np.concatenate(([float(profiles[k].height(inner))], c / np.arange(1, width + 1)))
-        )
-    n = max(map(len, rows))
-    difference = np.pad(rows[0], (0, n - len(rows[0]))) - np.pad(rows[1], (0, n - len(rows[1])))
+        height = float(profiles[k].height(inner))
+        rows.append([height, *(c / np.arange(1, width + 1))])
+    difference = polynomial.polytrim(polynomial.polysub(*rows))
+    n = len(difference)
     half = 0.5 * (hi - lo)
     if half < INF and abs(difference[0]) > np.abs(difference[1:]) @ half ** np.arange(1.0, n):
         return []
-    if not difference.any():
-        return []
-    roots = np.roots(np.trim_zeros(difference[::-1], "f"))
+    roots = polynomial.polyroots(difference)
     real = roots[np.abs(roots.imag) <= 1e-9 * np.abs(roots)].real + inner
     # from the heights themselves: about a far place their difference is rounding of its terms
     with np.errstate(all="ignore"):
