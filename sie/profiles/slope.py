@@ -225,13 +225,12 @@ class Slope:
         if self.few:  # a flat piece has no row
             below = {row.hi: row.at(row.hi) for row in self.rows}
             above = {row.lo: row.at(row.lo) for row in self.rows}
-            places = ends.tolist()
-            return tuple(below.get(b, 0.0) for b in places), tuple(
-                above.get(b, 0.0) for b in places
-            )
-        k, zero = np.arange(len(ends)), np.zeros(len(ends))
-        left, right = (self.local(j, ends, zero, zero[:, None])[:, 0] for j in (k, k + 1))
-        return tuple(left.tolist()), tuple(right.tolist())
+            left, right = ([H.get(b, 0.0) for b in ends.tolist()] for H in (below, above))
+        else:
+            k, zero = np.arange(len(ends)), np.zeros(len(ends))
+            both = (self.local(j, ends, zero, zero[:, None])[:, 0] for j in (k, k + 1))
+            left, right = (H.tolist() for H in both)
+        return tuple(left), tuple(right)
 
     @cached_property
     def rises(self) -> tuple[tuple[float, float], ...]:
@@ -354,10 +353,7 @@ class Slope:
         """The sum on the intersection of both domains, broken where either is."""
         lo, hi = max(self.breaks[0], other.breaks[0]), min(self.breaks[-1], other.breaks[-1])
         if not lo < hi:
-            raise ValueError(
-                f"profiles on {self.domain} and {other.domain} do not overlap: "
-                "shift one of them before adding"
-            )
+            raise ValueError(f"{self.domain} and {other.domain} do not overlap: shift one first")
         merged = np.union1d(self.breaks, other.breaks)
         breaks = merged[(merged >= lo) & (merged <= hi)]
         mine, theirs = (
