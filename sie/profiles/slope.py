@@ -199,7 +199,7 @@ class Slope:
         """Whether plain floats are faster than arrays."""
         if self.functions or self.degree > LOW:
             return False
-        return len(self.origins) <= FEW or np.count_nonzero(~self.is_zero) <= FEW
+        return len(self.origins) <= FEW or int(np.count_nonzero(~self.is_zero)) <= FEW
 
     @cached_property
     def without_functions(self) -> Slope:
