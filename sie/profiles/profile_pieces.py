@@ -14,7 +14,7 @@ from sie.numerics.interval import EPS
 from .base import Profile
 from .look import across, narrow_parts
 from .pieces import Pieces
-from .resolution import refined
+from .resolution import TINY, refined
 from .slope import Slope
 
 Array = NDArray[np.float64]
@@ -178,7 +178,7 @@ def integral(slope: Slope, start: float, x: Array) -> Array:
     out = np.zeros(np.shape(x))
     for sign in (-1.0, 1.0):
         ahead = sign * (inside - start)
-        if ahead.size == 0 or ahead.max() <= 0.0:
+        if ahead.max(initial=0.0) <= TINY:  # half of it may be no double
             continue
         a, b = sorted((start, start + sign * float(ahead.max())))
         pieces = without_functions(refined(slope.within(a, b), a, b, EPS))
