@@ -28,6 +28,7 @@ from typing import Any
 
 import numpy as np
 
+from sie.problem.load_path import Path
 from sie.problem.material import Body, Elastic
 from sie.problem.scene import Scene
 from sie.profiles.base import Profile
@@ -40,11 +41,10 @@ from sie.profiles.row import Periodic, Row
 from sie.profiles.sampled import Sampled
 from sie.profiles.shapes import Wedge
 
-from . import scene_tables
 from .fatigue_table import Fatigue
-from .path_table import LOADS
-from .scene_file import MOST_BYTES, SceneFile, Units, from_tables
-from .scene_tables import TABLES
+from .path_table import LOADS as COLUMNS
+from .scene_file import MOST_BYTES, UNITS, SceneFile, from_tables
+from .scene_keys import LOADS, TABLES
 
 Tables = dict[str, Any]
 
@@ -69,7 +69,7 @@ def scene_of(tables: Mapping[str, Any]) -> Scene:
         file = from_tables(_with_infinities(tables))
     except RecursionError:
         raise ValueError("the tables are nested too deeply for those of a scene") from None
-    if file.path:
+    if file.load_path:
         raise ValueError(
             "[load] has a path, which is more than one scene: give normal_load, tangential_load "
             "and bulk_stress, or read the file by sie.io.scene_file"
@@ -119,31 +119,28 @@ def tables_of_file(file: SceneFile) -> Tables:
     ValueError if a scene file cannot name its profile.
     """
     tables: Tables = {"title": file.title, "want": list(file.want)}
-    tables["units"] = _not_default(file.units, Units())
+    tables["units"] = _not_default(file.units, UNITS)
     tables |= tables_of(file.scene)
-    if file.path:
-        tables["load"] = _with_path(tables["load"], file)
+    if file.load_path:
+        load = {name: value for name, value in tables["load"].items() if name not in LOADS}
+        tables["load"] = load | _path(file.load_path)
     tables["fatigue"] = _not_default(file.fatigue, Fatigue())
     return {name: value for name, value in tables.items() if value}
 
 
 def _not_default(given: Any, default: Any) -> Tables:
     """The fields of a record that differ from those of another."""
-    return {
-        f.name: _plain(getattr(given, f.name))
-        for f in fields(given)
-        if getattr(given, f.name) != getattr(default, f.name)
-    }
+    values, usual = vars(given), vars(default)
+    return {name: _plain(value) for name, value in values.items() if value != usual[name]}
 
 
-def _with_path(load: Tables, file: SceneFile) -> Tables:
-    """[load] with the path in place of the loads of its last point."""
-    load = {k: v for k, v in load.items() if k not in scene_tables.LOADS}
-    turned = next((name for name in ("tilt", "moment") if getattr(file, name)), None)
-    if turned is None:
-        return load | {"path": [list(point) for point in file.path]}
-    rows = zip(file.path, getattr(file, turned), strict=True)
-    return load | {"path": [[*p, turn] for p, turn in rows], "columns": [*LOADS, turned]}
+def _path(path: Path) -> Tables:
+    """The keys of [load] in place of the loads."""
+    turned = "tilt" if path.tilt else "moment" if path.moment else ""
+    if not turned:
+        return {"path": _plain(path.points)}
+    rows = zip(path.points, path.turns, strict=True)
+    return {"path": [[*point, turn] for point, turn in rows], "columns": [*COLUMNS, turned]}
 
 
 def toml_text(tables: Mapping[str, Any]) -> str:

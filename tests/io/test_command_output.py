@@ -174,7 +174,7 @@ def test_a_path_is_followed_to_its_last_point_with_a_table_of_all(tmp_path, monk
     path = example("fretting-cycle", tmp_path)
     assert main(["solve", path, "--want", "shear", "--json", "out.json"]) == 0
     file = scene_file.read(path)
-    history = sie.follow(file.scene, sie.Path(file.path))
+    history = sie.follow(file.scene, file.load_path)
     out = capsys.readouterr().out
     assert out.count("\n500 ") == len(history)
     found = json.loads(Path("out.json").read_text())
