@@ -28,7 +28,6 @@ from typing import Any
 
 import numpy as np
 
-from sie.problem.load_path import Path
 from sie.problem.material import Body, Elastic
 from sie.problem.scene import Scene
 from sie.profiles.base import Profile
@@ -41,10 +40,8 @@ from sie.profiles.row import Periodic, Row
 from sie.profiles.sampled import Sampled
 from sie.profiles.shapes import Wedge
 
-from .fatigue_table import Fatigue
-from .path_table import LOADS as COLUMNS
-from .scene_file import MOST_BYTES, UNITS, SceneFile, from_tables
-from .scene_keys import LOADS, TABLES
+from .scene_file import MOST_BYTES, from_tables
+from .scene_keys import TABLES
 
 Tables = dict[str, Any]
 
@@ -111,36 +108,6 @@ def tables_of(scene: Scene) -> Tables:
             "raises each term in this order before it adds them: build the profile in this order"
         )
     return tables
-
-
-def tables_of_file(file: SceneFile) -> Tables:
-    """The tables of a scene file: those of its scene, title, want, units, path and [fatigue].
-
-    ValueError if a scene file cannot name its profile.
-    """
-    tables: Tables = {"title": file.title, "want": list(file.want)}
-    tables["units"] = _not_default(file.units, UNITS)
-    tables |= tables_of(file.scene)
-    if file.load_path:
-        load = {name: value for name, value in tables["load"].items() if name not in LOADS}
-        tables["load"] = load | _path(file.load_path)
-    tables["fatigue"] = _not_default(file.fatigue, Fatigue())
-    return {name: value for name, value in tables.items() if value}
-
-
-def _not_default(given: Any, default: Any) -> Tables:
-    """The fields of a record that differ from those of another."""
-    values, usual = vars(given), vars(default)
-    return {name: _plain(value) for name, value in values.items() if value != usual[name]}
-
-
-def _path(path: Path) -> Tables:
-    """The keys of [load] in place of the loads."""
-    turned = "tilt" if path.tilt else "moment" if path.moment else ""
-    if not turned:
-        return {"path": _plain(path.points)}
-    rows = zip(path.points, path.turns, strict=True)
-    return {"path": [[*point, turn] for point, turn in rows], "columns": [*COLUMNS, turned]}
 
 
 def toml_text(tables: Mapping[str, Any]) -> str:

@@ -26,13 +26,6 @@ SCENE = sie.Scene(
 )
 
 
-@pytest.fixture
-def scene(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    (tmp_path / "scene.toml").write_text(scene_file.example("rounded-flat"))
-    return "scene.toml"
-
-
 @pytest.fixture(scope="module")
 def grid():
     return Grid(sie.solve(SCENE), 7, 5)

@@ -6,10 +6,7 @@ import builtins
 import sys
 import threading
 import types
-from concurrent.futures import (
-    Executor,
-    Future,
-)
+from concurrent.futures import Executor, Future
 from dataclasses import replace
 
 import numpy as np
