@@ -19,7 +19,7 @@ LINES = {
     "contact": 3000,
     "examples": 10,
     "friction": 16100,
-    "io": 4715,
+    "io": 4705,
     "live": 750,
     "numerics": 1850,
     "patches": 6600,

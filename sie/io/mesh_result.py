@@ -45,7 +45,9 @@ class Points(NamedTuple):
 
     def chosen(self, which: Any) -> Points:
         """Some of the points, or all of them in another order."""
-        return Points(*(column[which] if len(column) else column for column in self))
+        x, y, values, widths = self
+        some = np.asarray(widths)[which] if len(widths) else ()
+        return Points(x[which], y[which], values[which], some)
 
 
 def joined(parts: Sequence[Points]) -> Points:

@@ -58,7 +58,7 @@ def test_the_text_picture_is_the_pressure_column_by_column(width, scene):
     rows = [line.split("│")[1] for line in picture.splitlines() if "│" in line]
     columns = len(rows[0])
     heights = np.array([sum(" ▁▂▃▄▅▆▇█".index(row[k]) for row in rows) for k in range(columns)])
-    heights = heights / 8.0 / report.ROWS
+    heights = heights / 8.0 / report.HEIGHT
     x = np.linspace(*solution.edges, 2 * columns + 1)[1::2]
     assert (
         np.abs(heights * sample_points.ceiling(solution) / solution.pressure(x) - 1.0).max() < 0.05

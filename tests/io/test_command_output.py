@@ -72,7 +72,7 @@ def test_the_shear_of_bonded_bodies_is_reported(tmp_path):
         profile=sie.Flat(2.0), modulus=500.0, dundurs=0.3, poisson=0.3, normal_load=20.0,
         friction=np.inf, tangential_load=3.0,
     )  # fmt: skip
-    told = report.shear_summary(sie.solve(flat), scene_file.UNITS)
+    told = str(report.shear_rows(sie.solve(flat), scene_file.UNITS))
     assert "Q = 3" in told and "bonded" in told and "inf" not in told
 
 
@@ -289,8 +289,9 @@ def test_a_contact_without_edges_is_reported_without_edges(tmp_path, capsys):
 def test_the_gap_beside_a_contact_that_repeats_is_reported_where_there_is_one(load, tmp_path):
     file = scene_file.read(wave(load, tmp_path))
     solution = sie.solve(file.scene)
-    words = report.gap_summary(solution, file.units).replace(";", "").split()
-    assert all(float(gap) > 0.0 for gap in (words[1], words[7]))
+    ((_, text),) = report.gap_rows(solution, file.units)
+    words = text.replace(";", "").split()
+    assert all(float(gap) > 0.0 for gap in (words[0], words[6]))
 
 
 def test_slip_zones_whose_ends_look_alike_are_told_by_their_width():
@@ -299,4 +300,4 @@ def test_slip_zones_whose_ends_look_alike_are_told_by_their_width():
     )
     solution = sie.solve(scene)
     width = f"({solution.slip_widths[1]:.3g} mm wide), q = +f p"
-    assert width in report.shear_summary(solution, scene_file.UNITS)
+    assert width in str(report.shear_rows(solution, scene_file.UNITS))

@@ -80,6 +80,7 @@ def test_two_letters_swapped_in_any_key_of_an_example_suggest_the_key(kind):
             'it belongs to kind "piecewise" or "function"',
         ),
         (BODY + PARABOLA + "columns = [0, 1]\n" + LOAD, 'it belongs to kind "sampled"'),
+        (BODY + PARABOLA + "levelled = true\n" + LOAD, 'it belongs to kind "sampled"'),
         (BODY + PARABOLA + f"of = [{{{KIND}}}]\n" + LOAD, '"of": it belongs to kind "row"'),
         (
             PROFILE + f'kind = "row"\nof = [{{{KIND}, period = 3.0}}]\n',

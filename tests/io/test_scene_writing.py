@@ -96,12 +96,6 @@ def test_the_scene_of_an_example_reads_back_equal_from_json_and_from_toml(name):
     assert parse(scene.to_toml()).scene == scene
 
 
-@pytest.mark.parametrize("name", example_names())
-def test_the_scene_of_an_example_reads_back_equal(name):
-    scene = parse(example(name)).scene
-    assert parse(scene.to_toml()).scene == scene
-
-
 def test_the_infinite_friction_of_full_stick_reads_back_from_json():
     scene = sie.Scene(profile=sie.Flat(1.0), modulus=1.0, normal_load=1.0, friction=np.inf)
     assert sie.Scene.from_dict(json.loads(strict_json(scene.to_dict()))) == scene
