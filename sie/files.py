@@ -7,14 +7,15 @@ behind.
 
 from __future__ import annotations
 
+import math
 import os
 import secrets
 import shutil
 import stat
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from pathlib import Path
-from typing import BinaryIO
+from typing import Any, BinaryIO
 
 KINDS = {
     stat.S_ISDIR: "a directory",
@@ -104,6 +105,14 @@ def same(one: str | int | Path, other: str | int | Path) -> bool:
         ):
             return False
         return str(Path(one).resolve()).casefold() == str(Path(other).resolve()).casefold()
+
+
+def table_of_columns(head: Sequence[str], columns: Mapping[str, Any]) -> str:
+    """Columns, arrays, as CSV below lines of comment, with all digits; nan is an empty cell."""
+    rows = zip(*(column.tolist() for column in columns.values()), strict=True)
+    lines = [*(f"# {line}" for line in head), ",".join(columns)]
+    lines += [",".join("" if math.isnan(v) else repr(v) for v in row) for row in rows]
+    return "\n".join(lines) + "\n"
 
 
 # -- writing -------------------------------------------------------------------------------------

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -72,14 +71,6 @@ def _mises(solution: Solution) -> float:
         return math.sqrt(3.0) * solution.elastic_limit().stress
     except (ContactError, ValueError):
         return 0.0
-
-
-def table_of_columns(head: Sequence[str], columns: Mapping[str, Array]) -> str:
-    """Columns as CSV below lines of comment, with all digits; what is not known is empty."""
-    rows = zip(*(column.tolist() for column in columns.values()), strict=True)
-    lines = [*(f"# {line}" for line in head), ",".join(columns)]
-    lines += [",".join("" if math.isnan(v) else repr(v) for v in row) for row in rows]
-    return "\n".join(lines) + "\n"
 
 
 def slip_of(solution: Solution, x: Array) -> dict[str, Array]:

@@ -60,19 +60,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie import __version__
+from sie.files import table_of_columns
 from sie.problem.request import POINTS
 from sie.progress_bar import counted
 from sie.solution import Solution
 
-from .answers import (
-    energy_of,
-    notes_of,
-    readings_of,
-    slip_of,
-    slipping,
-    table_of_columns,
-    wanted,
-)
+from .answers import energy_of, notes_of, readings_of, slip_of, slipping, wanted
 from .sample_points import abscissae, beside, inside, peak
 from .scene_file import SceneFile
 from .scene_writing import tables_of

@@ -21,11 +21,10 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from sie.files import table_of_columns
 from sie.problem.request import GRID
 from sie.solution import Solution
 from sie.stress.half_plane import Stress
-
-from .answers import table_of_columns
 
 Array = NDArray[np.float64]
 
