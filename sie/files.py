@@ -1,23 +1,21 @@
 """Read regular files of limited size, and write files whole or not at all.
 
 A file is written under another name beside its place and then moved there; the move is one step, so
-that no reader opens half a file. A writer that is killed leaves the other name behind. No user's
-file has such a name, and a running writer holds a lock on it. The next run that writes in the
-folder removes the names without a lock.
+that no reader opens half a file. A writer that is killed leaves the other name, .sie-....part,
+behind.
 """
 
 from __future__ import annotations
 
-import hashlib
+import math
 import os
 import secrets
 import shutil
 import stat
-import sys
-from collections.abc import Iterable, Iterator, Mapping
-from contextlib import contextmanager, nullcontext, suppress
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager, suppress
 from pathlib import Path
-from typing import BinaryIO
+from typing import Any, BinaryIO
 
 KINDS = {
     stat.S_ISDIR: "a directory",
@@ -109,6 +107,14 @@ def same(one: str | int | Path, other: str | int | Path) -> bool:
         return str(Path(one).resolve()).casefold() == str(Path(other).resolve()).casefold()
 
 
+def table_of_columns(head: Sequence[str], columns: Mapping[str, Any]) -> str:
+    """Columns, arrays, as CSV below lines of comment, with all digits; nan is an empty cell."""
+    rows = zip(*(column.tolist() for column in columns.values()), strict=True)
+    lines = [*(f"# {line}" for line in head), ",".join(columns)]
+    lines += [",".join("" if math.isnan(v) else repr(v) for v in row) for row in rows]
+    return "\n".join(lines) + "\n"
+
+
 # -- writing -------------------------------------------------------------------------------------
 
 
@@ -147,8 +153,6 @@ def writing(contents: Mapping[Path, bytes]) -> Iterator[None]:
     finally:
         for part in parts.values():
             _discard(part)
-        for folder in {place.parent for place in parts}:
-            _remove_stale(folder)
 
 
 @contextmanager
@@ -186,21 +190,9 @@ def _is_device(path: Path) -> bool:
 # -- parts: files that are not at their places yet -----------------------------------------------
 
 
-def _part_name(token: str) -> str:
-    """A name that no user's file has by chance: its second half follows from the first."""
-    return f".sie-{token}-{hashlib.sha256(f'sie {token}'.encode()).hexdigest()[:16]}.part"
-
-
 def _new_part(place: Path) -> BinaryIO:
-    while True:
-        # It stays open until it is moved.
-        stream = open(place.with_name(_part_name(secrets.token_hex(8))), "xb")  # noqa: SIM115
-        # Not all file systems lock; there nothing is taken for stale either.
-        with suppress(OSError):
-            _lock(stream, wait=True)
-        if os.name == "nt" or os.fstat(stream.fileno()).st_nlink:
-            return stream
-        stream.close()  # removed as stale before it was locked
+    # It stays open until it is moved.
+    return open(place.with_name(f".sie-{secrets.token_hex(8)}.part"), "xb")
 
 
 def _write_part(part: BinaryIO, data: bytes, like: Path) -> None:
@@ -222,26 +214,3 @@ def _discard(part: BinaryIO) -> None:
     with suppress(OSError):
         part.close()
     Path(part.name).unlink(missing_ok=True)
-
-
-def _remove_stale(folder: Path) -> None:
-    """Remove the parts of killed writers: this module's names, whose lock no process holds."""
-    with suppress(OSError):
-        for path in folder.glob(".sie-*.part"):
-            if path.name == _part_name(path.name.split("-")[1]) and not path.is_symlink():
-                # Windows removes no file that is open, be it by the writer or here.
-                with (
-                    suppress(OSError),
-                    nullcontext() if os.name == "nt" else open(path, "rb") as stream,
-                ):
-                    _lock(stream, wait=False)
-                    path.unlink()
-
-
-def _lock(stream: BinaryIO | None, wait: bool) -> None:
-    """Raises OSError where another process holds the lock, or where the file system has none."""
-    if sys.platform != "win32":
-        import fcntl  # noqa: PLC0415
-
-        assert stream is not None
-        fcntl.flock(stream, fcntl.LOCK_EX | (0 if wait else fcntl.LOCK_NB))

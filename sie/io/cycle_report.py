@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-import textwrap
 from collections.abc import Sequence
 from typing import Any
+
+from sie.arguments import named_rows
 
 from .scene_file import SceneFile
 
@@ -17,7 +18,6 @@ ZERO = {
 }
 # A stress that changes by less, relative to its size, does not change but for rounding.
 NOTHING = 1e-12
-WIDTH = 80
 # A smaller angle out of the plane, in degrees, is rounding.
 IN_PLANE = 1e-3
 
@@ -50,12 +50,7 @@ def cycle_summary(cycle: dict[str, Any], file: SceneFile) -> str:
         if key == "findley" and file.fatigue.shear_limit:
             texts += _share(cycle.get(key, ()), file.fatigue.shear_limit, units.stress)
         rows += zip([name, *[""] * len(texts)], texts, strict=False)
-    return "\n".join(line for row in rows for line in _lines(*row))
-
-
-def _lines(name: str, text: str) -> list[str]:
-    """A row, continued below the text where it is wider than a terminal."""
-    return textwrap.wrap(text, WIDTH, initial_indent=f"{name:<15} ", subsequent_indent=" " * 16)
+    return named_rows(*rows)
 
 
 def _range(found: dict[str, Any], unit: str) -> str:

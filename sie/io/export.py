@@ -53,14 +53,15 @@ from __future__ import annotations
 
 import json
 import math
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from sie import __version__
+from sie.files import table_of_columns
 from sie.problem.request import POINTS
-from sie.problem.scene import Scene
 from sie.progress_bar import counted
 from sie.solution import Solution
 
@@ -80,15 +81,28 @@ STRESSES, LENGTHS = ("p", "q"), ("x", "gap", "slip")
 
 def csv_text(solution: Solution, file: SceneFile, points: int = POINTS) -> str:
     """x, pressure and gap, always, as the module's docstring describes; of a path at each point."""
-    if solution.history is not None:
-        return history_text(solution.history, file, points)
-    (x1, x2), load = solution.edges, solution.normal_load
-    where = f"contact from x1 = {x1!r} to x2 = {x2!r}, load {load!r}"
-    return _csv(solution.scene, where, file, [_columns(solution, points)])
+    units, history = file.units, solution.history
+    if history is None:
+        (x1, x2), load = solution.edges, solution.normal_load
+        where = f"contact from x1 = {x1!r} to x2 = {x2!r}, load {load!r}"
+        columns, scene = _columns(solution, points), solution.scene
+    else:
+        where = f"{len(history)} points of a load path, sigma in {units.stress}"
+        columns, scene = _along_path(history, points), history.scene
+    stresses, lengths = (
+        " and ".join(name for name in columns if name in kind) for kind in (STRESSES, LENGTHS)
+    )
+    head = (
+        f"{file.title or 'plane contact'} (sie {__version__})",
+        repr(scene),
+        f"{lengths} in {units.length}, {stresses} in {units.stress}, load in {units.force}",
+        where,
+    )
+    return table_of_columns(head, columns)
 
 
-def history_text(history: History, file: SceneFile, points: int = POINTS) -> str:
-    """The tractions, the gap and the slip at every turning point of a load path, as CSV."""
+def _along_path(history: History, points: int) -> dict[str, Array]:
+    """The tractions, the gap and the slip at every turning point of a load path with P > 0."""
     tables = []
     turned = [name for name in ("tilt", "moment") if getattr(history.path, name)]
     points_of_path = zip(history.turning_points, history, strict=True)
@@ -96,17 +110,13 @@ def history_text(history: History, file: SceneFile, points: int = POINTS) -> str
     for k, (state, solution) in enumerate(counted_points):
         if state.loads.P == 0.0:
             continue
-        columns = _columns(solution, points)
-        count = len(columns["x"])
-        names = ("P", "Q", "sigma", *turned)
-        loads = dict(zip(names, state.loads, strict=False))
-        sheared = {"q": np.zeros(count), "slip": np.full(count, np.nan)} | columns
-        tables.append(
-            {name: np.full(count, value) for name, value in ({"point": k} | loads).items()}
-            | {name: sheared[name] for name in TRACTIONS}
-        )
-    where = f"{len(history)} points of a load path, sigma in {file.units.stress}"
-    return _csv(history.scene, where, file, tables)
+        tractions = _columns(solution, points)
+        count = len(tractions["x"])
+        loads = dict(zip(("P", "Q", "sigma", *turned), state.loads, strict=False))
+        columns = {name: np.full(count, value) for name, value in ({"point": k} | loads).items()}
+        sheared = {"q": np.zeros(count), "slip": np.full(count, np.nan)} | tractions
+        tables.append(columns | {name: sheared[name] for name in TRACTIONS})
+    return {name: np.concatenate([table[name] for table in tables]) for name in tables[0]}
 
 
 def _columns(solution: Solution, points: int) -> dict[str, Array]:
@@ -115,26 +125,6 @@ def _columns(solution: Solution, points: int) -> dict[str, Array]:
     if solution.carries_shear:
         columns |= {"q": solution.shear(x)} | slip_of(solution, x)
     return columns
-
-
-def _csv(scene: Scene, where: str, file: SceneFile, tables: list[dict[str, Array]]) -> str:
-    units, names = file.units, list(tables[0])
-    stresses, lengths = (
-        " and ".join(name for name in names if name in kind) for kind in (STRESSES, LENGTHS)
-    )
-    head = (
-        f"# {file.title or 'plane contact'} (sie {__version__})",
-        f"# {scene!r}",
-        f"# {lengths} in {units.length}, {stresses} in {units.stress}, load in {units.force}",
-        f"# {where}",
-        ",".join(names),
-    )
-    rows = (
-        ",".join("" if math.isnan(value) else repr(value) for value in row)
-        for table in tables
-        for row in zip(*(column.tolist() for column in table.values()), strict=True)
-    )
-    return "\n".join((*head, *rows)) + "\n"
 
 
 def json_text(
@@ -157,12 +147,7 @@ def as_dict(
     out: dict[str, Any] = {
         "sie": __version__,
         "title": file.title,
-        "units": {
-            "length": units.length,
-            "force": units.force,
-            "stress": units.stress,
-            "moment": units.moment,
-        },
+        "units": {**vars(units), "moment": units.moment},
         "scene": tables_of(scene),
         "modulus": scene.Estar,
         "dundurs": scene.beta,
@@ -178,9 +163,6 @@ def as_dict(
     }
     if readings := readings_of(solution):
         out["readings"] = [reading._asdict() for reading in readings]
-    sections = {"pressure": _pressure, "gap": _gap, "shear": _shear, "check": _check}
-    sections |= {"energy": lambda solution, _: {"energy_lost": solution.energy_lost}}
-    sections |= {"stress": _stress, "yield": _yield, "tension": _tension}
     if cycle:
         out["cycle"] = cycle
     if solution.history is not None:
@@ -189,7 +171,7 @@ def as_dict(
         out["traces"] = [report.as_dict() for report in reports]
     return out | {
         name: section(solution, points)
-        for name, section in sections.items()
+        for name, section in SECTIONS.items()
         if name in wanted(file)
     }
 
@@ -245,10 +227,6 @@ def _shear(solution: Solution, points: int) -> dict[str, Any]:
     )
 
 
-def _check(solution: Solution, _points: int) -> dict[str, Any]:
-    return solution.check().as_dict()
-
-
 def _stress(solution: Solution, points: int) -> dict[str, Any]:
     x = abscissae(solution, points)
     s = solution.surface_stress(x)
@@ -266,8 +244,16 @@ def _yield(solution: Solution, _points: int) -> dict[str, Any]:
     }
 
 
-def _tension(solution: Solution, _points: int) -> dict[str, Any]:
-    return solution.peak_tension()._asdict()
+SECTIONS: dict[str, Callable[[Solution, int], dict[str, Any]]] = {
+    "pressure": _pressure,
+    "gap": _gap,
+    "shear": _shear,
+    "check": lambda solution, _: solution.check().as_dict(),
+    "energy": lambda solution, _: {"energy_lost": solution.energy_lost},
+    "stress": _stress,
+    "yield": _yield,
+    "tension": lambda solution, _: solution.peak_tension()._asdict(),
+}
 
 
 def _finite(value: Any) -> Any:

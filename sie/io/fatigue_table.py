@@ -1,21 +1,10 @@
-"""The table [fatigue] of a scene file: constants of the material, and where a cycle is examined.
-
-findley_k         weight of the normal stress in Findley's parameter
-shear_limit       what Findley's parameter may reach, stress
-fatemi_socie_k    weight of the normal stress in the parameter of Fatemi and Socie
-yield_stress      σ_y in it, stress
-depth             a depth or a list of depths, length, at which parameters are given beside the
-                  surface; without it DEPTHS of the largest half-width
-parts             each step of the cycle is examined at so many states (PARTS)
-"""
+"""The table [fatigue] of a scene file: constants of the material, and where a cycle is examined."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
-
-from sie import arguments
 
 DEPTHS = (0.01, 0.1)
 # Constants, each with one that it needs beside it.
@@ -29,7 +18,23 @@ PARTS, MOST_PARTS, MOST_DEPTHS = 4, 100, 100
 
 @dataclass(frozen=True)
 class Fatigue:
-    """The content of [fatigue]; 0 stands for a constant that is not given."""
+    """The content of [fatigue]; 0 stands for a constant that is not given.
+
+    Parameters
+    ----------
+    findley_k : float
+        Weight of the normal stress in Findley's parameter.
+    shear_limit : float
+        What Findley's parameter may reach, in units of stress.
+    fatemi_socie_k : float
+        Weight of the normal stress in the parameter of Fatemi and Socie.
+    yield_stress : float
+        σ_y in the parameter of Fatemi and Socie.
+    depth : float or list of float
+        Where parameters are given beside the surface; without it DEPTHS of the largest half-width.
+    parts : int
+        At how many states each step of the cycle is examined, 4 if it is not given.
+    """
 
     findley_k: float = 0.0
     shear_limit: float = 0.0
@@ -41,9 +46,6 @@ class Fatigue:
 
 def fatigue_of(values: Mapping[str, Any]) -> Fatigue:
     """The content of [fatigue]. Raises ValueError for constants of no material."""
-    for name in ("findley_k", "shear_limit", "fatemi_socie_k", "yield_stress"):
-        if name in values:
-            arguments.positive(f"[fatigue] {name}", values[name])
     for name, other in TOGETHER:
         if name in values and other not in values:
             raise ValueError(f"[fatigue] has {name} without {other}: give {other} = ... too")
@@ -51,8 +53,6 @@ def fatigue_of(values: Mapping[str, Any]) -> Fatigue:
     depth = depth if isinstance(depth, tuple) else (depth,)
     if len(depth) > MOST_DEPTHS:
         raise ValueError(f"[fatigue] depth has {len(depth)} values: give at most {MOST_DEPTHS}")
-    for value in depth:
-        arguments.positive("[fatigue] depth", value)
     parts = values.get("parts", PARTS)
     if not 1 <= parts <= MOST_PARTS:
         raise ValueError(f"[fatigue] parts = {parts} is not a number from 1 to {MOST_PARTS}")

@@ -10,14 +10,13 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from html import escape
 from typing import Any
 
-from sie.arguments import NAMES
 from sie.errors import ContactError
 from sie.paths.history import History
 from sie.paths.steady_state import SteadyCycle
 from sie.problem.load_path import Path
 from sie.solution import Solution
 
-from .report import edges_summary, peak_summary, shear_summary
+from .report import edge_rows, peak_rows, shear_rows
 from .scene_file import UNITS
 
 WIDTH = "3.35in"
@@ -111,16 +110,11 @@ def _cell(value: Any) -> str:
 
 
 def _of_solution(solution: Solution) -> str:
-    sections = [edges_summary(solution, UNITS), peak_summary(solution, UNITS)]
-    sections += [shear_summary(solution, UNITS)] if solution.carries_shear else []
     check = solution.check()
-    sections.append(
-        f"{'certificate':<{NAMES}}{'met' if check.ok else 'NOT met'}: {check.error:.1e}"
-    )
-    lines = "\n".join(section.partition("\n\n")[0] for section in sections).splitlines()
-    return _table((line[:NAMES].strip(), line[NAMES:]) for line in lines) + _picture(
-        _contact, solution
-    )
+    rows = [*edge_rows(solution, UNITS), *peak_rows(solution, UNITS)]
+    rows += shear_rows(solution, UNITS) if solution.carries_shear else []
+    rows.append(("certificate", f"{'met' if check.ok else 'NOT met'}: {check.error:.1e}"))
+    return _table(rows) + _picture(_contact, solution)
 
 
 # -- pictures --------------------------------------------------------------------------------------

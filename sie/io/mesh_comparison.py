@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 from sie.io.mesh_difference import EXACT, Comparison, difference
 from sie.io.mesh_files.names import STRESSES, TRACTIONS
-from sie.io.mesh_result import Mesh, Points
+from sie.io.mesh_result import Mesh, Points, joined
 from sie.solution import Solution
 
 Array = NDArray[np.float64]
@@ -85,11 +85,11 @@ def _near_contact(solution: Solution, mesh: Mesh) -> Mesh:
     for name in STRESSES:
         if name not in fields:
             continue
-        x, y, values, _ = fields[name]
+        x, y = fields[name][:2]
         near = (x > x1 - reach) & (x < x2 + reach) & (y < reach)
         if near.all() or np.count_nonzero(near) < 2:
             continue
-        fields[name] = Points(x[near], y[near], values[near])
+        fields[name] = fields[name].chosen(near)
         notes[
             f"stress is compared at {near.sum()} of {len(x)} points, those within {NEAR:g} "
             "half-widths of the contact"
@@ -124,13 +124,9 @@ def _mirrored(solution: Solution, mesh: Mesh) -> Mesh:
 def _with_image(name: str, field: Points, centre: float) -> Points:
     """The points and their mirror images; those on the axis once."""
     x, y, values, widths = field
-    off = np.abs(x - centre) > SAME * np.ptp(x)
     sign = -1.0 if name in ODD else 1.0
-    image = (2.0 * centre - x[off], y[off], sign * values[off])
-    x, y, values = (np.concatenate(pair) for pair in zip(image, (x, y, values), strict=True))
-    order = np.lexsort((y, x))
-    both = np.concatenate((widths[off], widths))[order] if isinstance(widths, np.ndarray) else ()
-    return Points(x[order], y[order], values[order], both)
+    image = Points(2.0 * centre - x, y, sign * values, widths)
+    return joined([image.chosen(np.abs(x - centre) > SAME * np.ptp(x)), field])
 
 
 def _with_sign_of_shear(solution: Solution, mesh: Mesh) -> Mesh:

@@ -14,17 +14,17 @@ two sides of an extruded mesh, are averaged.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from sie.io.mesh_files import formats
 from sie.io.mesh_files.names import QUANTITIES, STRESSES, TRACTIONS
-from sie.io.mesh_files.raw import Group, Raw, row_means
+from sie.io.mesh_files.raw import Columns, Raw, chosen, row_means
 
 Array = NDArray[np.float64]
 
@@ -42,6 +42,22 @@ class Points(NamedTuple):
     y: Array
     values: Array
     widths: Array | tuple[()] = ()
+
+    def chosen(self, which: Any) -> Points:
+        """Some of the points, or all of them in another order."""
+        x, y, values, widths = self
+        some = np.asarray(widths)[which] if len(widths) else ()
+        return Points(x[which], y[which], values[which], some)
+
+
+def joined(parts: Sequence[Points]) -> Points:
+    """The points of all parts, by ascending x."""
+    x, y, values = (
+        np.concatenate(columns) for columns in zip(*(p[:3] for p in parts), strict=True)
+    )
+    widths = np.concatenate([part.widths for part in parts])
+    both = Points(x, y, values, widths if len(widths) == len(x) else ())
+    return both.chosen(np.lexsort((y, x)))
 
 
 @dataclass(frozen=True, eq=False)
@@ -76,8 +92,8 @@ class Mesh:
         """
         x, _, _ = self.points(quantity)
         widths = self.fields[quantity].widths
-        if isinstance(widths, np.ndarray):
-            return widths
+        if len(widths):
+            return np.asarray(widths)
         if self.scattered(quantity):
             return np.ones_like(x)
         middle = 0.5 * (x[1:] + x[:-1])
@@ -104,18 +120,21 @@ def read_mesh(
 def _placed(raw: Raw, surface: float | None, body: str) -> Mesh:
     """The quantities in the axes of the package."""
     notes = list(raw.notes)
-    fields: dict[str, Points] = {}
     height = surface if surface is not None else _height_of_contact(raw)
+    parts: dict[str, list[Points]] = {}
     for group in raw.groups:
-        for names, place in ((TRACTIONS, _on_surface), (STRESSES, _in_body)):
-            columns = {n: v for n, v in group.columns.items() if n in ("x", "y", *names)}
-            if set(columns) & set(names):
-                part = replace(group, columns=columns)
-                placed, more = _averaged(*place(raw, part, height, body))
-                for name in set(columns) & set(names):
-                    fields[name] = _joined(fields.get(name), placed, name)
+        for names, other, place in (
+            (TRACTIONS, STRESSES, _on_surface),
+            (STRESSES, TRACTIONS, _in_body),
+        ):
+            columns = {n: v for n, v in group.items() if n not in other}
+            if columns.keys() & set(names):
+                placed, more = _averaged(*place(raw, columns, height, body))
+                for name in columns.keys() & set(names):
+                    x, y, widths = placed["x"], placed["y"], placed.get("width", ())
+                    parts.setdefault(name, []).append(Points(x, y, placed[name], widths))
                 notes += [note for note in more if note not in notes]
-    fields = {name: fields[name] for name in QUANTITIES if name in fields}
+    fields = {name: joined(parts[name]) for name in QUANTITIES if name in parts}
     for name, (x, _, _, _) in fields.items():
         if len(x) < 2 or (name in TRACTIONS and x[0] == x[-1]):
             where = " on the surface, y = 0, where it is compared" if name in TRACTIONS else ""
@@ -124,19 +143,6 @@ def _placed(raw: Raw, surface: float | None, body: str) -> Mesh:
                 "a comparison needs at least two; --surface gives the height of the surface"
             )
     return Mesh(raw.file, fields, raw.others, tuple(notes))
-
-
-def _joined(before: Points | None, group: Group, name: str) -> Points:
-    """The points of a group, with those of the groups before it, by ascending x."""
-    new = Points(group.columns["x"], group.columns["y"], group.columns[name], group.widths)
-    if before is not None:
-        widths = (before.widths, new.widths)
-        both = all(isinstance(w, np.ndarray) for w in widths)
-        x, y, values = (np.concatenate(pair) for pair in zip(before[:3], new[:3], strict=True))
-        new = Points(x, y, values, np.concatenate(widths) if both else ())
-    order = np.lexsort((new.y, new.x))
-    widths_ = new.widths[order] if isinstance(new.widths, np.ndarray) else ()
-    return Points(new.x[order], new.y[order], new.values[order], widths_)
 
 
 def _near(values: Array, level: float) -> NDArray[np.bool_]:
@@ -148,103 +154,97 @@ def _near(values: Array, level: float) -> NDArray[np.bool_]:
 
 def _height_of_contact(raw: Raw) -> float | None:
     """The height at which the contact pressure acts, None where it is not known or not one."""
-    for group in raw.groups:
-        height = _level(group)
-        if height is not None:
-            return height
-    return None
+    heights = (height for height in map(_level, raw.groups) if height is not None)
+    return next(heights, None)
 
 
-def _level(group: Group) -> float | None:
-    loads = [np.abs(group.columns[name]) for name in TRACTIONS if name in group.columns]
-    if not loads or "y" not in group.columns or not any(load.any() for load in loads):
+def _level(group: Columns) -> float | None:
+    loads = [np.abs(group[name]) for name in TRACTIONS if name in group]
+    if not loads or "y" not in group or not any(load.any() for load in loads):
         return None
-    y = group.columns["y"][np.any([load > 0.5 * load.max() for load in loads], axis=0)]
+    y = group["y"][np.any([load > 0.5 * load.max() for load in loads], axis=0)]
     if np.count_nonzero(_near(y, 0.0)) > 1:
         return 0.0
     return float(y[0]) if _near(y, float(y[0])).all() else None
 
 
-def _on_surface(raw: Raw, group: Group, height: float | None, body: str) -> tuple[Group, list[str]]:
+def _on_surface(
+    raw: Raw, group: Columns, height: float | None, body: str
+) -> tuple[Columns, list[str]]:
     """The points on the surface; on a curved one, those where a traction acts.
 
     Codes write the traction of one of two bodies, and zero on the other.
     """
-    acts = np.any([group.columns[n] != 0.0 for n in TRACTIONS if n in group.columns], axis=0)
-    if isinstance(group.bodies, np.ndarray) and acts.any():
-        own = np.isin(group.bodies, group.bodies[acts])
-        group, acts = group.chosen(own), acts[own]
-    y = group.columns.get("y")
-    zeros = np.zeros(len(group.columns["x"]))
-    if y is None:
-        return replace(group, columns=group.columns | {"y": zeros}), []
-    notes = []
+    acts = np.any([group[name] != 0.0 for name in TRACTIONS if name in group], axis=0)
+    known = "body" in group
+    if known and acts.any():
+        own = np.isin(group["body"], group["body"][acts])
+        group, acts = chosen(group, own), acts[own]
+    if "y" not in group:
+        return group | {"y": np.zeros_like(group["x"])}, []
+    y, notes = group["y"], []
     level = height if height is not None else 0.0
-    chosen = _near(y, level)
-    known = isinstance(group.bodies, np.ndarray)
-    if known and np.count_nonzero(chosen) < 2:
-        chosen = acts
+    on = _near(y, level)
+    if known and np.count_nonzero(on) < 2:
+        on = acts
         notes = ["tractions are compared where they act: no level surface holds their points"]
     elif level:
         notes = [f"the surface is at y = {level:.6g}"]
-    if not known and not body and y.min() < level < y.max() and acts[~chosen].any():
+    if not known and not body and y.min() < level < y.max() and acts[~on].any():
         raise _two_sides(raw.file, y, level)
-    place = _clusters(group.columns["x"], COINCIDENT * float(np.abs(group.columns["x"]).max()))
-    other = ~acts & np.isin(place, place[acts & chosen])
-    if (other & chosen).any():
-        notes.append(f"{(other & chosen).sum()} zeros beside a traction are those of another body")
-    placed = group.chosen(chosen & ~other)
-    return replace(
-        placed, columns=placed.columns | {"y": np.zeros(len(placed.columns["x"]))}
-    ), notes
+    place = _clusters(group["x"], COINCIDENT * float(np.abs(group["x"]).max()))
+    other = ~acts & np.isin(place, place[acts & on])
+    if (other & on).any():
+        notes.append(f"{(other & on).sum()} zeros beside a traction are those of another body")
+    placed = chosen(group, on & ~other)
+    return placed | {"y": np.zeros_like(placed["x"])}, notes
 
 
-def _in_body(raw: Raw, group: Group, height: float | None, body: str) -> tuple[Group, list[str]]:
+def _in_body(
+    raw: Raw, group: Columns, height: float | None, body: str
+) -> tuple[Columns, list[str]]:
     """The points of one body, with their depth, and the sign of σ_xy that belongs to it."""
-    if "y" not in group.columns:
-        zeros = np.zeros(len(group.columns["x"]))
-        return replace(group, columns=group.columns | {"y": zeros}), []
+    if "y" not in group:
+        return group | {"y": np.zeros_like(group["x"])}, []
     notes: list[str] = []
     parts = len(raw.tops)
-    if parts > 1 and isinstance(group.bodies, np.ndarray):
+    if parts > 1 and "body" in group:
         wanted = _part(raw, body)
-        group = group.chosen(group.bodies == wanted)
-        if not len(group.columns["x"]):
+        group = chosen(group, group["body"] == wanted)
+        if not len(group["x"]):
             return group, []
-        foot = float(group.columns["y"].min())
+        foot = float(group["y"].min())
         side = "above" if wanted else "below"
         height = height if height is not None else foot if wanted else raw.tops[wanted]
         notes = [f"stress is that of part {wanted + 1} of {parts}, counted from below"]
     else:
         height, side = _height_by_stress(group, notes) if height is None else height, body
-    y = group.columns["y"] - height
-    y[_near(group.columns["y"], height)] = 0.0
+    y = np.where(_near(group["y"], height), 0.0, group["y"] - height)
     if not side and y.min() < 0.0 < y.max():
-        raise _two_sides(raw.file, group.columns["y"], height)
+        raise _two_sides(raw.file, group["y"], height)
     side = side or ("below" if y.min() < 0.0 else "above")
-    inside = y <= 0.0 if side == "below" else y >= 0.0
     if height:
         notes.append(f"the body is {side} y = {height:.6g}")
     if body == "above":
         notes.append("the body above has the shear -q: give the scene the other tangential load")
-    columns = group.columns | {"y": np.abs(y)}
-    if "sxy" in columns and side == "below" and y.min() < 0.0:
-        columns["sxy"] = -columns["sxy"]
-    return replace(group, columns=columns).chosen(inside), notes
+    placed = group | {"y": np.abs(y)}
+    if "sxy" in placed and side == "below" and y.min() < 0.0:
+        placed["sxy"] = -placed["sxy"]
+    return chosen(placed, y <= 0.0 if side == "below" else y >= 0.0), notes
 
 
 def _part(raw: Raw, body: str) -> int:
     """The lowest part of the mesh that has stress, or the highest one for the body above."""
     present = np.concatenate(
-        [g.bodies for g in raw.groups if set(g.columns) & set(STRESSES) and len(g.bodies)]
+        [g["body"] for g in raw.groups if g.keys() & set(STRESSES) and "body" in g]
     )
     return int(present.max() if body == "above" else present.min())
 
 
-def _height_by_stress(group: Group, notes: list[str]) -> float:
+def _height_by_stress(group: Columns, notes: list[str]) -> float:
     """0, or the end of the file that is farther from it if σ_yy is clearly larger there."""
-    y = group.columns["y"]
-    stress = next((np.abs(group.columns[n]) for n in ("syy", "sxx") if n in group.columns), None)
+    y = group["y"]
+    stress = next((np.abs(group[n]) for n in ("syy", "sxx") if n in group), None)
     near, far = sorted((float(y.min()), float(y.max())), key=abs)
     if stress is None or near == far or near * far < 0.0:
         return 0.0
@@ -264,34 +264,28 @@ def _two_sides(file: str, y: Array, height: float = 0.0) -> ValueError:
     )
 
 
-def _averaged(group: Group, notes: list[str]) -> tuple[Group, list[str]]:
-    """The group with one value at each point, and a note where there were several."""
-    x, y = group.columns["x"], group.columns["y"]
+def _averaged(group: Columns, notes: list[str]) -> tuple[Columns, list[str]]:
+    """The columns with one value at each point, and a note where there were several."""
+    x, y = group["x"], group["y"]
     if not len(x):
         return group, notes
     extent = max(float(np.abs(x).max()), float(np.abs(y).max()))
     place = _clusters(x, COINCIDENT * extent) * len(x) + _clusters(y, COINCIDENT * extent)
-    count = len(np.unique(place))
-    if count == len(x):
+    unique, inverse = np.unique(place, return_inverse=True)
+    if len(unique) == len(x):
         return group, notes
-    names = list(group.columns)
-    table = np.stack([group.columns[name] for name in names], axis=1)
+    table = np.stack([*group.values()], axis=1)
     _, mean = row_means(place.tolist(), table)
-    _, inverse = np.unique(place, return_inverse=True)
-    quantities = [k for k, name in enumerate(names) if name in QUANTITIES]
-    spread = np.abs(table - mean[inverse]).max(axis=0)[quantities]
-    largest = np.abs(table).max(axis=0)[quantities]
+    told = [k for k, name in enumerate(group) if name in QUANTITIES]
+    spread = np.abs(table - mean[inverse]).max(axis=0)[told]
+    largest = np.abs(table).max(axis=0)[told]
     apart = float(np.max(spread / np.where(largest > 0.0, largest, 1.0)))
-    told = ", ".join(names[k] for k in quantities)
-    notes = [
-        *notes,
-        f"{len(x)} values of {told} stand at {count} places: averaged, they differ by up to "
-        f"{apart:.1e} of the largest",
-    ]
-    widths = group.widths
-    if isinstance(widths, np.ndarray):
-        widths = row_means(place.tolist(), widths[:, None])[1][:, 0]
-    return Group(dict(zip(names, mean.T, strict=True)), widths), notes
+    names = ", ".join(name for name in group if name in QUANTITIES)
+    note = (
+        f"{len(x)} values of {names} stand at {len(unique)} places: averaged, they differ by up to "
+        f"{apart:.1e} of the largest"
+    )
+    return dict(zip(group, mean.T, strict=True)), [*notes, note]
 
 
 def _clusters(values: Array, tolerance: float) -> NDArray[np.int64]:

@@ -9,7 +9,8 @@ columns = ["P", "Q", "sigma", ...]   what the numbers of each row or line are, i
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from itertools import zip_longest
 from pathlib import Path as File
 from typing import Any
 
@@ -17,14 +18,15 @@ from sie.arguments import suggestion
 from sie.problem.load_path import Path
 from sie.profiles.trace_files import read_table
 
+from .quantities import ANGLE, FORCE, MOMENT, STRESS, Converter
 from .toml_values import refuse_unread
 
 # Each point is solved and listed, all of them within seconds.
 MOST_POINTS = 2000
 LOADS = ("P", "Q", "sigma")
-QUANTITIES = (*LOADS, "tilt", "moment")
+DIMENSIONS = {"P": FORCE, "Q": FORCE, "sigma": STRESS, "tilt": ANGLE, "moment": MOMENT}
 # Names in lower case, as in a header, and the quantities.
-NAMES = {name.lower(): name for name in QUANTITIES} | {
+NAMES = {name.lower(): name for name in DIMENSIONS} | {
     "σ": "sigma",
     "normal_load": "P",
     "tangential_load": "Q",
@@ -32,13 +34,37 @@ NAMES = {name.lower(): name for name in QUANTITIES} | {
 }
 
 
+def in_units(load: Any, convert: Converter) -> Any:
+    """The table [load] with numbers in place of quantities in the rows of its path."""
+    if not isinstance(load, dict) or not isinstance(load.get("path"), list):
+        return load
+    columns = load.get("columns")
+    names = columns if isinstance(columns, list) else LOADS
+    kinds = [DIMENSIONS.get(NAMES.get(str(name).lower(), "")) for name in names]
+
+    def converted(i: int, row: Sequence[Any]) -> list[Any]:
+        cells = enumerate(zip_longest(row, kinds[: len(row)]))
+        return [
+            convert.number(f"[load] path[{i}][{j}]", v, kind) if kind else v
+            for j, (v, kind) in cells
+        ]
+
+    rows = enumerate(load["path"])
+    return load | {"path": [converted(i, r) if isinstance(r, list) else r for i, r in rows]}
+
+
 def path_of(
-    rows: str | Sequence[Sequence[float]], columns: Sequence[str] | None, folder: File
+    rows: str | Sequence[Sequence[float]],
+    columns: Sequence[str] | None,
+    place: Callable[[str], File],
 ) -> Path:
-    """The path of [load] path and [load] columns. Raises ValueError where they make none."""
+    """The path of [load] path and [load] columns; `place` is where a file of that name is.
+
+    Raises ValueError where they make none.
+    """
     named = None if columns is None else [_quantity(name) for name in columns]
     if isinstance(rows, str):
-        return _path(_of_file(rows, named, folder))
+        return _path(_of_file(rows, named, place(rows)))
     if len(rows) > MOST_POINTS:
         raise ValueError(
             f"path has {len(rows)} points, more than {MOST_POINTS}: "
@@ -70,7 +96,7 @@ def _path(values: Mapping[str, Sequence[float]]) -> Path:
 def _quantity(name: str) -> str:
     """The quantity that a name of [load] columns stands for, "" for none."""
     if name and name.lower() not in NAMES:
-        known = suggestion(name, QUANTITIES)
+        known = suggestion(name, DIMENSIONS)
         raise ValueError(f'columns "{name}" is not known: {known}, or "" to pass a column over')
     return NAMES[name.lower()] if name else ""
 
@@ -83,9 +109,9 @@ def _chosen(named: Sequence[str], columns: Sequence[Any]) -> dict[str, Any]:
     return {name: column for name, column in zip(named, columns, strict=False) if name}
 
 
-def _of_file(name: str, named: Sequence[str] | None, folder: File) -> dict[str, Any]:
+def _of_file(name: str, named: Sequence[str] | None, file: File) -> dict[str, Any]:
     try:
-        table = read_table(folder / name)
+        table = read_table(file)
     except OSError as problem:
         refuse_unread(name, problem, "rows [P, Q, σ], or the file of the loads")
     if len(table.rows) > MOST_POINTS:

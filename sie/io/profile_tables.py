@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import pathlib
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
 from functools import partial
-from typing import Any, NamedTuple
+from typing import Any
 
 from sie.arguments import choices, nearest, suggestion
 from sie.profiles.base import Profile
@@ -13,65 +14,91 @@ from sie.profiles.kinds import KINDS
 from sie.profiles.row import Periodic, Row
 from sie.profiles.sampled import Sampled
 
-from .scene_tables import (
+from .quantities import Converter
+from .scene_keys import (
     MODIFIERS,
+    PERIOD,
     TREATMENTS,
     Entries,
-    Naming,
+    Key,
     entries_of,
     entries_of_file,
+    naming,
     read_values,
     require,
 )
-from .toml_values import number, refuse_unread, table_of, text
+from .toml_values import TEXT, refuse_unread, table_of
+
+KIND = {"kind": Key(TEXT)}
 
 
-class TraceFiles(NamedTuple):
-    """Where the files of traces are, and to what they are converted.
+@dataclass
+class Surroundings:
+    """What surrounds the tables of a scene file.
 
-    folder    where the scene file is
-    length    the scene's unit of length
-    ask       whether a file without units is refused, as the scene uses units
+    folder        where the file is
+    convert       to its units
+    reads         the files that it names
+    unmeasured    those traces among them that state no units
     """
 
     folder: pathlib.Path
-    length: str
-    ask: bool
+    convert: Converter
+    reads: list[pathlib.Path] = field(default_factory=list)
+    unmeasured: list[str] = field(default_factory=list)
+
+    def place(self, name: str) -> pathlib.Path:
+        """The place of a file that is read."""
+        self.reads.append(self.folder / name)
+        return self.reads[-1]
+
+    def refuse_traces_without_units(self) -> None:
+        """ValueError if a trace states no units, and anything else in the file has them."""
+        if self.unmeasured and self.convert.registry is not None:
+            raise ValueError(
+                f'[profile] path = "{self.unmeasured[0]}" states no units of its columns, in a '
+                f'scene that uses units: give units = "{self.convert.labels["length"]}" or '
+                "another, or scale"
+            )
 
 
-def profile_of(value: Any, files: TraceFiles) -> Profile:
+def profile_of(value: Any, around: Surroundings) -> Profile:
     """The profile that a [profile] table describes. ValueError for a bad table."""
     first = dict(table_of("profile", value))
     plus = first.pop("plus", [])
-    period = first.pop("period", None)
-    if not isinstance(plus, list) or not all(isinstance(term, dict) for term in plus):
+    whole = {name: first.pop(name) for name in PERIOD if name in first}
+    if not _are_tables(plus):
         raise ValueError(
             "profile.plus is not a list of tables: "
             "write the header [[profile.plus]], in double brackets, before each term"
         )
-    total = _term("[profile]", first, files)
+    total = _term("[profile]", first, around)
     for k, term in enumerate(plus, start=1):
-        total = total + _term(
-            "[[profile.plus]]" if len(plus) == 1 else f"[[profile.plus]] number {k}", term, files
-        )
-    if period is None:
+        number = f" number {k}" if len(plus) > 1 else ""
+        total = total + _term(f"[[profile.plus]]{number}", term, around)
+    if not whole:
         return total
-    with Naming("[profile]"):
-        return Periodic(total, number("period", period))
+    values = read_values("[profile]", whole, PERIOD, around.convert)
+    with naming("[profile]"):
+        return Periodic(total, **values)
 
 
-def _term(where: str, table: dict[str, Any], files: TraceFiles) -> Profile:
+def _are_tables(value: Any) -> bool:
+    return isinstance(value, list) and all(isinstance(one, dict) for one in value)
+
+
+def _term(where: str, table: dict[str, Any], around: Surroundings) -> Profile:
     """One term of the profile: its kind, then mirrored, tilted, shifted, raised."""
     if table.get("kind") == "row":
-        return _row(where, dict(table), files)
+        return _row(where, dict(table), around)
     kind = _kind(where, table)
-    make, entries = _maker(kind, table, files)
+    make, entries = _maker(kind, table, around)
     treatments = TREATMENTS if KINDS[kind] is Sampled else {}
-    readers = {"kind": text, **entries.readers, **treatments, **MODIFIERS}
-    values = read_values(where, table, readers, kind=f' of kind "{kind}"')
+    keys = {**KIND, **entries.keys, **treatments, **MODIFIERS}
+    values = read_values(where, table, keys, around.convert, kind=f' of kind "{kind}"')
     require(f'{where} of kind "{kind}"', values, entries.required)
-    given = {name: v for name, v in values.items() if name in entries.readers}
-    with Naming(where):
+    given = {name: v for name, v in values.items() if name in entries.keys}
+    with naming(where):
         return _moved(_treated(make(**given), values), values)
 
 
@@ -90,21 +117,21 @@ def _moved(profile: Profile, values: Mapping[str, Any]) -> Profile:
     return moved.raised(values.get("raised", 0.0))
 
 
-def _row(where: str, table: dict[str, Any], files: TraceFiles) -> Profile:
+def _row(where: str, table: dict[str, Any], around: Surroundings) -> Profile:
     """Indenters on one holder, each a table under [[profile.of]]."""
     indenters = table.pop("of", [])
-    tables = isinstance(indenters, list) and all(isinstance(one, dict) for one in indenters)
-    if not tables or not indenters:
+    if not indenters or not _are_tables(indenters):
         raise ValueError(
             f'{where} of kind "row" lacks its indenters: '
             "write the header [[profile.of]], in double brackets, before each"
         )
-    values = read_values(where, table, {"kind": text, **MODIFIERS}, kind=' of kind "row"')
+    keys = {**KIND, **MODIFIERS}
+    values = read_values(where, table, keys, around.convert, kind=' of kind "row"')
     profiles = [
-        _term(f"[[profile.of]] number {k}", dict(one), files)
+        _term(f"[[profile.of]] number {k}", dict(one), around)
         for k, one in enumerate(indenters, start=1)
     ]
-    with Naming(where):
+    with naming(where):
         return _moved(Row(profiles), values)
 
 
@@ -116,7 +143,7 @@ def _kind(where: str, table: dict[str, Any]) -> str:
             if meant
             else f"{where} lacks kind: give kind = {choices([*KINDS, 'row'])}"
         )
-    kind = text(f"{where} kind", table["kind"])
+    kind: str = TEXT.read(f"{where} kind", table["kind"])
     if kind not in KINDS:
         known = [*KINDS, "row"]
         raise ValueError(f'{where} kind = "{kind}" is not known: {suggestion(kind, known)}')
@@ -124,25 +151,23 @@ def _kind(where: str, table: dict[str, Any]) -> str:
 
 
 def _maker(
-    kind: str, table: dict[str, Any], files: TraceFiles
+    kind: str, table: dict[str, Any], around: Surroundings
 ) -> tuple[Callable[..., Profile], Entries]:
     """The function that makes a profile of the kind, and its parameters; a trace may be a file."""
     make = KINDS[kind]
     entries, of_file = entries_of(make), entries_of_file()
-    if make is Sampled and table.keys() & (of_file.readers.keys() - entries.readers.keys()):
-        return partial(_trace, files), of_file
+    if make is Sampled and table.keys() & (of_file.keys.keys() - entries.keys.keys()):
+        return partial(_trace, around), of_file
     return make, entries
 
 
-def _trace(files: TraceFiles, path: str, **options: Any) -> Sampled:
+def _trace(around: Surroundings, path: str, **options: Any) -> Sampled:
     """A trace in a file, which is named from the scene file's folder."""
     try:
-        trace = Sampled.read(files.folder / path, length=files.length, **options)
+        length = around.convert.labels["length"]
+        trace = Sampled.read(around.place(path), length=length, **options)
     except OSError as problem:
         refuse_unread(path, problem, "the trace's file")
-    if files.ask and not any(trace.reading.units) and "scale" not in options:
-        raise ValueError(
-            f'path = "{path}" states no units of its columns, in a scene that uses units: give '
-            f'units = "{files.length}" or another, or scale'
-        )
+    if not any(trace.reading.units) and "scale" not in options:
+        around.unmeasured.append(path)
     return trace

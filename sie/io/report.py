@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 import textwrap
 from collections.abc import Callable, Sequence
-from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -24,7 +23,8 @@ if TYPE_CHECKING:
 SAME_PLACE = 1e-7  # of the half-width: rounding of p leaves a smooth peak uncertain by as much
 NOTHING = 1e-13  # of its scale: a smaller number is rounding, and is printed as 0
 MANY_ZONES = 8  # so many zones of stick or slip are listed
-ROWS, NARROWEST = 8, 20  # rows of the text picture, and its columns at least
+HEIGHT, NARROWEST = 8, 20  # rows of the text picture, and its columns at least
+Row = tuple[str, str]  # the name and the words of one quantity
 BETWEEN = "  "  # what stands between the columns of a table
 
 
@@ -35,23 +35,20 @@ def summary(
 
     `cycle` is the answer of `cycle_answer`.
     """
-    sections: dict[str, Callable[[Solution, Units], str]] = {
-        "edges": edges_summary,
-        "pressure": partial(pressure_summary, width=width),
-        "gap": gap_summary,
-        "shear": shear_summary,
-        "energy": energy_summary,
-        "stress": stress_summary,
-        "yield": yield_summary,
-        "tension": tension_summary,
-        "check": check_summary,
-    }
     scene = f"{solution.scene.profile!r}, E* = {solution.scene.Estar:.6g} {file.units.stress}"
     scene = textwrap.fill(scene, WIDE, break_long_words=False, break_on_hyphens=False)
     names = set(wanted(file))
     if "shear" in names and not energy_costs(solution.scene):
         names.discard("energy")  # it is printed with the shear
-    parts = [section(solution, file.units) for name, section in sections.items() if name in names]
+    parts: list[str] = []
+    for name in (name for name in ROWS if name in names):
+        parts.append(named_rows(*ROWS[name](solution, file.units)))
+        if name == "pressure":
+            parts.append(text_picture(solution, file.units, width))
+        if name == "shear" and solution.history and solution.carries_shear:
+            parts.append(_path_table(solution.history, file.units))
+    if "check" in names:
+        parts += map(str, (solution.check(), *solution.trace_reports()))
     if cycle:
         from .cycle_report import cycle_summary  # noqa: PLC0415
 
@@ -63,7 +60,7 @@ def summary(
     return "\n\n".join([head, *parts, *filter(None, [notes])])
 
 
-def edges_summary(solution: Solution, units: Units) -> str:
+def edge_rows(solution: Solution, units: Units) -> list[Row]:
     """Edges, width, load, moment and tilt."""
     r = solution.half_width
     x1, x2 = (
@@ -71,15 +68,15 @@ def edges_summary(solution: Solution, units: Units) -> str:
         for x, s in zip(solution.edges, solution.sharp, strict=True)
     )
     edges = f"x1 = {x1};  x2 = {x2}"
-    return named_rows(
+    return [
         ("edges", "none: all of the period is in contact" if full(solution) else edges),
         *_patches(solution, units),
         ("half-width", f"{_number(r)} {units.length}, centre at x = {_number(solution.centre, r)}"),
         *_loads(solution, units),
-    )
+    ]
 
 
-def _loads(solution: Solution, units: Units) -> tuple[tuple[str, str], ...]:
+def _loads(solution: Solution, units: Units) -> tuple[Row, ...]:
     """Load, moment and tilt; of a contact that repeats, which keeps level, the load of a period."""
     r, P = solution.half_width, solution.normal_load
     if math.isfinite(solution.scene.profile.period):
@@ -91,7 +88,7 @@ def _loads(solution: Solution, units: Units) -> tuple[tuple[str, str], ...]:
     )
 
 
-def _patches(solution: Solution, units: Units) -> tuple[tuple[str, str], ...]:
+def _patches(solution: Solution, units: Units) -> tuple[Row, ...]:
     """The number of patches, the length in contact, the largest share of the load, and the gaps."""
     patches, repeats = solution.patches, math.isfinite(solution.scene.profile.period)
     if len(patches) < 2 and not repeats:
@@ -119,31 +116,26 @@ def _patches(solution: Solution, units: Units) -> tuple[tuple[str, str], ...]:
     )
 
 
-def pressure_summary(solution: Solution, units: Units, width: int = WIDE) -> str:
-    """The peak pressure, the mean pressure, and the pressure as a picture in text."""
-    return f"{peak_summary(solution, units)}\n\n{text_picture(solution, units, width)}"
-
-
-def peak_summary(solution: Solution, units: Units) -> str:
+def peak_rows(solution: Solution, units: Units) -> list[Row]:
     """The peak pressure and the mean pressure."""
     largest, where = peak(solution)
     places = [_number(x, solution.half_width, SAME_PLACE) for x in where[:2]]
     places += [f"{len(where) - 2} more"] if len(where) > 2 else []
     value = f"{_number(largest)} {units.stress}" if math.isfinite(largest) else "infinite"
     mean = solution.normal_load / solution.contact_length
-    return named_rows(
+    return [
         ("peak pressure", f"{value} at x = {' and '.join(places)}"),
         ("mean pressure", f"{_number(mean)} {units.stress}"),
-    )
+    ]
 
 
-def gap_summary(solution: Solution, units: Units) -> str:
+def gap_rows(solution: Solution, units: Units) -> list[Row]:
     """The gap half a half-width beyond each edge.
 
     It is taken in the middle of the way to the contact of the next period where that is nearer.
     """
     if full(solution):
-        return named_rows(("gap", "none"))
+        return [("gap", "none")]
     (x1, x2), step = solution.edges, min(0.5 * solution.half_width, reach(solution))
     x = np.array([x1 - step, x2 + step])
     values = (
@@ -151,13 +143,13 @@ def gap_summary(solution: Solution, units: Units) -> str:
         for g in solution.gap(x).tolist()
     )
     places = [f"{gap} at x = {_number(u)}" for gap, u in zip(values, x.tolist(), strict=True)]
-    return named_rows(("gap", ";  ".join(places)))
+    return [("gap", ";  ".join(places))]
 
 
-def shear_summary(solution: Solution, units: Units) -> str:
-    """Stick zones, slip zones and dissipated energy; the turning points of a path as a table."""
+def shear_rows(solution: Solution, units: Units) -> list[Row]:
+    """Stick zones, slip zones and dissipated energy."""
     if not solution.carries_shear:
-        return named_rows(("shear", "none"))
+        return [("shear", "none")]
     scene, r = solution.scene, solution.half_width
     limit = (
         "; bonded" if scene.bonded else f"; f P = {_number(scene.friction * solution.normal_load)}"
@@ -175,8 +167,7 @@ def shear_summary(solution: Solution, units: Units) -> str:
         ("energy lost", f"{_number(energy)} {units.moment}")
         for energy in energy_of(solution).values()
     ]
-    table = [_path_table(solution.history, units)] if solution.history else []
-    return "\n\n".join([named_rows(*rows), *table])
+    return rows
 
 
 def _narrow(solution: Solution, lo: float, hi: float, length: str) -> str:
@@ -189,14 +180,9 @@ def _narrow(solution: Solution, lo: float, hi: float, length: str) -> str:
     return f" ({width:.3g} {length} wide)"
 
 
-def energy_summary(solution: Solution, units: Units) -> str:
-    """The dissipated energy."""
-    return named_rows(("energy lost", f"{_number(solution.energy_lost)} {units.moment}"))
-
-
 def _zones(
     name: str, zones: Sequence[tuple[float, float, str]], r: float, length: str
-) -> list[tuple[str, str]]:
+) -> list[Row]:
     """A row for each zone, or one for all where they are many."""
     if len(zones) > MANY_ZONES:
         whole = _number(sum(hi - lo for lo, hi, _ in zones))
@@ -240,7 +226,7 @@ def table(head: Sequence[str], rows: Sequence[Sequence[float | str]]) -> str:
     return "\n".join(lines)
 
 
-def stress_summary(solution: Solution, units: Units) -> str:
+def stress_rows(solution: Solution, units: Units) -> list[Row]:
     """The stress under the centre of the contact, on the surface and half a half-width below."""
     r, rows = solution.half_width, []
     for name, where, y in (
@@ -253,43 +239,48 @@ def stress_summary(solution: Solution, units: Units) -> str:
             for component, value in (("σ_xx", s.xx), ("σ_yy", s.yy), ("σ_xy", s.xy))
         )
         rows.append((name, f"{', '.join(parts)} {units.stress} at the centre, {where}"))
-    return named_rows(*rows)
+    return rows
 
 
-def yield_summary(solution: Solution, units: Units) -> str:
+def yield_rows(solution: Solution, units: Units) -> list[Row]:
     """The load at which the body yields first, and where."""
     limit, r = solution.elastic_limit(), solution.half_width
     if math.isinf(limit.stress):
         place = f"x = {_number(limit.x, r)} {units.length} on the surface"
-        return named_rows(("elastic limit", f"0: the stress is infinite at {place}"))
+        return [("elastic limit", f"0: the stress is infinite at {place}")]
     places = (
         f"x = {_number(x, r, SAME_PLACE)}, y = {_number(y)} {units.length}" for x, y in limit.places
     )
     ratio = f"P/(bk) = {_number(limit.ratio)} (von Mises)"
     stress = f"it yields if k < {_number(limit.stress)} {units.stress}"
-    return named_rows(
-        ("elastic limit", f"{ratio}: {stress}"), ("weakest point", " and ".join(places))
-    )
+    return [("elastic limit", f"{ratio}: {stress}"), ("weakest point", " and ".join(places))]
 
 
-def tension_summary(solution: Solution, units: Units) -> str:
+def tension_rows(solution: Solution, units: Units) -> list[Row]:
     """The largest tension on the surface, and where."""
     value, x = solution.peak_tension()
     if value == 0.0:
-        return named_rows(("peak tension", "none: the surface is nowhere in tension"))
+        return [("peak tension", "none: the surface is nowhere in tension")]
     size = (
         f"{_number(value, solution.normal_load / solution.half_width)} {units.stress}"
         if math.isfinite(value)
         else "infinite"
     )
-    return named_rows(
-        ("peak tension", f"{size} at x = {_number(x, solution.half_width)} {units.length}")
-    )
+    return [("peak tension", f"{size} at x = {_number(x, solution.half_width)} {units.length}")]
 
 
-def check_summary(solution: Solution, _units: Units) -> str:
-    """The certificate, and for each trace the error that its noise implies."""
-    return "\n\n".join(map(str, (solution.check(), *solution.trace_reports())))
+ROWS: dict[str, Callable[[Solution, Units], list[Row]]] = {
+    "edges": edge_rows,
+    "pressure": peak_rows,
+    "gap": gap_rows,
+    "shear": shear_rows,
+    "energy": lambda solution, units: [
+        ("energy lost", f"{_number(solution.energy_lost)} {units.moment}")
+    ],
+    "stress": stress_rows,
+    "yield": yield_rows,
+    "tension": tension_rows,
+}
 
 
 def text_picture(solution: Solution, units: Units, width: int = WIDE) -> str:
@@ -298,16 +289,16 @@ def text_picture(solution: Solution, units: Units, width: int = WIDE) -> str:
     margin = len(_number(top))
     columns = max(width - margin - len(" │"), NARROWEST)
     p = solution.pressure(x1 + (x2 - x1) * (np.arange(columns) + 0.5) / columns)
-    eighths: list[int] = np.round(np.minimum(p / top, 1.0) * 8 * ROWS).astype(int).tolist()
+    eighths: list[int] = np.round(np.minimum(p / top, 1.0) * 8 * HEIGHT).astype(int).tolist()
     rows = [
         "".join(" ▁▂▃▄▅▆▇█"[min(max(e - 8 * level, 0), 8)] for e in eighths)
-        for level in range(ROWS - 1, -1, -1)
+        for level in range(HEIGHT - 1, -1, -1)
     ]
     rows[0] = "".join(
         "↑" if cut else block
         for block, cut in zip(rows[0], p > top * (1.0 + SAME_PEAK), strict=True)
     )
-    labels = [_number(top), *[""] * (ROWS - 1)]
+    labels = [_number(top), *[""] * (HEIGHT - 1)]
     r = solution.half_width
     left, right = _number(x1, r), f"{_number(x2, r)} {units.length}"
     lines = [f"{label:>{margin}} │{row}" for label, row in zip(labels, rows, strict=True)]

@@ -61,11 +61,11 @@ from sie.problem.scene import Scene
 from sie.profiles.kinds import KINDS
 
 from .fatigue_table import Fatigue, fatigue_of
-from .path_table import path_of
-from .profile_tables import TraceFiles, profile_of
-from .quantities import in_units
-from .scene_tables import LOADS, TOP, Naming, remedy, require, values_of
-from .toml_values import text, texts
+from .path_table import in_units, path_of
+from .profile_tables import Surroundings, profile_of
+from .quantities import Converter
+from .scene_keys import LOADS, TOP, naming, remedy, require, values_of
+from .toml_values import TEXT, TEXTS
 
 
 class SceneFileError(ValueError):
@@ -120,8 +120,7 @@ class SceneFile:
     title        one line of text
     units        labels
     want         the quantities to be answered, empty if the file names none
-    path         turning points (P, Q, σ), empty without a path
-    tilt, moment what the path adds to the scene's at each point, empty for nothing
+    load_path    the load path, None without one
     fatigue      constants of the material for fatigue parameters
     reads        the files that it names
     """
@@ -130,16 +129,9 @@ class SceneFile:
     title: str = ""
     units: Units = UNITS
     want: tuple[str, ...] = ()
-    path: tuple[tuple[float, float, float], ...] = ()
-    tilt: tuple[float, ...] = ()
-    moment: tuple[float, ...] = ()
+    load_path: Path | None = None
     fatigue: Fatigue = field(default_factory=Fatigue)
     reads: tuple[pathlib.Path, ...] = field(default=(), compare=False)
-
-    @property
-    def load_path(self) -> Path | None:
-        """The load path, None without one."""
-        return Path(self.path, self.tilt, self.moment) if self.path else None
 
 
 # -- reading -------------------------------------------------------------------------------------
@@ -184,13 +176,9 @@ def parse(text: str | bytes, name: str = "scene", folder: pathlib.Path = HERE) -
         if _DEEP_KEY.search(_STRING_OR_COMMENT.sub("s", text)):
             raise RecursionError
         table = tomllib.loads(text)
-    except tomllib.TOMLDecodeError as problem:
+    except ValueError as problem:  # also of Python, for a number of more than 4300 digits
         raise SceneFileError(
             f"{name} is not TOML: {problem}; `sie example` prints files that are"
-        ) from None
-    except ValueError:  # Python's own limit
-        raise SceneFileError(
-            f"{name} has a number of more than 4300 digits: write it as a float, like 1e-3"
         ) from None
     except RecursionError:
         raise SceneFileError(
@@ -258,57 +246,52 @@ def from_tables(top: dict[str, Any], folder: pathlib.Path = HERE) -> SceneFile:
     ):
         if name not in top:
             raise ValueError(f"there is no [{name}]: give [{name}] with {content}")
-    units = values_of("units", top.get("units", {}))
+    plain = Converter(vars(UNITS))
+    units = values_of("units", top.get("units", {}), plain)
     checked = units.pop("checked", False)
     labels = Units(**units)
-    top, uses_units = in_units(top, vars(labels), checked)
-    traces = TraceFiles(folder, labels.length, uses_units)
-    loads = values_of("load", top["load"])
-    named = loads.get("path")
-    path = _path(loads, folder)
+    around = Surroundings(folder, Converter(vars(labels)))
+    if checked:
+        around.convert.begin("[units] checked = true", "leave checked out")
+    path, loads = _loads(top["load"], around)
+    profile = profile_of(top["profile"], around)
+    bodies = _bodies(top, around.convert)
+    fatigue = fatigue_of(values_of("fatigue", top.get("fatigue", {}), around.convert))
+    around.refuse_traces_without_units()
     return SceneFile(
-        scene=Scene(profile=profile_of(top["profile"], traces), **_bodies(top), **loads),
-        title=text("title", top.get("title", "")),
+        scene=Scene(profile=profile, **bodies, **loads),
+        title=TEXT.read("title", top.get("title", "")),
         units=labels,
-        want=wants("want", texts("want", top.get("want", []))),
-        path=path.points if path else (),
-        tilt=path.tilt if path else (),
-        moment=path.moment if path else (),
-        fatigue=fatigue_of(values_of("fatigue", top.get("fatigue", {}))),
-        reads=tuple(
-            folder / name
-            for name in (
-                *(term.get("path") for term in (top["profile"], *top["profile"].get("plus", ()))),
-                named,
-            )
-            if isinstance(name, str)
-        ),
+        want=wants("want", TEXTS.read("want", top.get("want", []))),
+        load_path=path,
+        fatigue=fatigue,
+        reads=tuple(around.reads),
     )
 
 
-def _path(loads: dict[str, Any], folder: pathlib.Path) -> Path | None:
-    """The path of [load]; in `loads` its last point takes its place."""
+def _loads(table: Any, around: Surroundings) -> tuple[Path | None, dict[str, Any]]:
+    """The path of [load], and the loads, which are those of its last point."""
+    loads = values_of("load", in_units(table, around.convert), around.convert)
     columns = loads.pop("columns", None)
     if "path" not in loads:
         if columns is not None:
             raise ValueError("[load] has columns without a path: give path = [[P, Q, σ], ...]")
-        return None
-    both = [name for name in LOADS if name in loads]
+        return None, loads
+    both = next((name for name in LOADS if name in loads), "")
     if both:
         raise ValueError(
-            f"[load] has both path and {both[0]}: path is the loads, as [P, Q] or [P, Q, σ]; "
-            f"leave {both[0]} out"
+            f"[load] has both path and {both}: path is the loads, as [P, Q] or [P, Q, σ]; "
+            f"leave {both} out"
         )
-    with Naming("[load]"):
-        path = path_of(loads.pop("path"), columns, folder)
-    last = path.points[-1]
-    loads |= dict(zip(("normal_load", "tangential_load", "bulk_stress"), last, strict=True))
-    return path
+    with naming("[load]"):
+        path = path_of(loads.pop("path"), columns, around.place)
+    last = zip(("normal_load", "tangential_load", "bulk_stress"), path.points[-1], strict=True)
+    return path, loads | dict(last)
 
 
-def _bodies(top: dict[str, Any]) -> dict[str, Any]:
+def _bodies(top: dict[str, Any], convert: Converter) -> dict[str, Any]:
     """The scene's body and indenter, or modulus, dundurs and poisson."""
-    pair = values_of("pair", top.get("pair", {}))
+    pair = values_of("pair", top.get("pair", {}), convert)
     if "pair" in top and not pair.keys() <= {"dundurs", "coupling"}:
         for name in ("body", "indenter"):
             if name in top:
@@ -324,10 +307,11 @@ def _bodies(top: dict[str, Any]) -> dict[str, Any]:
                 "give [body] with young and poisson, or [pair] with modulus"
             )
         require("[pair]", pair, ["modulus"])
-    return {name: _body(name, top[name]) for name in ("body", "indenter") if name in top} | pair
+    named = [name for name in ("body", "indenter") if name in top]
+    return {name: _body(name, top[name], convert) for name in named} | pair
 
 
-def _body(name: str, value: Any) -> Body:
+def _body(name: str, value: Any, convert: Converter) -> Body:
     if isinstance(value, str):
         if value != "rigid":
             raise ValueError(
@@ -335,13 +319,13 @@ def _body(name: str, value: Any) -> Body:
                 f'write {name} = "rigid", or a table [{name}] with young and poisson'
             )
         return RIGID
-    values = values_of(name, value)
+    values = values_of(name, value, convert)
     if values.pop("rigid", False):
         if values:
             raise ValueError(f"[{name}] is rigid and has {', '.join(values)}: leave one out")
         return RIGID
     require(f"[{name}]", values, ("young", "poisson"))
-    with Naming(f"[{name}]"):
+    with naming(f"[{name}]"):
         return Elastic(**values)
 
 

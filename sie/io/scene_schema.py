@@ -1,4 +1,4 @@
-"""The JSON Schema of scene files, made from the tables that read them.
+"""The JSON Schema of scene files, made from the table of their keys (`scene_keys`).
 
 It has the names of all keys, the types of their values and what must be given together, with the
 descriptions of the parameters' docstrings. An editor completes and checks by it a file whose first
@@ -15,73 +15,32 @@ import inspect
 import json
 import re
 from collections.abc import Callable, Iterable, Mapping
-from typing import Any, get_args
+from typing import Any
 
-from sie.problem.material import Elastic, Plane
+from sie.problem.material import Elastic
 from sie.problem.request import WANTS
-from sie.problem.scene import COUPLINGS, Scene
-from sie.profiles.base import Parity, Profile
+from sie.problem.scene import Scene
+from sie.profiles.base import Profile
 from sie.profiles.kinds import KINDS
 from sie.profiles.row import Periodic
 from sie.profiles.sampled import Sampled
-from sie.profiles.trace_units import SIDES
 
-from . import quantities, toml_values
-from .fatigue_table import TOGETHER
-from .scene_tables import (
+from .fatigue_table import TOGETHER, Fatigue
+from .scene_keys import (
     LOADS,
     MODIFIERS,
+    PERIOD,
     TABLES,
     TREATMENTS,
     Entries,
+    Keys,
     entries_of,
     entries_of_file,
 )
+from .toml_values import TEXT, Json
 
-Json = dict[str, Any]
-
-NUMBER: Json = {"type": "number"}
-TEXT: Json = {"type": "string"}
-FLAG: Json = {"type": "boolean"}
-NUMBERS: Json = {"type": "array", "items": NUMBER}
-ROWS: Json = {"type": "array", "items": NUMBERS}
-PAIR: Json = {**NUMBERS, "minItems": 2, "maxItems": 2}
-COLUMN: Json = {"type": ["integer", "string"]}
-# What each reader accepts.
-SHAPES: Mapping[toml_values.Reader, Json] = {
-    toml_values.number: NUMBER,
-    toml_values.text: TEXT,
-    toml_values.flag: FLAG,
-    toml_values.whole: {"type": "integer"},
-    toml_values.numbers: NUMBERS,
-    toml_values.rows: ROWS,
-    toml_values.texts: {"type": "array", "items": TEXT},
-    toml_values.rows_or_text: {"anyOf": [ROWS, TEXT]},
-    toml_values.text_or_pair: {"anyOf": [TEXT, {"type": "array", "items": TEXT}]},
-    toml_values.number_or_text: {"type": ["number", "string"]},
-    toml_values.number_or_pair: {"anyOf": [NUMBER, PAIR]},
-    toml_values.flag_or_pair: {"anyOf": [FLAG, PAIR]},
-    toml_values.columns: {"type": "array", "items": COLUMN, "minItems": 2, "maxItems": 2},
-}
-# A number with a unit, which the reader hands to pint, and the keys that may have one.
+# A number with a unit, which the reader hands to pint.
 QUANTITY = r"^\s*[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d{1,3})?\s*[^\s\d.,+-]"
-DIMENSIONED = {name for table in quantities.TABLES.values() for name in table} | {"path"}
-POSITIVE: Json = {"type": "number", "exclusiveMinimum": 0.0}
-# The keys of which less is accepted than their reader takes.
-LIMITED: Mapping[str, Json] = {
-    "plane": {"enum": [*get_args(Plane)]},
-    "depth": {"anyOf": [NUMBER, NUMBERS]},
-    "parity": {"enum": [*get_args(Parity)]},
-    "coupling": {"enum": [*COUPLINGS]},
-    "heights": {"enum": [*SIDES]},
-    "smoothing": {"anyOf": [NUMBER, {"enum": ["gcv"]}]},
-    "sliding": {"enum": [-1, 0, 1]},
-    "poisson": {"type": "number", "exclusiveMinimum": -1.0, "maximum": 0.5},
-    "friction": {"type": "number", "minimum": 0.0},
-    "exponent": {"type": "number", "minimum": 1.0},
-    **dict.fromkeys(("young", "modulus", "normal_load", "half_width"), POSITIVE),
-    **dict.fromkeys(("half_flat", "radius", "coefficient", "period"), POSITIVE),
-}
 
 
 def schema_text() -> str:
@@ -91,23 +50,23 @@ def schema_text() -> str:
 
 def schema() -> Json:
     """The schema of a scene file, by draft 7, which editors know."""
+    tables = {name: _table(name) for name in TABLES if name not in ("body", "indenter")}
+    body = {"$ref": "#/definitions/body"}
+    properties = {
+        "title": TEXT.shape,
+        "want": {"type": "array", "items": {"enum": [*WANTS]}},
+        "profile": {"anyOf": _kinds(_of_the_whole())},
+        **tables,
+        "load": _load(),
+        "fatigue": tables["fatigue"] | {"dependencies": {k: [v] for k, v in TOGETHER}},
+        "body": body,
+        "indenter": body,
+    }
     return {
         "$schema": "http://json-schema.org/draft-07/schema#",
         "title": "Scene file of plane-contact",
         "definitions": {"term": {"anyOf": _kinds({})}, "body": _body()},
-        **_object(
-            {
-                "title": TEXT,
-                "want": {"type": "array", "items": {"enum": [*WANTS]}},
-                "profile": {"anyOf": _kinds(_of_the_whole())},
-                **{name: _table(name) for name in TABLES if name not in ("body", "indenter")},
-                "load": _load(),
-                "fatigue": _table("fatigue") | {"dependencies": {k: [v] for k, v in TOGETHER}},
-                "body": {"$ref": "#/definitions/body"},
-                "indenter": {"$ref": "#/definitions/body"},
-            },
-            ("profile", "load"),
-        ),
+        **_object(properties, ("profile", "load")),
         "oneOf": [
             _all_of(("pair",), {"pair": _all_of(("modulus",))})
             | {"not": _any_of(("body", "indenter"))},
@@ -120,7 +79,7 @@ def schema() -> Json:
 
 
 def _table(name: str) -> Json:
-    return _object(_values(TABLES[name], _descriptions(Scene)))
+    return _object(_values(TABLES[name], _descriptions(Fatigue if name == "fatigue" else Scene)))
 
 
 def _body() -> Json:
@@ -144,7 +103,7 @@ def _load() -> Json:
 def _of_the_whole() -> Json:
     """The keys of [profile] that its terms do not have."""
     plus = {"type": "array", "items": {"$ref": "#/definitions/term"}}
-    return {"plus": plus} | _values({"period": toml_values.number}, _descriptions(Periodic))
+    return {"plus": plus} | _values(PERIOD, _descriptions(Periodic))
 
 
 def _kinds(more: Json) -> list[Json]:
@@ -158,11 +117,10 @@ def _kinds(more: Json) -> list[Json]:
 
 
 def _kind(name: str, make: Callable[..., Profile], entries: Entries, more: Json) -> Json:
-    keys = {"kind": {"const": name}, **_values(entries.readers, _descriptions(make)), **more}
-    treatments = (
-        _values(TREATMENTS, _summaries(Sampled, TREATMENTS)) if KINDS[name] is Sampled else {}
-    )
-    return _object(keys | treatments, ("kind", *entries.required))
+    keys = {"kind": {"const": name}, **_values(entries.keys, _descriptions(make)), **more}
+    if KINDS[name] is Sampled:
+        keys |= _values(TREATMENTS, _summaries(Sampled, TREATMENTS))
+    return _object(keys, ("kind", *entries.required))
 
 
 # -- parts of a schema ---------------------------------------------------------------------------
@@ -181,14 +139,16 @@ def _any_of(names: tuple[str, ...]) -> Json:
     return {"anyOf": [_all_of((name,)) for name in names]}
 
 
-def _values(readers: Mapping[str, toml_values.Reader], descriptions: Mapping[str, str]) -> Json:
+def _values(keys: Keys, descriptions: Mapping[str, str]) -> Json:
     """What each key takes, with its description where there is one."""
-    shapes = {name: LIMITED.get(name, SHAPES[reader]) for name, reader in readers.items()}
-    return {
-        name: (_or_quantity(shape) if name in DIMENSIONED else shape)
-        | ({"description": descriptions[name]} if name in descriptions else {})
-        for name, shape in shapes.items()
-    }
+
+    def shape(name: str) -> Json:
+        kind, dimension = keys[name]
+        quantity = dimension or name == "path"
+        return _or_quantity(kind.shape) if quantity else kind.shape
+
+    told = {name: {"description": descriptions[name]} for name in keys if name in descriptions}
+    return {name: shape(name) | told.get(name, {}) for name in keys}
 
 
 def _or_quantity(shape: Any) -> Any:

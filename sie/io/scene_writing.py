@@ -40,11 +40,8 @@ from sie.profiles.row import Periodic, Row
 from sie.profiles.sampled import Sampled
 from sie.profiles.shapes import Wedge
 
-from . import scene_tables
-from .fatigue_table import Fatigue
-from .path_table import LOADS
-from .scene_file import MOST_BYTES, SceneFile, Units, from_tables
-from .scene_tables import TABLES
+from .scene_file import MOST_BYTES, from_tables
+from .scene_keys import TABLES
 
 Tables = dict[str, Any]
 
@@ -67,7 +64,7 @@ def scene_of(tables: Mapping[str, Any]) -> Scene:
         file = from_tables(_with_infinities(tables))
     except RecursionError:
         raise ValueError("the tables are nested too deeply for those of a scene") from None
-    if file.path:
+    if file.load_path:
         raise ValueError(
             "[load] has a path, which is more than one scene: give normal_load, tangential_load "
             "and bulk_stress, or read the file by sie.io.scene_file"
@@ -103,39 +100,6 @@ def tables_of(scene: Scene) -> Tables:
     for name in ("pair", "load"):
         tables[name] = {key: given[key] for key in TABLES[name] if key in given}
     return {name: table for name, table in tables.items() if table}
-
-
-def tables_of_file(file: SceneFile) -> Tables:
-    """The tables of a scene file: those of its scene, title, want, units, path and [fatigue].
-
-    ValueError if a scene file cannot name its profile.
-    """
-    tables: Tables = {"title": file.title, "want": list(file.want)}
-    tables["units"] = _not_default(file.units, Units())
-    tables |= tables_of(file.scene)
-    if file.path:
-        tables["load"] = _with_path(tables["load"], file)
-    tables["fatigue"] = _not_default(file.fatigue, Fatigue())
-    return {name: value for name, value in tables.items() if value}
-
-
-def _not_default(given: Any, default: Any) -> Tables:
-    """The fields of a record that differ from those of another."""
-    return {
-        f.name: _plain(getattr(given, f.name))
-        for f in fields(given)
-        if getattr(given, f.name) != getattr(default, f.name)
-    }
-
-
-def _with_path(load: Tables, file: SceneFile) -> Tables:
-    """[load] with the path in place of the loads of its last point."""
-    load = {k: v for k, v in load.items() if k not in scene_tables.LOADS}
-    turned = next((name for name in ("tilt", "moment") if getattr(file, name)), None)
-    if turned is None:
-        return load | {"path": [list(point) for point in file.path]}
-    rows = zip(file.path, getattr(file, turned), strict=True)
-    return load | {"path": [[*p, turn] for p, turn in rows], "columns": [*LOADS, turned]}
 
 
 def toml_text(tables: Mapping[str, Any]) -> str:

@@ -21,6 +21,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from sie.files import table_of_columns
 from sie.problem.request import GRID
 from sie.solution import Solution
 from sie.stress.half_plane import Stress
@@ -78,14 +79,8 @@ def _one_line(text: str) -> str:
 
 def _csv(grid: Grid, head: tuple[str, ...]) -> bytes:
     x, y = np.meshgrid(grid.x, grid.y)
-    columns = [
-        v.ravel().tolist() for v in (x, y, *(getattr(grid.stress, name) for name in COMPONENTS))
-    ]
-    lines = [*(f"# {line}" for line in head), ",".join(("x", "y", *COMPONENTS))]
-    return (
-        "\n".join([*lines, *(",".join(map(repr, row)) for row in zip(*columns, strict=True))])
-        + "\n"
-    ).encode()
+    columns = {"x": x, "y": y} | {name: getattr(grid.stress, name) for name in COMPONENTS}
+    return table_of_columns(head, {name: v.ravel() for name, v in columns.items()}).encode()
 
 
 def _npz(grid: Grid, head: tuple[str, ...]) -> bytes:

@@ -1,20 +1,26 @@
-"""Readers of the entries of a scene file.
+"""What an entry of a scene file may be: how it is read, and what its JSON Schema says.
 
-Each returns the value of the entry that `where` names, or raises ValueError with the remedy.
+A reader returns the value of the entry that `where` names, or raises ValueError with the remedy.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any, NoReturn
+from collections.abc import Callable, Iterable
+from typing import Any, NamedTuple, NoReturn
 
-from sie.arguments import shortened
+from sie.arguments import positive, shortened
 
-Reader = Callable[[str, Any], Any]
+Json = dict[str, Any]
 
 
-def number(where: str, value: Any) -> float:
-    """A number, as a float."""
+class Kind(NamedTuple):
+    """A kind of entry: its reader, and the schema of what it takes."""
+
+    read: Callable[[str, Any], Any]
+    shape: Json
+
+
+def _number(where: str, value: Any) -> float:
     if isinstance(value, bool) or not isinstance(value, (int, float)):
         raise ValueError(
             f"{where} = {shown(value)} is not a number: "
@@ -28,8 +34,7 @@ def number(where: str, value: Any) -> float:
         ) from None
 
 
-def text(where: str, value: Any) -> str:
-    """One line of text."""
+def _text(where: str, value: Any) -> str:
     if not isinstance(value, str):
         raise ValueError(f'{where} = {shown(value)} is not text: put it in quotes, "..."')
     if not value.isprintable():
@@ -40,8 +45,7 @@ def text(where: str, value: Any) -> str:
     return value
 
 
-def flag(where: str, value: Any) -> bool:
-    """A truth value."""
+def _flag(where: str, value: Any) -> bool:
     if not isinstance(value, bool):
         raise ValueError(
             f"{where} = {shown(value)} is neither true nor false: write one of them, without quotes"
@@ -49,61 +53,7 @@ def flag(where: str, value: Any) -> bool:
     return value
 
 
-def listed(where: str, value: Any) -> list[Any]:
-    """A list."""
-    if not isinstance(value, list):
-        raise ValueError(f"{where} = {shown(value)} is not a list: put it in square brackets")
-    return value
-
-
-def numbers(where: str, value: Any) -> tuple[float, ...]:
-    """A list of numbers."""
-    if isinstance(value, list) and all(type(v) is float for v in value):
-        return tuple(value)  # a trace, without a name for each of its numbers
-    return tuple(number(f"{where}[{k}]", v) for k, v in enumerate(listed(where, value)))
-
-
-def rows(where: str, value: Any) -> tuple[tuple[float, ...], ...]:
-    """A list of lists of numbers."""
-    return tuple(numbers(f"{where}[{k}]", v) for k, v in enumerate(listed(where, value)))
-
-
-def rows_or_text(where: str, value: Any) -> tuple[tuple[float, ...], ...] | str:
-    """A list of lists of numbers, or a text."""
-    return text(where, value) if isinstance(value, str) else rows(where, value)
-
-
-def texts(where: str, value: Any) -> tuple[str, ...]:
-    """A list of texts."""
-    return tuple(text(f"{where}[{k}]", v) for k, v in enumerate(listed(where, value)))
-
-
-def text_or_pair(where: str, value: Any) -> str | tuple[str, ...]:
-    """A text, or a list of texts."""
-    return texts(where, value) if isinstance(value, list) else text(where, value)
-
-
-def number_or_text(where: str, value: Any) -> float | str:
-    """A number or a text."""
-    return value if isinstance(value, str) else number(where, value)
-
-
-def number_or_pair(where: str, value: Any) -> float | tuple[float, ...]:
-    """A number or a list of numbers."""
-    return numbers(where, value) if isinstance(value, list) else number(where, value)
-
-
-def flag_or_pair(where: str, value: Any) -> bool | tuple[float, ...]:
-    """A truth value or a pair of numbers."""
-    if not isinstance(value, list):
-        return flag(where, value)
-    if len(value) != 2:
-        raise ValueError(f"{where} = {shown(value)} is not a pair: give two ends, [lo, hi]")
-    return numbers(where, value)
-
-
-def whole(where: str, value: Any) -> int:
-    """A whole number."""
+def _whole(where: str, value: Any) -> int:
     if isinstance(value, bool) or not isinstance(value, int):
         raise ValueError(
             f"{where} = {shown(value)} is not a whole number: write one, without quotes"
@@ -111,13 +61,50 @@ def whole(where: str, value: Any) -> int:
     return value
 
 
-def columns(where: str, value: Any) -> tuple[int | str, ...]:
-    """A pair of column numbers or names."""
-    if len(listed(where, value)) != 2:
-        raise ValueError(f"{where} = {shown(value)} is not a pair: give the columns of x and of h")
-    return tuple(
-        v if isinstance(v, str) else whole(f"{where}[{k}]", v) for k, v in enumerate(value)
-    )
+def in_range(**limits: float) -> Kind:
+    """A number; an editor refuses it beyond the limits of the schema, the scene beyond its own."""
+    return Kind(_number, {"type": "number", **limits})
+
+
+NUMBER, TEXT = in_range(), Kind(_text, {"type": "string"})
+FLAG, WHOLE = Kind(_flag, {"type": "boolean"}), Kind(_whole, {"type": "integer"})
+POSITIVE = in_range(exclusiveMinimum=0.0)
+# A number that nothing else checks.
+CONSTANT = Kind(lambda where, value: positive(where, _number(where, value)), POSITIVE.shape)
+
+
+def choice(words: Iterable[str]) -> Kind:
+    """One of a few words."""
+    return Kind(_text, {"enum": [*words]})
+
+
+def list_of(kind: Kind, pair: str = "") -> Kind:
+    """A list of entries of a kind; a pair where it is said what to give as one."""
+
+    def read(where: str, value: Any) -> tuple[Any, ...]:
+        if not isinstance(value, list):
+            raise ValueError(f"{where} = {shown(value)} is not a list: put it in square brackets")
+        if pair and len(value) != 2:
+            raise ValueError(f"{where} = {shown(value)} is not a pair: {pair}")
+        if kind is NUMBER and all(type(v) is float for v in value):
+            return tuple(value)  # a trace, without a name for each of its numbers
+        return tuple(kind.read(f"{where}[{k}]", v) for k, v in enumerate(value))
+
+    size = {"minItems": 2, "maxItems": 2} if pair else {}
+    return Kind(read, {"type": "array", "items": kind.shape, **size})
+
+
+def by_type(python_type: type, kind: Kind, other: Kind) -> Kind:
+    """An entry of one kind where the value has the type, otherwise of the other kind."""
+
+    def read(where: str, value: Any) -> Any:
+        return (kind if isinstance(value, python_type) else other).read(where, value)
+
+    return Kind(read, {"anyOf": [kind.shape, other.shape]})
+
+
+NUMBERS, TEXTS = list_of(NUMBER), list_of(TEXT)
+PAIR = list_of(NUMBER, "give two numbers, [first, second]")
 
 
 def table_of(where: str, value: Any) -> dict[str, Any]:
@@ -135,14 +122,10 @@ def table_of(where: str, value: Any) -> dict[str, Any]:
 
 def shown(value: Any) -> str:
     """A value as TOML writes it, shortened."""
+    if isinstance(value, bool):
+        return str(value).lower()
     try:
-        text = (
-            {True: "true", False: "false"}[value]
-            if isinstance(value, bool)
-            else f'"{value}"'
-            if isinstance(value, str)
-            else str(value)
-        )
+        text = f'"{value}"' if isinstance(value, str) else str(value)
     except ValueError:  # Python writes no integer of more than 4300 digits
         text = "an integer of thousands of digits"
     return shortened(" ".join(text.split()))

@@ -18,6 +18,12 @@ def strict(text):
     return json.loads(text, parse_constant=lambda name: pytest.fail(f"{name} is not JSON"))
 
 
+def rows_of(name):
+    """The rows of a CSV file by the names of its columns."""
+    lines = Path(name).read_text(encoding="utf-8").splitlines()
+    return list(csv.DictReader(line for line in lines if not line.startswith("#")))
+
+
 # -- JSON and CSV ----------------------------------------------------------------------------------
 
 
@@ -51,8 +57,7 @@ def test_the_shear_in_sliding_is_in_the_report_the_json_and_the_csv(tmp_path, mo
     solution = sie.solve(scene_file.read(path).scene)
     assert main(["solve", path, "--want", "shear", "--csv", "out.csv"]) == 0
     assert "Q = 12 N/mm; f P = 12" in capsys.readouterr().out
-    with open("out.csv", encoding="utf-8") as lines:
-        rows = list(csv.DictReader(line for line in lines if not line.startswith("#")))
+    rows = rows_of("out.csv")
     assert [float(row["q"]) for row in rows] == pytest.approx(
         [0.6 * float(row["p"]) for row in rows], rel=1e-15
     )
@@ -67,7 +72,7 @@ def test_the_shear_of_bonded_bodies_is_reported(tmp_path):
         profile=sie.Flat(2.0), modulus=500.0, dundurs=0.3, poisson=0.3, normal_load=20.0,
         friction=np.inf, tangential_load=3.0,
     )  # fmt: skip
-    told = report.shear_summary(sie.solve(flat), scene_file.UNITS)
+    told = str(report.shear_rows(sie.solve(flat), scene_file.UNITS))
     assert "Q = 3" in told and "bonded" in told and "inf" not in told
 
 
@@ -145,10 +150,8 @@ def test_one_output_may_be_standard_output_and_is_then_alone_there(scene, capsys
 def test_shear_is_printed_and_written_with_its_zones(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     path = example("partial-slip", tmp_path)
-    assert (
-        main(["solve", path, "--want", "shear", "check", "--csv", "out.csv", "--json", "out.json"])
-        == 0
-    )
+    outputs = ["--csv", "out.csv", "--json", "out.json"]
+    assert main(["solve", path, "--want", "shear", "check", *outputs]) == 0
     solution = sie.solve(scene_file.read(path).scene)
     out = capsys.readouterr().out
     assert (
@@ -159,11 +162,7 @@ def test_shear_is_printed_and_written_with_its_zones(tmp_path, monkeypatch, caps
     assert found["shear"]["stick"] == [list(solution.stick[0])]
     assert found["shear"]["energy_lost"] == solution.energy_lost
     assert found["check"]["shear"]["ok"] is True
-    rows = list(
-        csv.DictReader(
-            line for line in Path("out.csv").read_text().splitlines() if not line.startswith("#")
-        )
-    )
+    rows = rows_of("out.csv")
     x = np.array([float(row["x"]) for row in rows])
     assert [float(row["q"]) for row in rows] == solution.shear(x).tolist()
     assert [float(row["slip"]) for row in rows] == solution.slip(x).tolist()
@@ -174,7 +173,7 @@ def test_a_path_is_followed_to_its_last_point_with_a_table_of_all(tmp_path, monk
     path = example("fretting-cycle", tmp_path)
     assert main(["solve", path, "--want", "shear", "--json", "out.json"]) == 0
     file = scene_file.read(path)
-    history = sie.follow(file.scene, sie.Path(file.path))
+    history = sie.follow(file.scene, file.load_path)
     out = capsys.readouterr().out
     assert out.count("\n500 ") == len(history)
     found = json.loads(Path("out.json").read_text())
@@ -216,8 +215,7 @@ def test_the_turning_points_of_a_rig_are_a_table_with_its_tilts(rig, capsys):
 @pytest.mark.slow
 def test_every_turning_point_is_written_with_its_tractions(rig, capsys):
     assert main(["solve", "rig.toml", "--csv", "all.csv", "--points", "20"]) == 0
-    written = [line for line in Path("all.csv").read_text().splitlines() if line[0] != "#"]
-    rows = list(csv.DictReader(written))
+    rows = rows_of("all.csv")
     for k, point in enumerate(rig):
         mine = [row for row in rows if row["point"] == str(k)]
         loads = [float(mine[0][name]) for name in ("P", "Q", "sigma", "tilt")]
@@ -291,8 +289,9 @@ def test_a_contact_without_edges_is_reported_without_edges(tmp_path, capsys):
 def test_the_gap_beside_a_contact_that_repeats_is_reported_where_there_is_one(load, tmp_path):
     file = scene_file.read(wave(load, tmp_path))
     solution = sie.solve(file.scene)
-    words = report.gap_summary(solution, file.units).replace(";", "").split()
-    assert all(float(gap) > 0.0 for gap in (words[1], words[7]))
+    ((_, text),) = report.gap_rows(solution, file.units)
+    words = text.replace(";", "").split()
+    assert all(float(gap) > 0.0 for gap in (words[0], words[6]))
 
 
 def test_slip_zones_whose_ends_look_alike_are_told_by_their_width():
@@ -301,4 +300,4 @@ def test_slip_zones_whose_ends_look_alike_are_told_by_their_width():
     )
     solution = sie.solve(scene)
     width = f"({solution.slip_widths[1]:.3g} mm wide), q = +f p"
-    assert width in report.shear_summary(solution, scene_file.UNITS)
+    assert width in str(report.shear_rows(solution, scene_file.UNITS))

@@ -161,7 +161,7 @@ def test_a_sharp_edge_is_answered_by_depth(solve):
         (CYCLE + "[fatigue]\nyield_stress = 900.0\n", "give fatemi_socie_k"),
         (CYCLE + "[fatigue]\nshear_limit = 900.0\n", "give findley_k"),
         (CYCLE + "[fatigue]\nfindley_k = -0.3\n", "[fatigue] findley_k = -0.3"),
-        (CYCLE + "[fatigue]\ndepth = [0.1, 0.0]\n", "[fatigue] depth = 0"),
+        (CYCLE + "[fatigue]\ndepth = [0.1, 0.0]\n", "[fatigue] depth[1] = 0"),
         (CYCLE + "[fatigue]\nparts = 0\n", "parts = 0 is not a number from 1 to 100"),
         (CYCLE + "[fatigue]\nfindley = 0.3\n", 'did you mean "findley_k"'),
     ],

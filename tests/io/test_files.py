@@ -12,7 +12,6 @@ from pathlib import Path
 import pytest
 from command import run
 
-from sie import files
 from sie.cli import main
 
 posix = pytest.mark.skipif(os.name == "nt", reason="devices, pipes and signals are otherwise")
@@ -34,6 +33,7 @@ radius = 1.0
 kind = "sampled"
 path = "trace.csv"
 """
+ROW = SCENE.replace('kind = "sampled"', 'kind = "row"\n[[profile.of]]\nkind = "sampled"')
 MESH = "x,p\n-0.5,0.4\n0.0,0.5\n0.5,0.4\n"
 
 
@@ -74,7 +74,7 @@ LINKS = {
 @posix
 @pytest.mark.parametrize("link", LINKS)
 @pytest.mark.parametrize("target", TARGETS)
-@pytest.mark.parametrize("text", [SCENE, PLUS], ids=["profile", "plus"])
+@pytest.mark.parametrize("text", [SCENE, PLUS, ROW], ids=["profile", "plus", "row"])
 def test_no_output_replaces_a_file_that_is_read(text, target, link, folder, capsys):
     Path("scene.toml").write_text(text)
     name = LINKS[link](target)
@@ -200,11 +200,8 @@ def test_a_trace_of_too_many_points_is_refused_before_it_is_taken_apart(folder, 
 def test_a_scene_without_end_on_standard_input_is_refused():
     with open("/dev/zero", "rb") as zeros:
         found = run("solve", "-", stdin=zeros)
-    assert (
-        found.returncode == 2
-        and "has more than 1 MB" in found.stderr
-        and found.stderr.count("\n") == 1
-    )
+    assert found.returncode == 2 and found.stderr.count("\n") == 1
+    assert "has more than 1 MB" in found.stderr
 
 
 # -- whole or not at all --------------------------------------------------------------------------
@@ -212,51 +209,21 @@ def test_a_scene_without_end_on_standard_input_is_refused():
 KILLED = """
 import os, signal, sys
 from pathlib import Path
-from sie import files
 die = lambda *given, **named: os.kill(os.getpid(), signal.SIGKILL)
 setattr(*eval(sys.argv[1]), die)
 files.write_files({Path("out.csv"): b"new" * 10**6, Path("out.json"): b"new"})
 """
 
 
-@pytest.mark.slow(but=1)
+@pytest.mark.slow
 @posix
-@pytest.mark.parametrize(
-    "place", ["files, '_write_part'", "os, 'fsync'", "os, 'replace'", "files, '_discard'"]
-)
-def test_the_next_run_removes_the_parts_of_a_killed_one(place, folder):
+@pytest.mark.parametrize("place", ["files, '_write_part'", "os, 'fsync'", "os, 'replace'"])
+def test_a_run_that_is_killed_leaves_the_files_as_they_were(place, folder):
     for name in ("out.csv", "out.json"):
         Path(name).write_bytes(b"old")
-    before = set(listing(folder))
     found = subprocess.run([sys.executable, "-c", KILLED, place], check=False, capture_output=True)
     assert found.returncode == -signal.SIGKILL, found.stderr
-    assert Path("out.csv").read_bytes() in (b"old", b"new" * 10**6) and Path(
-        "out.json"
-    ).read_bytes() in (b"old", b"new")
-    files.write_files({Path("out.csv"): b"newer"})
-    assert set(listing(folder)) == before and Path("out.csv").read_bytes() == b"newer"
-
-
-def test_no_file_of_a_user_is_taken_for_a_part(folder):
-    names = (
-        "out.part",
-        ".0123456789abcdef.part",
-        ".sie-0123456789abcdef-0123456789abcdef.part",
-        ".sie-.part",
-        ".sie-a.part",
-    )
-    for name in names:
-        Path(name).write_text("mine")
-    files.write_files({Path("out.csv"): b"new"})
-    assert all(Path(name).read_text() == "mine" for name in names)
-
-
-@posix
-def test_the_part_of_a_run_that_is_still_writing_is_left_alone(folder):
-    with files.writing({folder / "out.csv": b"first"}):
-        files.write_files({folder / "other.csv": b"second"})
-    assert (folder / "out.csv").read_bytes() == b"first"
-    assert not list(folder.glob(".sie-*"))
+    assert Path("out.csv").read_bytes() == Path("out.json").read_bytes() == b"old"
 
 
 @posix
@@ -290,58 +257,41 @@ def test_standard_output_that_is_full_or_closed_is_reported_and_nothing_is_writt
     assert listing(folder) == before
 
 
+@pytest.fixture
+def closed_pipe():
+    read, write = os.pipe()
+    os.close(read)
+    yield write
+    os.close(write)
+
+
 @pytest.mark.slow(but=1)
 @posix
 @pytest.mark.parametrize(
-    "argv", [["example"], ["--help"], ["solve", "--help"], ["--version"], ["plan", "scene.toml"]]
+    "argv",
+    [
+        ["solve", "scene.toml", "--csv", "out.csv"],
+        ["example"],
+        ["solve", "--help"],
+        ["solve", "scene.toml", "--csv", "/dev/stdout"],
+    ],
 )
-def test_a_pipe_closed_early_is_exit_code_141(argv, folder):
-    read, write = os.pipe()
-    os.close(read)
-    found = subprocess.run(
-        [sys.executable, "-m", "sie", *argv], stdout=write, stderr=subprocess.PIPE, check=False
-    )
-    os.close(write)
+def test_a_pipe_closed_early_is_exit_code_141_and_costs_no_file(argv, folder, closed_pipe):
+    command = [sys.executable, "-m", "sie", *argv]
+    found = subprocess.run(command, stdout=closed_pipe, stderr=subprocess.PIPE, check=False)
     assert (found.returncode, found.stderr) == (141, b"")
+    assert Path("out.csv").exists() == ("out.csv" in argv)
 
 
 @pytest.mark.slow
 @posix
-@pytest.mark.parametrize("unbuffered", ["", "1"])
-def test_a_pipe_closed_in_the_midst_is_exit_code_141(unbuffered, folder):
-    command = [
-        sys.executable,
-        "-m",
-        "sie",
-        "solve",
-        "scene.toml",
-        "--points",
-        "20000",
-        "--csv",
-        "-",
-    ]
-    environment = os.environ | {"PYTHONUNBUFFERED": unbuffered}
-    with subprocess.Popen(
-        command, env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE
-    ) as process:
+def test_a_pipe_closed_in_the_midst_is_exit_code_141(folder):
+    argv = ["solve", "scene.toml", "--points", "20000", "--csv", "-"]
+    command = [sys.executable, "-m", "sie", *argv]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
         process.stdout.readline()
         process.stdout.close()
         assert (process.wait(), process.stderr.read()) == (141, b"")
-
-
-@pytest.mark.slow
-@posix
-def test_a_pipe_closed_early_costs_no_file_and_is_reported_for_devices_too(folder):
-    read, write = os.pipe()
-    os.close(read)
-    command = [sys.executable, "-m", "sie", "solve", "scene.toml", "--csv"]
-    for target in ("out.csv", "/dev/stdout"):
-        found = subprocess.run(
-            [*command, target], stdout=write, stderr=subprocess.PIPE, check=False
-        )
-        assert (found.returncode, found.stderr) == (141, b"")
-    os.close(write)
-    assert Path("out.csv").read_text().startswith("#")
 
 
 # -- Ctrl-C ---------------------------------------------------------------------------------------
@@ -356,10 +306,10 @@ sys.meta_path.insert(0, Interrupting())
 """
 
 
-@pytest.mark.slow(but=3)
+@pytest.mark.slow(but=1)
 @posix
-@pytest.mark.parametrize("module", ["numpy", "sie.traction.base", "sie.solution", "sie.io.report"])
-@pytest.mark.parametrize("start", ["-m sie", "as a script"])
+@pytest.mark.parametrize("module", ["numpy", "sie.io.report"])
+@pytest.mark.parametrize("start", ["as a script", "-m sie"])
 def test_an_interruption_while_modules_are_imported_is_a_sentence(start, module, folder):
     (folder / "sitecustomize.py").write_text(IMPORTING)
     (folder / "sie").write_text("import sys\nfrom sie.cli import main\nsys.exit(main())\n")

@@ -73,7 +73,7 @@ def test_a_path_may_mix_numbers_and_quantities():
         'columns = ["Q", "P", "tilt"]\npath = [[0.0, "0.5 kN/mm", 0.0], ["9 N/mm", 500, "1 mrad"]]'
     )
     file = parse(scene(load=load))
-    assert file.path == ((500.0, 0.0, 0.0), (500.0, 9.0, 0.0)) and file.tilt == (0.0, 1e-3)
+    assert file.load_path == sie.Path([(500.0, 0.0), (500.0, 9.0)], tilt=(0.0, 1e-3))
 
 
 def test_constants_of_the_material_and_terms_of_a_profile_are_converted():

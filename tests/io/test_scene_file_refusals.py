@@ -10,6 +10,7 @@ from sie.io.path_table import MOST_POINTS
 from sie.io.scene_file import SceneFileError, example, parse, read
 
 KIND = 'kind = "parabola", radius = 2.0'
+PROFILE, SCENE = BODY + LOAD + "[profile]\n", BODY + PARABOLA + LOAD
 
 
 def keys_of(table):
@@ -40,40 +41,34 @@ def test_two_letters_swapped_in_any_key_of_an_example_suggest_the_key(kind):
         ),
         ("[laod]\nnormal_load = 5.0\n", 'there is no key or table "laod": did you mean "load"?'),
         (
-            BODY + LOAD + '[profile]\nkind = "wegde"\nslope = 0.1\n',
+            PROFILE + 'kind = "wegde"\nslope = 0.1\n',
             '[profile] kind = "wegde" is not known: did you mean "wedge"?',
         ),
-        (BODY + LOAD + '[profile]\nkind = "cone"\n', 'choose "parabola", "rounded-flat"'),
-        (
-            BODY + LOAD + '[profile]\nkind = "wedge"\nrise = 0.1\n',
-            'of kind "wedge" has no key "rise"',
-        ),
-        (BODY + LOAD + "[profile]\nradius = 1.0\n", "[profile] lacks kind"),
-        (BODY + LOAD + '[profile]\nkind = "rounded-flat"\nradius = 1.0\n', "lacks half_flat"),
+        (PROFILE + 'kind = "cone"\n', 'choose "parabola", "rounded-flat"'),
+        (PROFILE + 'kind = "wedge"\nrise = 0.1\n', 'of kind "wedge" has no key "rise"'),
+        (PROFILE + "radius = 1.0\n", "[profile] lacks kind"),
+        (PROFILE + 'kind = "rounded-flat"\nradius = 1.0\n', "lacks half_flat"),
         (BODY + LOAD + PARABOLA + 'want = ["edges"]\n', '"want": it stands at the top of the file'),
         ("normal_load = 5.0\n" + BODY + PARABOLA, '"normal_load": it belongs in [load]'),
-        (BODY + PARABOLA + LOAD + "young = 1.0\n", '"young": it belongs in [body] or [indenter]'),
+        (SCENE + "young = 1.0\n", '"young": it belongs in [body] or [indenter]'),
         (
             BODY + PARABOLA + "[load]\nload = 500\n",
             '[load] has no key "load": did you mean "normal_load"?',
         ),
         (
-            BODY + LOAD + '[profile]\nkind = "sampled"\nfile = "x.csv"\n',
+            PROFILE + 'kind = "sampled"\nfile = "x.csv"\n',
             'of kind "sampled" has no key "file": did you mean "path"?',
         ),
         (BODY + PARABOLA + '[load]\nfile = "x.csv"\n', 'no key "file": did you mean "path"?'),
-        (BODY + PARABOLA + LOAD + "mu = 0.3\n", 'no key "mu": did you mean "friction"?'),
+        (SCENE + "mu = 0.3\n", 'no key "mu": did you mean "friction"?'),
+        (PROFILE + 'kind = "wedge"\nfile = "x.csv"\nslope = 0.1\n', 'it belongs to kind "sampled"'),
         (
-            BODY + LOAD + '[profile]\nkind = "wedge"\nfile = "x.csv"\nslope = 0.1\n',
-            'it belongs to kind "sampled"',
-        ),
-        (
-            BODY + LOAD + '[profile]\nprofile = "parabola"\nkind = "parabola"\nradius = 1\n',
+            PROFILE + 'profile = "parabola"\nkind = "parabola"\nradius = 1\n',
             'has no key "profile": did you mean "kind"?',
         ),
         (BODY + "body = 3\n" + PARABOLA + LOAD, '[body] has no key "body": choose "young"'),
         (
-            BODY + PARABOLA + LOAD + "pair = 3\n",
+            SCENE + "pair = 3\n",
             "it is a table of its own, write the header [pair] and its keys below it",
         ),
         (
@@ -85,18 +80,16 @@ def test_two_letters_swapped_in_any_key_of_an_example_suggest_the_key(kind):
             'it belongs to kind "piecewise" or "function"',
         ),
         (BODY + PARABOLA + "columns = [0, 1]\n" + LOAD, 'it belongs to kind "sampled"'),
+        (BODY + PARABOLA + "levelled = true\n" + LOAD, 'it belongs to kind "sampled"'),
         (BODY + PARABOLA + f"of = [{{{KIND}}}]\n" + LOAD, '"of": it belongs to kind "row"'),
         (
-            BODY + LOAD + f'[profile]\nkind = "row"\nof = [{{{KIND}, period = 3.0}}]\n',
+            PROFILE + f'kind = "row"\nof = [{{{KIND}, period = 3.0}}]\n',
             '"period": it belongs in [profile], and repeats the whole of it',
         ),
-        (BODY + PARABOLA + LOAD + "radius = 1.0\n", '"radius": it belongs in [profile]'),
+        (SCENE + "radius = 1.0\n", '"radius": it belongs in [profile]'),
         (BODY + PARABOLA + "shifted = nan\n" + LOAD, "[profile] shifted is nan: give a number"),
         (BODY + PARABOLA + "tilted = inf\n" + LOAD, "[profile] tilted = inf is infinite"),
-        (
-            BODY + PARABOLA + f"[load]\nnormal_load = 1{'0' * 5000}\n",
-            "a number of more than 4300 digits",
-        ),
+        (BODY + PARABOLA + f"[load]\nnormal_load = 1{'0' * 5000}\n", "4300 digits"),
         (
             "[body]\nrigid = true\n" + PARABOLA + LOAD,
             "both rigid: nothing can deform; give one of them young and poisson",
@@ -107,7 +100,7 @@ def test_two_letters_swapped_in_any_key_of_an_example_suggest_the_key(kind):
         (BODY + PAIR + PARABOLA + LOAD, "both [pair] and [body]"),
         ("[pair]\npoisson = 0.3\n" + PARABOLA + LOAD, "[pair] lacks modulus"),
         ("[body]\nyoung = 1e5\n" + PARABOLA + LOAD, "[body] lacks poisson"),
-        ('indenter = "rigit"\n' + BODY + PARABOLA + LOAD, 'indenter = "rigit" is not known'),
+        ('indenter = "rigit"\n' + SCENE, 'indenter = "rigit" is not known'),
         (
             BODY + "[indenter]\nrigid = true\nyoung = 1.0\n" + PARABOLA + LOAD,
             "[indenter] is rigid and has young",
@@ -120,24 +113,18 @@ def test_two_letters_swapped_in_any_key_of_an_example_suggest_the_key(kind):
         ),
         (BODY + PARABOLA + "[load]\nnormal_load = nan\n", "normal_load is nan"),
         (BODY + PARABOLA + "[load]\nnormal_load = -5\n", "normal_load = -5 is not positive"),
-        (BODY + PARABOLA + LOAD + "half_width = 1.0\n", "both of normal_load and half_width"),
+        (SCENE + "half_width = 1.0\n", "both of normal_load and half_width"),
         ("load = 5.0\n" + BODY + PARABOLA, "load = 5.0 is not a table"),
         (BODY + PARABOLA + "[[load]]\nnormal_load = 5.0\n", "[load] is a list"),
+        (PROFILE + 'kind = "parabola"\nradius = -1.0\n', "[profile] radius = -1 is not positive"),
         (
-            BODY + LOAD + '[profile]\nkind = "parabola"\nradius = -1.0\n',
-            "[profile] radius = -1 is not positive",
-        ),
-        (
-            BODY + LOAD + '[profile]\nkind = "piecewise"\nbreaks = 1.0\npieces = [[0.0]]\n',
+            PROFILE + 'kind = "piecewise"\nbreaks = 1.0\npieces = [[0.0]]\n',
             "breaks = 1.0 is not a list",
         ),
-        (
-            BODY + LOAD + '[profile]\nkind = "function"\nslope = "os.remove(x)"\n',
-            "[profile] expression",
-        ),
-        (BODY + LOAD + '[profile]\nkind = "function"\nslope = "x/(1 - 1)/0"\n', "[profile]"),
-        (BODY + LOAD + f'[profile]\nkind = "function"\nslope = "{"-" * 5000}x"\n', "[profile]"),
-        (BODY + LOAD + '[profile]\nkind = "function"\nslope = "sin(x, x, x)"\n', "[profile]"),
+        (PROFILE + 'kind = "function"\nslope = "os.remove(x)"\n', "[profile] expression"),
+        (PROFILE + 'kind = "function"\nslope = "x/(1 - 1)/0"\n', "[profile]"),
+        (PROFILE + f'kind = "function"\nslope = "{"-" * 5000}x"\n', "[profile]"),
+        (PROFILE + 'kind = "function"\nslope = "sin(x, x, x)"\n', "[profile]"),
         (
             BODY + LOAD + PARABOLA + 'mirrored = "yes"\n',
             'mirrored = "yes" is neither true nor false',
@@ -151,11 +138,8 @@ def test_two_letters_swapped_in_any_key_of_an_example_suggest_the_key(kind):
             "[body]\nyoung = 1e5\npoisson = 0.7\n" + PARABOLA + LOAD,
             "[body] poisson = 0.7 is outside",
         ),
-        ('title = "a\\nb"\n' + BODY + PARABOLA + LOAD, "not one line of plain text"),
-        (
-            'want = ["edgse"]\n' + BODY + PARABOLA + LOAD,
-            'want "edgse" is not known: did you mean "edges"?',
-        ),
+        ('title = "a\\nb"\n' + SCENE, "not one line of plain text"),
+        ('want = ["edgse"]\n' + SCENE, 'want "edgse" is not known: did you mean "edges"?'),
         ("[load\n", "is not TOML"),
         ("a = 1\na = 2\n", "line 2"),
         ("a = " + "[" * 5000, "nested too deeply"),
@@ -181,53 +165,29 @@ def test_a_file_that_is_no_text_is_refused(data, said, tmp_path):
 
 
 DEEP = 100_000
-PROFILE = BODY + LOAD + "[profile]\n"
+INTEGER, ARRAYS = "0x" + "f" * 5000, "[" * 300 + "]" * 300
 HOSTILE = {
     "arrays within arrays": "a = " + "[" * DEEP,
-    "arrays within arrays, closed": "a = " + "[" * DEEP + "]" * DEEP,
     "a coefficient of arrays": PROFILE
-    + 'kind = "polynomial"\ncoefficients = '
-    + "[" * 300
-    + "]" * 300,
+    + f'kind = "polynomial"\ncoefficients = {"[" * 300}{"]" * 300}',
     "tables within tables": "a = " + "{a=" * DEEP,
-    "a long dotted key": "a" + ".a" * DEEP + " = 1",
     "a long dotted header": "[a" + " . a" * DEEP + "]",
-    "a long dotted key in quotes": '""' + '.""' * DEEP + " = 1",
-    "a long dotted key in apostrophes": "'.'" + ".'.'" * DEEP + " = 1",
     "a long dotted key with escapes": r'"\"#"' + r'."\"#"' * DEEP + " = 1",
     "a long dotted key behind five quotes": 'x = ["""a""""", {a' + ".a" * DEEP + "=1}]",
-    "a long dotted key behind four apostrophes": "x = ['''a'''', {a" + ".a" * DEEP + "=1}]",
     "a string without end": 'a = "' + r"\"" * DEEP,
     "lines without end": 'a = """' + r'\"""' * DEEP,
-    "quotes": '"' * DEEP,
-    "apostrophes": "'" * DEEP,
-    "backslashes": "\\" * DEEP,
-    "dots": "." * DEEP,
     "one word": "x" * DEEP,
-    "a key as long as a file": "x" * DEEP + " = 1\n" + BODY + PARABOLA + LOAD,
-    "a key of the load as long as a file": BODY
-    + PARABOLA
-    + LOAD
-    + "normal_load" * (DEEP // 2)
-    + " = 1\n",
+    "a key as long as a file": SCENE + "normal_load" * (DEEP // 2) + " = 1\n",
     "a kind as long as a file": PROFILE + 'kind = "' + "parabola" * DEEP + '"',
-    "a want as long as a file": 'want = ["' + "x" * DEEP + '"]\n' + BODY + PARABOLA + LOAD,
+    "a want as long as a file": 'want = ["' + "x" * DEEP + '"]\n' + SCENE,
     "a path as long as a file": PROFILE + 'kind = "sampled"\npath = "' + "x" * DEEP + '"',
-    "columns without number": PROFILE
-    + 'kind = "sampled"\npath = "trace.csv"\ncolumns = ['
-    + "0," * DEEP
-    + "]",
-    "an integer of 5000 digits": PROFILE + 'kind = "parabola"\nradius = ' + "9" * 5000,
-    "a hexadecimal integer of 5000 digits": PROFILE + 'kind = "parabola"\nradius = 0x' + "f" * 5000,
-    "such an integer in a list": PROFILE
-    + 'kind = "polynomial"\ncoefficients = [[0x'
-    + "f" * 5000
-    + "]]",
-    "such an integer for a table": "load = 0x" + "f" * 5000,
-    "such an integer for a title": "title = 0x" + "f" * 5000 + "\n" + BODY + PARABOLA + LOAD,
-    "more than a megabyte": "#" * 10**6 + "\n" + BODY + PARABOLA + LOAD,
+    "an integer of 5000 digits": PROFILE + f'kind = "parabola"\nradius = {"9" * 5000}',
+    "such an integer in a list": PROFILE + f'kind = "polynomial"\ncoefficients = [[{INTEGER}]]',
+    "such an integer for a table": f"load = {INTEGER}",
+    "such an integer for a title": f"title = {INTEGER}\n" + SCENE,
+    "more than a megabyte": "#" * 10**6 + "\n" + SCENE,
     "a date": PROFILE + 'kind = "parabola"\nradius = 1979-05-27',
-    "old line ends": (BODY + PARABOLA + LOAD).replace("\n", "\r"),
+    "old line ends": SCENE.replace("\n", "\r"),
 }
 
 
@@ -252,12 +212,9 @@ def test_a_file_that_cannot_be_read_is_refused(tmp_path):
 
 def test_a_load_path_takes_the_place_of_the_loads():
     file = parse(PAIR + PARABOLA + "[load]\nfriction = 0.5\npath = [[2, 0.5], [2.0, -0.25, 0]]\n")
-    assert file.path == ((2.0, 0.5, 0.0), (2.0, -0.25, 0.0))
-    assert (file.scene.normal_load, file.scene.tangential_load, file.scene.bulk_stress) == (
-        2.0,
-        -0.25,
-        0.0,
-    )
+    assert file.load_path == sie.Path([(2.0, 0.5), (2.0, -0.25)])
+    scene = file.scene
+    assert (scene.normal_load, scene.tangential_load, scene.bulk_stress) == (2.0, -0.25, 0.0)
 
 
 @pytest.mark.parametrize(
@@ -279,7 +236,7 @@ def test_a_load_path_that_means_nothing_is_refused(load, said):
 def test_a_path_longer_than_a_report_can_list_is_refused():
     text = PAIR + PARABOLA + "[load]\nfriction = 0.5\npath = {}\n"
     most = [[1.0, 0.1 * (-1) ** k] for k in range(MOST_POINTS)]
-    assert len(parse(text.format(most)).path) == len(most)
+    assert len(parse(text.format(most)).load_path) == len(most)
     assert "follow it in Python" in refusal(text.format([*most, [1.0, 0.0]]))
 
 

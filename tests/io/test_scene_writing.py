@@ -13,7 +13,7 @@ import sie
 from sie.io.export import strict_json
 from sie.io.scene_file import example, example_names, parse
 from sie.io.scene_schema import schema
-from sie.io.scene_writing import tables_of_file, toml_text
+from sie.io.scene_writing import toml_text
 
 SCHEMA = schema()
 
@@ -94,42 +94,6 @@ def test_the_scene_of_an_example_reads_back_equal_from_json_and_from_toml(name):
     scene = parse(example(name)).scene
     assert sie.Scene.from_dict(json.loads(strict_json(scene.to_dict()))) == scene
     assert parse(scene.to_toml()).scene == scene
-
-
-FILE = parse(
-    """
-title = "A cycle"
-want = ["shear", "cycle"]
-[profile]
-kind = "parabola"
-radius = 0.1
-[body]
-young = 115e9
-poisson = 0.32
-[units]
-length = "m"
-force = "N/m"
-stress = "Pa"
-[load]
-friction = 0.5
-tilt = 1e-3
-path = [[5e4, 0, 0, 0], [5e4, 1e4, 1e6, 1e-4], [5e4, 0, 0, 0]]
-columns = ["P", "Q", "sigma", "tilt"]
-[fatigue]
-fatemi_socie_k = 0.5
-yield_stress = 9e8
-depth = [1e-5, 2e-5, 3e-5]
-"""
-)
-
-
-@pytest.mark.parametrize(
-    "file",
-    [FILE, *(parse(example(name)) for name in example_names())],
-    ids=["all tables", *example_names()],
-)
-def test_a_scene_file_reads_back_equal_with_its_title_units_want_path_and_material(file):
-    assert parse(toml_text(tables_of_file(file))) == file
 
 
 def test_the_infinite_friction_of_full_stick_reads_back_from_json():

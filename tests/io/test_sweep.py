@@ -2,14 +2,9 @@
 loses nothing.
 """
 
-import builtins
 import sys
 import threading
 import types
-from concurrent.futures import (
-    Executor,
-    Future,
-)
 from dataclasses import replace
 
 import numpy as np
@@ -18,10 +13,6 @@ from sweep_cases import LOADS, SCENE, TILTS, plain, single
 
 import sie
 from sie import progress_bar
-from sie.sweeps import chunks as sweep_chunks
-from sie.sweeps import result as sweep_result
-from sie.sweeps import work as sweep_work
-from sie.sweeps import workers
 
 module = sys.modules["sie.sweeps.sweep"]
 
@@ -148,35 +139,6 @@ def test_a_value_that_is_no_number_is_reported_in_a_sentence(value):
     )
     assert np.isnan(found["v"]).tolist() == [False, True, False]
     assert found["reason"][1].startswith("v is neither a number nor an array of numbers")
-
-
-@pytest.mark.parametrize("parallel", [False, True])
-def test_the_overhead_of_a_sweep_grows_in_proportion_to_its_points(parallel, monkeypatch):
-    class Here(Executor):
-        def submit(self, function, /, *args, **kwargs):
-            future = Future()
-            future.set_result(function(*args, **kwargs))
-            return future
-
-    def counted(points):
-        counts = 0
-
-        def count(values):
-            nonlocal counts
-            counts += 1
-            return builtins.len(values)
-
-        for part in (module, sweep_chunks, sweep_result, sweep_work, workers):
-            monkeypatch.setattr(part, "len", count, raising=False)
-        sie.sweep(
-            SCENE,
-            over={"normal_load": np.linspace(0.1, 0.4, points)},
-            executor=Here() if parallel else None,
-            chunk=1,
-        )
-        return counts
-
-    assert counted(200) < 2.5 * counted(100)
 
 
 @pytest.mark.parametrize("want", list(sie.QUANTITIES))

@@ -23,58 +23,42 @@ from numpy.typing import NDArray
 from sie.profiles.trace_files import MESH, text_lines
 
 from .names import QUANTITIES, Meaning
-from .raw import Group, MeshGeometry, Raw, row_means
+from .raw import Columns, MeshGeometry, Raw, row_means
 
 Array = NDArray[np.float64]
 TITLE = "Field Output Report"
+_LABELS = (
+    "node", "element", "int", "label", "pt", "int pt", "part", "instance", "part instance",
+)  # fmt: skip
 
 
 def read(path: Path, mesh: MeshGeometry | None, means: Meaning) -> Raw:
     """The tables of all parts, each as a body of its own. ValueError without x and a quantity."""
-    groups: list[Group] = []
+    groups: list[Columns] = []
     others: dict[str, None] = {}
-    notes: dict[str, None] = {}
+    averaged = False
     for names, rows in _tables(path):
         group = _group(path.name, mesh, means, (names, rows))
         if group is None:
             continue
         groups.append(group)
-        if not _by_node(names):
-            notes["values at integration points are averaged over each element"] = None
-        labels = (
-            "node",
-            "element",
-            "int",
-            "label",
-            "pt",
-            "int pt",
-            "part",
-            "instance",
-            "part instance",
-        )
-        others |= dict.fromkeys(
-            name for name in names if not means(name) and name.lower() not in labels
-        )
+        averaged = averaged or not _by_node(names)
+        unknown = (name for name in names if not means(name) and name.lower() not in _LABELS)
+        others |= dict.fromkeys(unknown)
     if not groups:
         raise ValueError(
             f"{path.name} has no table with one of {', '.join(QUANTITIES)}: "
             "write a field output report with CPRESS, CSHEAR1 or S, and with COORD"
         )
-    groups = _numbered(groups)
-    tops = tuple(float(group.columns["y"].max()) for group in groups if "y" in group.columns)
-    complete = len(tops) == len(groups)
-    return Raw(path.name, tuple(groups), tuple(others), tuple(notes), tops if complete else ())
-
-
-def _numbered(groups: list[Group]) -> list[Group]:
-    """The groups with the number of the body: one for each part, the lowest first."""
-    if len(groups) == 1 or not all("y" in group.columns for group in groups):
-        return groups
-    groups = sorted(groups, key=lambda group: float(group.columns["y"].mean()))
-    return [
-        Group(group.columns, group.widths, np.full(len(group.columns["x"]), k))
-        for k, group in enumerate(groups)
-    ]
+    notes = ("values at integration points are averaged over each element",) if averaged else ()
+    if not all("y" in group for group in groups):
+        return Raw(path.name, tuple(groups), tuple(others), notes)
+    if len(groups) > 1:  # a body for each part, the lowest first
+        groups.sort(key=lambda group: float(group["y"].mean()))
+        bodies = (np.full(len(group["x"]), float(k)) for k, group in enumerate(groups))
+        groups = [g | {"body": body} for g, body in zip(groups, bodies, strict=True)]
+    tops = tuple(float(group["y"].max()) for group in groups)
+    return Raw(path.name, tuple(groups), tuple(others), notes, tops)
 
 
 def _by_node(names: list[str]) -> bool:
@@ -83,7 +67,7 @@ def _by_node(names: list[str]) -> bool:
 
 def _group(
     file: str, mesh: MeshGeometry | None, means: Meaning, table: tuple[list[str], list[list[str]]]
-) -> Group | None:
+) -> Columns | None:
     """The table as columns; None where it has no quantity."""
     names, rows = table
     known = {means(name): k for k, name in reversed(list(enumerate(names))) if means(name)}
@@ -97,14 +81,13 @@ def _group(
         keys = labels.tolist()
     columns = dict(zip(known, values.T, strict=True))
     if "x" in columns:
-        return Group(columns)
+        return columns
     if mesh is None or labelled is None or not _by_node(names):
         raise ValueError(
             f"{file} has no coordinates: write COORD into the report, "
             "or, of values at nodes, give the input deck, --nodes job.inp"
         )
-    x, y = mesh.points(keys).T
-    return Group({"x": x, "y": y, **columns})
+    return mesh.columns(keys, columns, {})
 
 
 def _tables(path: Path) -> list[tuple[list[str], list[list[str]]]]:

@@ -18,7 +18,7 @@ from sie import files
 from sie.profiles.trace_files import MESH
 
 from .names import QUANTITIES, TRACTIONS, Meaning
-from .raw import Group, MeshGeometry, Raw
+from .raw import Columns, MeshGeometry, Raw
 
 Array = NDArray[np.float64]
 
@@ -51,17 +51,14 @@ def read(path: Path, means: Meaning) -> Raw:
             f"{path.name} is not read by meshio ({type(problem).__name__}): "
             "export the points as CSV"
         ) from None
-    points = np.asarray(mesh.points, dtype=float)
     geometry = _geometry(path.name, mesh)
     bodies = geometry.bodies()
-    part = np.array([bodies.get(k, 0) for k in range(len(points))], dtype=np.int64)
-    groups = []
     fields = _fields(mesh.point_data, means)
-    for names in ([n for n in fields if n in TRACTIONS], [n for n in fields if n not in TRACTIONS]):
-        if names:
-            columns = {"x": points[:, 0], "y": points[:, 1], **{n: fields[n] for n in names}}
-            groups.append(Group(columns, bodies=part if bodies else ()))
-    groups += _of_cells(mesh, points, part, means)
+    tractions = {name: v for name, v in fields.items() if name in TRACTIONS}
+    stresses = {name: v for name, v in fields.items() if name not in TRACTIONS}
+    labels = range(len(mesh.points))
+    groups = [geometry.columns(labels, of, bodies) for of in (tractions, stresses) if of]
+    groups += _of_cells(mesh, bodies, means)
     if not groups:
         found = ", ".join([*mesh.point_data, *mesh.cell_data]) or "no field"
         raise ValueError(
@@ -77,16 +74,17 @@ def _geometry(file: str, mesh: Any) -> MeshGeometry:
     return MeshGeometry(file, nodes, dict(enumerate(cells)))
 
 
-def _of_cells(mesh: Any, points: Array, part: NDArray[np.int64], means: Meaning) -> Iterator[Group]:
-    """A group for each block of cells that has a known field."""
+def _of_cells(mesh: Any, bodies: dict[int, int], means: Meaning) -> Iterator[Columns]:
+    """The columns of each block of cells that has a known field."""
+    points = np.asarray(mesh.points, dtype=float)
     for k, block in enumerate(mesh.cells):
         fields = _fields({name: data[k] for name, data in mesh.cell_data.items()}, means)
         if fields:
-            corners = points[np.asarray(block.data)]
-            x, y = corners[..., 0].mean(axis=1), corners[..., 1].mean(axis=1)
-            surface = set(fields) <= set(TRACTIONS)
-            widths = np.ptp(corners[..., 0], axis=1) if surface else ()
-            yield Group({"x": x, "y": y, **fields}, widths, part[np.asarray(block.data)[:, 0]])
+            cells = np.asarray(block.data)
+            x, y = points[cells][..., 0], points[cells][..., 1]
+            width = {"width": np.ptp(x, axis=1)} if set(fields) <= set(TRACTIONS) else {}
+            body = np.array([bodies.get(n, 0) for n in cells[:, 0].tolist()], dtype=float)
+            yield {"x": x.mean(axis=1), "y": y.mean(axis=1), **fields, **width, "body": body}
 
 
 def _fields(data: dict[str, Any], means: Meaning) -> dict[str, Array]:

@@ -19,7 +19,7 @@ import numpy as np
 from sie.profiles.trace_files import MESH, text_lines
 
 from .names import QUANTITIES, Meaning
-from .raw import Group, MeshGeometry, Raw
+from .raw import Columns, MeshGeometry, Raw
 
 VALUE = 12  # columns of a number
 
@@ -48,7 +48,7 @@ def read(path: Path, means: Meaning) -> Raw:
     if notes and not listed:
         raise ValueError(notes[0])
     groups = [_group(mesh, bodies, block, means) for block in listed]
-    groups = [group for group in groups if set(group.columns) & set(QUANTITIES)]
+    groups = [group for group in groups if group.keys() & set(QUANTITIES)]
     if not groups:
         found = ", ".join(sorted({block.name for block in blocks})) or "no result"
         raise ValueError(
@@ -67,17 +67,11 @@ def _last(blocks: list[_Block]) -> list[_Block]:
     return list({block.name: block for block in blocks if block.time == latest}.values())
 
 
-def _group(mesh: MeshGeometry, bodies: dict[int, int], block: _Block, means: Meaning) -> Group:
+def _group(mesh: MeshGeometry, bodies: dict[int, int], block: _Block, means: Meaning) -> Columns:
     labels = [label for label in block.values if label in mesh.nodes]
-    x, y = mesh.points(labels).T
     values = np.array([block.values[label] for label in labels], dtype=float).T
-    columns = {
-        means(component): column
-        for component, column in zip(block.components, values, strict=False)
-        if means(component) in QUANTITIES
-    }
-    part = np.array([bodies.get(label, 0) for label in labels], dtype=np.int64)
-    return Group({"x": x, "y": y, **columns}, bodies=part if bodies else ())
+    named = zip(map(means, block.components), values, strict=False)
+    return mesh.columns(labels, {n: v for n, v in named if n in QUANTITIES}, bodies)
 
 
 def _blocks(path: Path) -> tuple[MeshGeometry, list[_Block]]:

@@ -29,7 +29,7 @@ def read(
     path, columns = Path(path), columns or {}
     raw = _read(path, None if nodes is None else Path(nodes), columns)
     for quantity, name in columns.items():
-        if not any(quantity in group.columns for group in raw.groups):
+        if not any(quantity in group for group in raw.groups):
             raise ValueError(
                 f'{path.name} has no column "{name}" for {quantity}: '
                 "give the name as it stands in the file"

@@ -16,13 +16,12 @@ from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from sie.arguments import shortened
 from sie.profiles.trace_files import MESH, text_lines
 
 from .names import QUANTITIES, Meaning, meaning, spelling
-from .raw import Group, MeshGeometry, Raw
+from .raw import Columns, MeshGeometry, Raw
 
 _LABELS = ("node", "node_number", "node_label", "node_id", "knoten", "knotennummer")
 _BEGINS = re.compile(r"\s*[\"']?(node|knoten)", re.IGNORECASE)
@@ -57,13 +56,12 @@ def read(path: Path, nodes: MeshGeometry | None, means: Meaning) -> Raw | None:
             f"{path.name} has values by node and no coordinates: list these, in Ansys by NLIST, "
             "and give that file, --nodes nlist.lis"
         )
-    groups: dict[tuple[int, ...], dict[str, NDArray[np.float64]]] = {}
+    groups: dict[tuple[int, ...], Columns] = {}
     for name, values in found.items():
-        x, y = nodes.points(values).T
-        group = groups.setdefault((*values,), {"x": x, "y": y})
+        group = groups.setdefault((*values,), nodes.columns([*values], {}, {}))
         group[name] = np.array([*values.values()])
     notes = ("nodes are listed more than once: their last values are read",) if again else ()
-    return Raw(path.name, tuple(map(Group, groups.values())), notes=notes)
+    return Raw(path.name, tuple(groups.values()), notes=notes)
 
 
 def coordinates(path: Path) -> MeshGeometry:

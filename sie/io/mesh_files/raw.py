@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,37 +13,27 @@ Array = NDArray[np.float64]
 Labels = NDArray[np.int64]
 
 
-@dataclass(frozen=True, eq=False)
-class Group:
-    """Quantities that are given at the same n points.
+# Quantities that are given at the same n points, each (n,): x, y where the file has it, quantities,
+# and, where they are known,
+#     width    lengths along x of the element faces whose means the values are, not of nodes
+#     body     number of the connected part of the mesh, 0 being the lowest
+Columns = dict[str, Array]
 
-    columns      x, y where the file has it, and quantities, each (n,)
-    widths       (n,) lengths along x of the element faces whose means the values are, () for nodes
-    bodies       (n,) number of the connected part of the mesh, 0 being the lowest; () if not known
-    """
 
-    columns: dict[str, Array]
-    widths: Array | tuple[()] = ()
-    bodies: Labels | tuple[()] = ()
-
-    def chosen(self, mask: NDArray[np.bool_]) -> Group:
-        """The points of the mask."""
-        return Group(
-            {name: values[mask] for name, values in self.columns.items()},
-            self.widths[mask] if isinstance(self.widths, np.ndarray) else (),
-            self.bodies[mask] if isinstance(self.bodies, np.ndarray) else (),
-        )
+def chosen(columns: Columns, which: Any) -> Columns:
+    """The columns at the points of a mask."""
+    return {name: values[which] for name, values in columns.items()}
 
 
 @dataclass(frozen=True, eq=False)
 class Raw:
-    """The groups of a file; columns that are passed over, and notes on what was done to the rest.
+    """The columns of a file; those that are passed over, and notes on what was done to the rest.
 
-    top          height of the highest point of each part of the mesh, by number; () if not known
+    tops         height of the highest point of each part of the mesh, by number; () if not known
     """
 
     file: str
-    groups: tuple[Group, ...]
+    groups: tuple[Columns, ...]
     others: tuple[str, ...] = ()
     notes: tuple[str, ...] = ()
     tops: tuple[float, ...] = ()
@@ -64,6 +55,12 @@ class MeshGeometry:
             raise ValueError(
                 f"{self.file} has no node {missing.args[0]}: list the nodes of the same mesh"
             ) from None
+
+    def columns(self, labels: Sequence[int], values: Columns, bodies: dict[int, int]) -> Columns:
+        """The values at nodes with the places of these, and their bodies where there are any."""
+        x, y = self.points(labels).T
+        part = {"body": np.array([bodies.get(n, 0) for n in labels], dtype=float)} if bodies else {}
+        return {"x": x, "y": y, **values, **part}
 
     def bodies(self) -> dict[int, int]:
         """The number of the connected part that each node belongs to, 0 for the lowest part."""

@@ -17,7 +17,7 @@ from sie.arguments import nearest, shortened
 from sie.profiles.trace_files import MESH, Table, read_table
 
 from .names import QUANTITIES, WORDS, Meaning, meaning, negative_in_compression, spelling
-from .raw import Group, Raw
+from .raw import Raw
 
 Array = NDArray[np.float64]
 LARGEST = 1e100  # of a column: no length or stress, and its square is finite
@@ -45,7 +45,7 @@ def read(path: Path, means: Meaning) -> Raw:
             notes.append(f"{name} is -{names[k]}, which is negative in compression")
     used = set(indices.values())
     others = tuple(name for k, name in enumerate(names) if name and k not in used)
-    return Raw(table.file, (Group(columns),), others, tuple(notes))
+    return Raw(table.file, (columns,), others, tuple(notes))
 
 
 def _indices(file: str, names: list[str], named: bool, means: Meaning) -> dict[str, int]:
