@@ -1,23 +1,18 @@
 """Read regular files of limited size, and write files whole or not at all.
 
 A file is written under another name beside its place and then moved there; the move is one step, so
-that no reader opens half a file. A writer that is killed leaves the other name behind. No user's
-file has such a name, and a running writer holds a lock on it. The next run that writes in the
-folder removes the names without a lock.
+that no reader opens half a file. A writer that is killed may leave a file ".sie-*.part" behind.
 """
 
 from __future__ import annotations
 
-import hashlib
 import os
 import secrets
 import shutil
 import stat
-import sys
 from collections.abc import Iterable, Iterator, Mapping
-from contextlib import contextmanager, nullcontext, suppress
+from contextlib import contextmanager, suppress
 from pathlib import Path
-from typing import BinaryIO
 
 KINDS = {
     stat.S_ISDIR: "a directory",
@@ -125,30 +120,40 @@ def writing(contents: Mapping[Path, bytes]) -> Iterator[None]:
     A BrokenPipeError in the block is no failure. A device or a pipe cannot be replaced and is
     written to as it is. Raises OSError.
     """
-    parts: dict[Path, BinaryIO] = {}
+    parts: dict[Path, Path] = {}
     try:
         with _named(contents):
             devices = [path for path in contents if _is_device(path)]
-            for place, data in (
-                (path.resolve(), data) for path, data in contents.items() if path not in devices
-            ):
-                parts[place] = _new_part(place)  # resolved: a link stays a link
-                _write_part(parts[place], data, like=place)
+            for path in (path for path in contents if path not in devices):
+                place = path.resolve()  # a link stays a link
+                parts[place] = place.with_name(f".sie-{secrets.token_hex(8)}.part")
+                _write_part(parts[place], contents[path], like=place)
             for path in devices:
                 path.write_bytes(contents[path])
         try:
             yield
         except BrokenPipeError:
-            with _named(contents):
-                _move(parts)
+            _move(parts, contents)
             raise
-        with _named(contents):
-            _move(parts)
+        _move(parts, contents)
     finally:
         for part in parts.values():
-            _discard(part)
-        for folder in {place.parent for place in parts}:
-            _remove_stale(folder)
+            part.unlink(missing_ok=True)
+
+
+def _write_part(part: Path, data: bytes, like: Path) -> None:
+    with open(part, "xb") as stream:
+        stream.write(data)
+        stream.flush()
+        os.fsync(stream.fileno())
+    if like.exists():
+        shutil.copymode(like, part)
+
+
+def _move(parts: Mapping[Path, Path], contents: Iterable[Path]) -> None:
+    with _named(contents):
+        for place, part in parts.items():
+            os.replace(part, place)
 
 
 @contextmanager
@@ -181,67 +186,3 @@ def _named(contents: Iterable[Path]) -> Iterator[None]:
 
 def _is_device(path: Path) -> bool:
     return path.exists() and not path.is_file()
-
-
-# -- parts: files that are not at their places yet -----------------------------------------------
-
-
-def _part_name(token: str) -> str:
-    """A name that no user's file has by chance: its second half follows from the first."""
-    return f".sie-{token}-{hashlib.sha256(f'sie {token}'.encode()).hexdigest()[:16]}.part"
-
-
-def _new_part(place: Path) -> BinaryIO:
-    while True:
-        # It stays open until it is moved.
-        stream = open(place.with_name(_part_name(secrets.token_hex(8))), "xb")  # noqa: SIM115
-        # Not all file systems lock; there nothing is taken for stale either.
-        with suppress(OSError):
-            _lock(stream, wait=True)
-        if os.name == "nt" or os.fstat(stream.fileno()).st_nlink:
-            return stream
-        stream.close()  # removed as stale before it was locked
-
-
-def _write_part(part: BinaryIO, data: bytes, like: Path) -> None:
-    part.write(data)
-    part.flush()
-    os.fsync(part.fileno())
-    if like.exists():
-        shutil.copymode(like, part.name)
-
-
-def _move(parts: dict[Path, BinaryIO]) -> None:
-    for place, part in parts.items():
-        if os.name == "nt":
-            part.close()  # what is open cannot be renamed there
-        os.replace(part.name, place)
-
-
-def _discard(part: BinaryIO) -> None:
-    with suppress(OSError):
-        part.close()
-    Path(part.name).unlink(missing_ok=True)
-
-
-def _remove_stale(folder: Path) -> None:
-    """Remove the parts of killed writers: this module's names, whose lock no process holds."""
-    with suppress(OSError):
-        for path in folder.glob(".sie-*.part"):
-            if path.name == _part_name(path.name.split("-")[1]) and not path.is_symlink():
-                # Windows removes no file that is open, be it by the writer or here.
-                with (
-                    suppress(OSError),
-                    nullcontext() if os.name == "nt" else open(path, "rb") as stream,
-                ):
-                    _lock(stream, wait=False)
-                    path.unlink()
-
-
-def _lock(stream: BinaryIO | None, wait: bool) -> None:
-    """Raises OSError where another process holds the lock, or where the file system has none."""
-    if sys.platform != "win32":
-        import fcntl  # noqa: PLC0415
-
-        assert stream is not None
-        fcntl.flock(stream, fcntl.LOCK_EX | (0 if wait else fcntl.LOCK_NB))
