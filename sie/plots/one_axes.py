@@ -10,7 +10,7 @@ from sie.arguments import suggestion
 from sie.io.scene_file import Units
 from sie.paths.history import History
 from sie.solution import Solution
-from sie.sweeps.unit_labels import labels
+from sie.sweeps.result import labels
 
 from . import contact_plot, loop_plot, stress_plot, style
 

@@ -18,12 +18,10 @@ from sweep_cases import LOADS, SCENE, TILTS, plain, single
 
 import sie
 from sie import progress_bar
-from sie.sweeps import chunks as sweep_chunks
 from sie.sweeps import result as sweep_result
+from sie.sweeps import sweep as module
 from sie.sweeps import work as sweep_work
 from sie.sweeps import workers
-
-module = sys.modules["sie.sweeps.sweep"]
 
 
 def peak(solution):
@@ -166,7 +164,7 @@ def test_the_overhead_of_a_sweep_grows_in_proportion_to_its_points(parallel, mon
             counts += 1
             return builtins.len(values)
 
-        for part in (module, sweep_chunks, sweep_result, sweep_work, workers):
+        for part in (module, sweep_result, sweep_work, workers):
             monkeypatch.setattr(part, "len", count, raising=False)
         sie.sweep(
             SCENE,
