@@ -44,7 +44,9 @@ class Progress:
     def __init__(self, name: str, total: int = 0, shown: bool = True) -> None:
         self.name, self.total, self.done = name, total, 0
         self.start = perf_counter()
-        self.works = (self,)  # those that are open around this one, the outermost first
+        self.works: tuple[Progress, ...] = (
+            self,
+        )  # those that are open around this one, the outermost first
         self._due = self.start + PATIENCE if shown else inf
         self._bar: Any = None
 

@@ -136,13 +136,13 @@ def _together(
     return lost
 
 
-def _anew(executor: Any, own: list[ProcessPoolExecutor], processes: int) -> Executor:
+def _anew(executor: Executor, own: list[ProcessPoolExecutor], processes: int) -> Executor:
     """The executor, in place of a pool of processes a new one, which starts as that does.
 
     The library has no public way to start a pool as another.
     """
     if not isinstance(executor, ProcessPoolExecutor):
-        return executor  # type: ignore[no-any-return]
+        return executor
     like: Any = executor
     own.append(ProcessPoolExecutor(processes, like._mp_context, like._initializer, like._initargs))
     return own[-1]
