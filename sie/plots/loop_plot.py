@@ -54,7 +54,8 @@ def draw(axes: Axes, loop: Loop, units: Units) -> None:
     up, force = style.scaled(float(np.abs(loop.corners[:, 1]).max()), units.force)
     style.zero_line(axes)
     axes.axvline(0.0, color=style.INK, linewidth=0.6, zorder=1)
-    style.curve(axes, *(loop.points * (along, up)).T, style.BLUE, 1.2, zorder=3)
+    x, y = (loop.points * (along, up)).T
+    style.curve(axes, x, y, style.BLUE, 1.2, zorder=3)
     dots: dict[str, Any] = {"marker": "o", "linestyle": "none"}
     x, y = (loop.corners * (along, up)).T
     axes.plot(x, y, color=style.BLUE, markersize=2.2, zorder=4, **dots)

@@ -209,9 +209,9 @@ def _rows(
     y, rows = DEEPEST * 0.5 * float(mesh.marks[-1] - mesh.marks[0]), list[Row]()
     while columns.size:
         step_done(0)
-        levels = y / RATIO ** np.arange(LEVELS)
+        levels = (y / RATIO ** np.arange(LEVELS)).tolist()
         xs = []
-        for level in levels.tolist():
+        for level in levels:
             apart = (distance == 0.0) | (distance >= SPACING * level)
             xs.append(thinned(columns[(shallow <= level) & apart], CELL * level))
         new = [row for row in _values_on(tractions, measure, levels, xs) if len(row[1])]
@@ -231,13 +231,15 @@ def _rows(
     return rows
 
 
-def _values_on(tractions: Tractions, measure: Measure, levels: Array, xs: list[Array]) -> list[Row]:
+def _values_on(
+    tractions: Tractions, measure: Measure, levels: list[float], xs: list[Array]
+) -> list[Row]:
     """The rows at these depths, from one evaluation of the potentials."""
     z = np.concatenate([x + 1j * level for x, level in zip(xs, levels, strict=True)])
     values = np.split(
         measure.value(values_inside(tractions, z)), np.cumsum([len(x) for x in xs[:-1]])
     )
-    return list(zip(levels.tolist(), xs, values, strict=True))
+    return list(zip(levels, xs, values, strict=True))
 
 
 def _bounds(x: Array, above: Array, window: float) -> tuple[Array, Array]:
