@@ -1,8 +1,7 @@
 """Read regular files of limited size, and write files whole or not at all.
 
 A file is written under another name beside its place and then moved there; the move is one step, so
-that no reader opens half a file. A writer that is killed leaves the other name, .sie-....part,
-behind.
+that no reader opens half a file. A writer that is killed may leave a file ".sie-*.part" behind.
 """
 
 from __future__ import annotations
@@ -15,7 +14,7 @@ import stat
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from pathlib import Path
-from typing import Any, BinaryIO
+from typing import Any
 
 KINDS = {
     stat.S_ISDIR: "a directory",
@@ -131,28 +130,40 @@ def writing(contents: Mapping[Path, bytes]) -> Iterator[None]:
     A BrokenPipeError in the block is no failure. A device or a pipe cannot be replaced and is
     written to as it is. Raises OSError.
     """
-    parts: dict[Path, BinaryIO] = {}
+    parts: dict[Path, Path] = {}
     try:
         with _named(contents):
             devices = [path for path in contents if _is_device(path)]
-            for place, data in (
-                (path.resolve(), data) for path, data in contents.items() if path not in devices
-            ):
-                parts[place] = _new_part(place)  # resolved: a link stays a link
-                _write_part(parts[place], data, like=place)
+            for path in (path for path in contents if path not in devices):
+                place = path.resolve()  # a link stays a link
+                parts[place] = place.with_name(f".sie-{secrets.token_hex(8)}.part")
+                _write_part(parts[place], contents[path], like=place)
             for path in devices:
                 path.write_bytes(contents[path])
         try:
             yield
         except BrokenPipeError:
-            with _named(contents):
-                _move(parts)
+            _move(parts, contents)
             raise
-        with _named(contents):
-            _move(parts)
+        _move(parts, contents)
     finally:
         for part in parts.values():
-            _discard(part)
+            part.unlink(missing_ok=True)
+
+
+def _write_part(part: Path, data: bytes, like: Path) -> None:
+    with open(part, "xb") as stream:
+        stream.write(data)
+        stream.flush()
+        os.fsync(stream.fileno())
+    if like.exists():
+        shutil.copymode(like, part)
+
+
+def _move(parts: Mapping[Path, Path], contents: Iterable[Path]) -> None:
+    with _named(contents):
+        for place, part in parts.items():
+            os.replace(part, place)
 
 
 @contextmanager
@@ -185,32 +196,3 @@ def _named(contents: Iterable[Path]) -> Iterator[None]:
 
 def _is_device(path: Path) -> bool:
     return path.exists() and not path.is_file()
-
-
-# -- parts: files that are not at their places yet -----------------------------------------------
-
-
-def _new_part(place: Path) -> BinaryIO:
-    # It stays open until it is moved.
-    return open(place.with_name(f".sie-{secrets.token_hex(8)}.part"), "xb")
-
-
-def _write_part(part: BinaryIO, data: bytes, like: Path) -> None:
-    part.write(data)
-    part.flush()
-    os.fsync(part.fileno())
-    if like.exists():
-        shutil.copymode(like, part.name)
-
-
-def _move(parts: dict[Path, BinaryIO]) -> None:
-    for place, part in parts.items():
-        if os.name == "nt":
-            part.close()  # what is open cannot be renamed there
-        os.replace(part.name, place)
-
-
-def _discard(part: BinaryIO) -> None:
-    with suppress(OSError):
-        part.close()
-    Path(part.name).unlink(missing_ok=True)

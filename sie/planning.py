@@ -15,27 +15,22 @@ from .problem.scene import Scene, refuse_no_scene
 from .profiles.row import asks_for_patches
 
 BODY = ("stress", "yield", "tension", "cycle")  # what is asked of the stress in the body
-
-# The stages of `Solution` that answer what is asked for ...
-STAGES: dict[str, tuple[str, ...]] = {
-    "edges": ("normal",),
-    "pressure": ("normal", "pressure"),
-    "gap": ("normal", "pressure"),
-    **dict.fromkeys(("shear", "energy"), ("normal", "pressure", "tangential")),
-    "check": ("normal", "pressure", "tangential", "certificate"),
-    **dict.fromkeys(BODY, ("normal", "pressure", "tangential", "tractions")),
+# The stages of `Solution` that answer what is asked for, beside the contact itself: where the shear
+# follows from the pressure, and where one problem gives both.
+TWO_PROBLEMS: dict[str, tuple[str, ...]] = {
+    "edges": (),
+    **dict.fromkeys(("pressure", "gap"), ("pressure",)),
+    **dict.fromkeys(("shear", "energy"), ("pressure", "tangential")),
+    "check": ("pressure", "tangential", "certificate"),
+    **dict.fromkeys(BODY, ("pressure", "tangential", "tractions")),
 }
-# ... for full stick, where one equation gives the pressure and the shear, ...
-FULL_STICK: dict[str, tuple[str, ...]] = {
-    **dict.fromkeys(("edges", "gap", "shear", "energy"), ("normal",)),
-    "pressure": ("normal", "pressure"),
-    "check": ("normal", "certificate"),
-    **dict.fromkeys(BODY, ("normal", "pressure", "tractions")),
+ONE_PROBLEM: dict[str, tuple[str, ...]] = {
+    **dict.fromkeys(("edges", "gap", "shear", "energy"), ()),
+    "pressure": ("pressure",),
+    "check": ("certificate",),
+    **dict.fromkeys(BODY, ("pressure", "tractions")),
 }
-# ... and for dissimilar bodies in partial slip.
-COUPLED = {name: ("coupled", *stages) for name, stages in FULL_STICK.items()}
-# And for these under P, then Q.
-SHEARED = {name: ("pressed", "tangential_search", *stages) for name, stages in COUPLED.items()}
+NO_ECONOMY = "economy is switched off"
 
 
 @dataclass(frozen=True)
@@ -123,97 +118,29 @@ def plan(
     """
     refuse_no_scene(scene)
     names = wanted(want)
-    if scene.bonded:
-        return _of_full_stick(scene, names)
-    if scene.coupled:
-        return _of_coupled(scene, names)
-    no_shear = dict.fromkeys(("shear", "energy"), ("normal",))
-    needed = STAGES if sheared(scene, economy) or scene.epsilon else STAGES | no_shear
-    stages = {stage for w in names for stage in needed[w]}
+    if scene.bonded or scene.coupled:
+        stages = {stage for name in names for stage in ONE_PROBLEM[name]}
+        return Plan((*_of_one_problem(scene, names, stages), *_last(names, stages)))
+    no_shear: dict[str, tuple[str, ...]] = dict.fromkeys(("shear", "energy"), ())
+    needed = TWO_PROBLEMS | ({} if sheared(scene, economy) or scene.epsilon else no_shear)
+    stages = {stage for name in names for stage in needed[name]}
+    normal = _of_patches if asks_for_patches(scene.profile) else _of_one_patch
     steps = (
-        _resolution(scene, economy),
-        Step("edges", True, _edges(scene, economy), "normal"),
-        _symmetry(scene, economy),
-        _flat_pieces(scene, economy),
+        *normal(scene, economy),
         _tilt(scene),
-        _pressure(scene, "pressure" in stages, economy),
-        _inequalities(scene, economy),
+        *_pressure(scene, "pressure" in stages, economy),
         _coupling(scene),
         _slip(scene, "tangential" in stages, economy),
         _corrective(scene, economy),
     )
-    return Plan(steps + _last(stages, names))
-
-
-def _of_coupled(scene: Scene, names: tuple[str, ...]) -> Plan:
-    if scene.tangential_load:
-        return _of_sheared(scene, names)
-    stages = {stage for name in names for stage in COUPLED[name]}
-    how = f"β = {scene.beta:.4g}: p and q are one problem; the stick zone is that of a flat punch"
-    growth = "dP/ds in closed form or by a Volterra equation; the edges from its integral"
-    inequalities = "dP/ds > 0 is verified: p > 0 and |q| <= f p follow"
-    if scene.profile.axis is None or scene.tilt:
-        growth = (
-            "dP/ds by a Volterra equation and, if the contact has no axis, its middle by a second "
-            "one; the edges from the integral of dP/ds"
-        )
-        inequalities += ", where the stick zone grows at both ends, which is verified too"
-    steps = (
-        Step("coupling", True, how, "coupled"),
-        Step("edges", True, growth, "normal"),
-    )
-    return Plan(steps + _of_both("flats superposed", inequalities, stages, names))
-
-
-def _of_sheared(scene: Scene, names: tuple[str, ...]) -> Plan:
-    """The steps of dissimilar bodies under P, then Q."""
-    stages = {stage for name in names for stage in SHEARED[name]}
-    how = f"β = {scene.beta:.4g}: p and q are one problem; first under P alone"
-    steps = (
-        Step("coupling", True, how, "pressed"),
-        Step("slip gradient", True, "that of P alone, kept in stick", "tangential_search"),
-        Step("zones", True, "four edges, of contact and stick zone, by Newton", "coupled"),
-        Step("edges", True, "found with the zones", "normal"),
-        _if_asked("energy", "energy" in names, "the power of friction, summed over states"),
-    )
-    inequalities = "the certificate measures p >= 0 and |q| <= f p"
-    return Plan(steps + _of_both("with the edges", inequalities, stages, names))
-
-
-def _of_both(
-    pressure: str, inequalities: str, stages: set[str], names: tuple[str, ...]
-) -> tuple[Step, ...]:
-    """The steps after the edges where pressure and shear are one problem."""
-    return (
-        _if_asked("pressure", "pressure" in stages, pressure, "pressure"),
-        Step("inequalities", False, inequalities),
-        Step("slip", False, "the shear and the slip come with the pressure"),
-        *_last(stages, names),
-    )
-
-
-def _of_full_stick(scene: Scene, names: tuple[str, ...]) -> Plan:
-    stages = {stage for name in names for stage in FULL_STICK[name]}
-    uncoupled = "-1/2: β = 0 leaves p and q uncoupled"
-    coupled = f"-1/2 ± iη, tanh πη = β = {scene.beta:.4g}"
-    exponents = uncoupled if scene.beta == 0.0 else coupled
-    tilt = "given" if scene.moment is None else "that of the moment, which is linear in it"
-    how = f"one equation for p + iq, exponents {exponents}; the tilt is {tilt}"
-    steps = (
-        Step("edges", True, "the ends of the punch", "normal"),
-        Step("full stick", True, how, "bonded"),
-        _if_asked("pressure", "pressure" in stages, "its real part", "pressure"),
-        Step("inequalities", False, "bonded surfaces can pull, and touch all over"),
-        Step("slip", False, "infinite friction: nothing slips"),
-    )
-    return Plan(steps + _last(stages, names))
+    return Plan((*steps, *_last(names, stages)))
 
 
 def _if_asked(name: str, asked: bool, how: str, stage: str = "") -> Step:
     return Step(name, asked, how if asked else "not asked for", stage)
 
 
-def _last(stages: set[str], names: tuple[str, ...]) -> tuple[Step, ...]:
+def _last(names: tuple[str, ...], stages: set[str]) -> tuple[Step, ...]:
     """The steps after the tractions."""
     stress = "from the potentials of the tractions, each once; no complex arithmetic on the surface"
     maxima = (("yield", "J2 in the body"), ("tension", "σ_xx on the surface"))
@@ -227,11 +154,103 @@ def _last(stages: set[str], names: tuple[str, ...]) -> tuple[Step, ...]:
     )
 
 
-def _resolution(scene: Scene, economy: Collection[str]) -> Step:
-    if asks_for_patches(scene.profile) and scene.profile.pieces.functions:
-        how = "the slope is a function: pieces of Chebyshev series where contact is possible"
-        return Step("resolution", True, how)
-    if upright_law(scene, economy) is not None:
+# -- pressure and shear are one problem ------------------------------------------------------------
+
+
+def _of_one_problem(scene: Scene, names: tuple[str, ...], stages: set[str]) -> Iterable[Step]:
+    """The steps of full stick, and of dissimilar bodies in partial slip."""
+    if scene.bonded:
+        first, pressure = _full_stick(scene), "its real part"
+        inequalities = "bonded surfaces can pull, and touch all over"
+    elif scene.tangential_load:
+        first, pressure = _pressed_then_sheared(scene, names), "with the edges"
+        inequalities = "the certificate measures p >= 0 and |q| <= f p"
+    else:
+        first, pressure = _pressed(scene), "flats superposed"
+        inequalities = "dP/ds > 0 is verified: p > 0 and |q| <= f p follow"
+        if scene.profile.axis is None or scene.tilt:
+            inequalities += ", where the stick zone grows at both ends, which is verified too"
+    together = "the shear and the slip come with the pressure"
+    return (
+        *first,
+        _if_asked("pressure", "pressure" in stages, pressure, "pressure"),
+        Step("inequalities", False, inequalities),
+        Step("slip", False, "infinite friction: nothing slips" if scene.bonded else together),
+    )
+
+
+def _full_stick(scene: Scene) -> tuple[Step, ...]:
+    exponents = f"-1/2 ± iη, tanh πη = β = {scene.beta:.4g}"
+    if scene.beta == 0.0:
+        exponents = "-1/2: β = 0 leaves p and q uncoupled"
+    tilt = "given" if scene.moment is None else "that of the moment, which is linear in it"
+    how = f"one equation for p + iq, exponents {exponents}; the tilt is {tilt}"
+    return (
+        Step("edges", True, "the ends of the punch", "normal"),
+        Step("full stick", True, how, "bonded"),
+    )
+
+
+def _pressed(scene: Scene) -> tuple[Step, ...]:
+    how = f"β = {scene.beta:.4g}: p and q are one problem; the stick zone is that of a flat punch"
+    growth = "dP/ds in closed form or by a Volterra equation; the edges from its integral"
+    if scene.profile.axis is None or scene.tilt:
+        growth = (
+            "dP/ds by a Volterra equation and, if the contact has no axis, its middle by a second "
+            "one; the edges from the integral of dP/ds"
+        )
+    return Step("coupling", True, how, "coupled"), Step("edges", True, growth, "normal")
+
+
+def _pressed_then_sheared(scene: Scene, names: tuple[str, ...]) -> tuple[Step, ...]:
+    how = f"β = {scene.beta:.4g}: p and q are one problem; first under P alone"
+    return (
+        Step("coupling", True, how, "pressed"),
+        Step("slip gradient", True, "that of P alone, kept in stick", "tangential_search"),
+        Step("zones", True, "four edges, of contact and stick zone, by Newton", "coupled"),
+        Step("edges", True, "found with the zones", "normal"),
+        _if_asked("energy", "energy" in names, "the power of friction, summed over states"),
+    )
+
+
+# -- first the pressure ----------------------------------------------------------------------------
+
+
+def _of_patches(scene: Scene, _economy: Collection[str]) -> tuple[Step, ...]:
+    """The steps to the edges of a profile that may touch in several patches."""
+    function = bool(scene.profile.pieces.functions)
+    known = "the slope is polynomial on each piece: known exactly"
+    pieces = "the slope is a function: pieces of Chebyshev series where contact is possible"
+    edges = "load given: patches from a grid, their edges by Newton, verified by bounds"
+    none = "not used for patches: the edges of all are unknown"
+    return (
+        Step("resolution", function, pieces if function else known),
+        Step("edges", True, edges, "normal"),
+        Step("symmetry", False, none),
+        Step("flat pieces", False, "not told apart: values of h' on all pieces are summed"),
+    )
+
+
+def _of_one_patch(scene: Scene, economy: Collection[str]) -> tuple[Step, ...]:
+    law = upright_law(scene, economy) is not None
+    edges = "smooth edges"
+    if law and scene.moment is None:
+        edges += ", in closed form"
+    else:
+        ends = any(abs(end) != float("inf") for end in scene.profile.domain)
+        edges += " or sharp at the ends of the indenter" if ends else ""
+        edges += ", by bracketed Newton with exact derivatives"
+    given = "half-width" if scene.half_width is not None else "load"
+    return (
+        _resolution(scene, law),
+        Step("edges", True, f"{given} given: {edges}", "normal"),
+        _symmetry(scene, economy),
+        _flat_pieces(scene, economy),
+    )
+
+
+def _resolution(scene: Scene, law: bool) -> Step:
+    if law:
         return Step("resolution", False, "the slope is a power law: known exactly")
     if scene.profile.pieces.functions:
         how = "one Chebyshev series in the contact, or pieces on a window fitted to it"
@@ -239,70 +258,47 @@ def _resolution(scene: Scene, economy: Collection[str]) -> Step:
     return Step("resolution", False, "the slope is polynomial on each piece: known exactly")
 
 
-def _edges(scene: Scene, economy: Collection[str]) -> str:
-    if asks_for_patches(scene.profile):
-        how = "patches from a grid, their edges by Newton, verified by bounds"
-        return f"load given: {how}"
-    given = "half-width" if scene.half_width is not None else "load"
-    if upright_law(scene, economy) is not None and scene.moment is None:
-        return f"{given} given: smooth edges, in closed form"
-    ends = (
-        " or sharp at the ends of the indenter"
-        if any(abs(e) != float("inf") for e in scene.profile.domain)
-        else ""
-    )
-    return f"{given} given: smooth edges{ends}, by bracketed Newton with exact derivatives"
-
-
 def _symmetry(scene: Scene, economy: Collection[str]) -> Step:
-    if asks_for_patches(scene.profile):
-        return Step("symmetry", False, "not used for patches: the edges of all are unknown")
-    tilted = scene.tilt != 0.0
-    if scene.profile.axis is None or tilted or scene.epsilon or "symmetry" not in economy:
-        reasons = (
-            ("symmetry" not in economy, "economy is switched off"),
-            (tilted, "the tilt breaks it"),
-            (scene.epsilon, "friction breaks it"),
-        )
-        why = next((reason for holds, reason in reasons if holds), "the profile has no axis")
-        return Step("symmetry", False, f"{why}: both edges are unknown")
-    extra = " while the tilt is zero" if scene.moment is not None else ""
-    return Step(
-        "symmetry",
-        True,
-        f"about x = {scene.profile.axis:g}{extra}: half the unknowns, half the pieces",
+    reasons = (
+        ("symmetry" not in economy, NO_ECONOMY),
+        (scene.tilt != 0.0, "the tilt breaks it"),
+        (scene.epsilon, "friction breaks it"),
+        (scene.profile.axis is None, "the profile has no axis"),
     )
+    for holds, why in reasons:
+        if holds:
+            return Step("symmetry", False, f"{why}: both edges are unknown")
+    extra = " while the tilt is zero" if scene.moment is not None else ""
+    about = f"about x = {scene.profile.axis:g}{extra}"
+    return Step("symmetry", True, f"{about}: half the unknowns, half the pieces")
 
 
 def _flat_pieces(scene: Scene, economy: Collection[str]) -> Step:
-    name, flat = "flat pieces", int(scene.profile.pieces.is_zero.sum())
-    if asks_for_patches(scene.profile):
-        return Step(name, False, "not told apart: values of h' on all pieces are summed")
-    if flat and scene.tilt == 0.0 and "zero panels" not in economy:
-        return Step(name, True, f"{flat} integrated although zero: economy is switched off")
-    if flat and scene.tilt == 0.0:
-        pieces = len(scene.profile.pieces.origins)
-        return Step(name, False, f"{flat} of {pieces} cost nothing: h' = 0 there")
-    return Step(name, False, "there are none")
+    pieces = scene.profile.pieces
+    flat = int(pieces.is_zero.sum()) if scene.tilt == 0.0 else 0
+    if flat and "zero panels" not in economy:
+        return Step("flat pieces", True, f"{flat} integrated although zero: {NO_ECONOMY}")
+    cost = f"{flat} of {len(pieces.origins)} cost nothing: h' = 0 there"
+    return Step("flat pieces", False, cost if flat else "there are none")
 
 
 def _tilt(scene: Scene) -> Step:
-    if scene.moment is None:
-        return Step("tilt", False, f"given: {scene.tilt:g}")
-    return Step(
-        "tilt",
-        True,
-        "the moment is given: the tilt is found by Newton, dM/d(tilt) known in closed form",
-    )
+    how = "the moment is given: the tilt is found by Newton, dM/d(tilt) known in closed form"
+    given = scene.moment is None
+    return Step("tilt", not given, f"given: {scene.tilt:g}" if given else how)
 
 
-def _pressure(scene: Scene, asked: bool, economy: Collection[str]) -> Step:
-    how = _expansion(scene, economy)
+def _pressure(scene: Scene, asked: bool, economy: Collection[str]) -> tuple[Step, Step]:
+    """The steps of the pressure and of its inequalities."""
+    name, how = "inequalities", _expansion(scene, economy)
+    if scene.profile.convex and "convexity" in economy:
+        convex = "the profile is convex: p > 0 and gap > 0 follow"
+        return _if_asked("pressure", asked, how, "pressure"), Step(name, False, convex, name)
+    why = NO_ECONOMY if scene.profile.convex else "the profile is not known to be convex"
+    verified = Step(name, True, f"{why}: p >= 0 and gap >= 0 are verified", name)
     if asked:
-        return Step("pressure", True, how, "pressure")
-    if _convex(scene, economy):
-        return Step("pressure", False, "not asked for", "pressure")
-    return Step("pressure", True, f"needed for the inequalities: {how}")
+        return Step("pressure", True, how, "pressure"), verified
+    return Step("pressure", True, f"needed for the inequalities: {how}"), verified
 
 
 def _expansion(scene: Scene, economy: Collection[str]) -> str:
@@ -311,25 +307,15 @@ def _expansion(scene: Scene, economy: Collection[str]) -> str:
     if scene.epsilon:
         return "exact panels with the edges' exponents"
     if "transform" not in economy:
-        return "exact panels: economy is switched off"
-    if scene.profile.breaks and upright_law(scene, economy) is not None:
-        return "two series of a power law"
+        return f"exact panels: {NO_ECONOMY}"
     if not scene.profile.breaks:
         return "the slope is smooth: one DCT, no linear system"
+    if upright_law(scene, economy) is not None:
+        return "two series of a power law"
     return "exact panels on the pieces in the contact; one DCT if no break falls inside"
 
 
-def _convex(scene: Scene, economy: Collection[str]) -> bool:
-    return scene.profile.convex and "convexity" in economy
-
-
-def _inequalities(scene: Scene, economy: Collection[str]) -> Step:
-    name = "inequalities"
-    if _convex(scene, economy):
-        return Step(name, False, "the profile is convex: p > 0 and gap > 0 follow", name)
-    unknown = "the profile is not known to be convex"
-    why = "economy is switched off" if scene.profile.convex else unknown
-    return Step(name, True, f"{why}: p >= 0 and gap >= 0 are verified", name)
+# -- then the shear --------------------------------------------------------------------------------
 
 
 def _coupling(scene: Scene) -> Step:
@@ -337,57 +323,56 @@ def _coupling(scene: Scene) -> Step:
         return Step("coupling", False, "β = 0: pressure and shear are uncoupled")
     if scene.neglects_beta:
         return Step("coupling", False, "β q is left out: Goodman's approximation")
-    if scene.slides:
-        why = (
-            f"β = {scene.beta:.4g} and q = {scene.slides * scene.friction:g} p: "
-            f"edges with exponents 1/2 ± {abs(scene.epsilon):.3g}"
-        )
-        return Step("coupling", True, f"{why}, panels with Lerch's function for the logarithm")
-    return Step(
-        "coupling", False, f"β = {scene.beta:.4g}, but f = 0: no shear acts back on the pressure"
-    )
+    beta = f"β = {scene.beta:.4g}"
+    if not scene.slides:
+        return Step("coupling", False, f"{beta}, but f = 0: no shear acts back on the pressure")
+    shear = f"q = {scene.slides * scene.friction:g} p"
+    edges = f"edges with exponents 1/2 ± {abs(scene.epsilon):.3g}"
+    how = "panels with Lerch's function for the logarithm"
+    return Step("coupling", True, f"{beta} and {shear}: {edges}, {how}")
 
 
 def _slip(scene: Scene, asked: bool, economy: Collection[str]) -> Step:
-    one_way = "zones of stick and slip for Q at constant P, slip in one direction"
-    if asks_for_patches(scene.profile):
-        one_way += " on all patches"
-    either = "zones of stick and slip for Q and σ in proportion: one direction or two, by the"
-    cases = (
+    sliding = "full sliding: the shear traction is f times the pressure, nothing to solve"
+    skipped = (
         (scene.friction == 0.0, "f = 0: there is no shear traction"),
-        (
-            scene.epsilon != 0.0,
-            "full sliding: the shear traction is f times the pressure, nothing to solve",
-        ),
+        (scene.epsilon != 0.0, sliding),
         (not sheared(scene, economy), "Q = 0 and no bulk stress: there is no shear traction"),
         (not asked, "not asked for"),
     )
-    for holds, why in cases:
+    for holds, why in skipped:
         if holds:
             return Step("slip", False, why, "tangential")
     if scene.goodman:
         how = "flats superposed while the load grew; Q changes what the shear lacks of f p"
-        return Step("slip", True, how, "tangential")
-    how = one_way if scene.tau == 0.0 else f"{either} inequalities"
+    elif scene.tau == 0.0:
+        how = "zones of stick and slip for Q at constant P, slip in one direction"
+        how += " on all patches" if asks_for_patches(scene.profile) else ""
+    else:
+        how = "zones of stick and slip for Q and σ in proportion: one direction or two, by the"
+        how += " inequalities"
     return Step("slip", True, how, "tangential")
 
 
 def _corrective(scene: Scene, economy: Collection[str]) -> Step:
     """A decision inside the slip stage."""
-    name = "corrective"
-    if not sheared(scene, economy):
-        return Step(name, False, "there is no shear traction")
-    if scene.goodman:
-        return Step(name, False, "the shear follows from how the contact grew")
-    if scene.slides and "sliding" in economy:
-        return Step(
-            name, False, "|Q| = f P, full sliding: q is f times the pressure, no second solve"
-        )
+    skipped = (
+        (not sheared(scene, economy), "there is no shear traction"),
+        (scene.goodman, "the shear follows from how the contact grew"),
+        (
+            scene.slides and "sliding" in economy,
+            "|Q| = f P, full sliding: q is f times the pressure, no second solve",
+        ),
+    )
+    for holds, why in skipped:
+        if holds:
+            return Step("corrective", False, why)
     if asks_for_patches(scene.profile):
         how = "the patches under P - |Q|/f are the stick zones: found as those under P"
-        return Step(name, True, how)
-    zero = scene.profile.pieces.has_zero and scene.tau == 0.0
-    flat = "; none if nothing but the flat base sticks" if zero else ""
-    how = f"the contact under P - |Q|/f is the stick zone: found as that under P{flat}"
-    both = "; not where slip goes both ways" if scene.tau != 0.0 else ""
-    return Step(name, True, how + both)
+        return Step("corrective", True, how)
+    how = "the contact under P - |Q|/f is the stick zone: found as that under P"
+    if scene.tau != 0.0:
+        how += "; not where slip goes both ways"
+    elif scene.profile.pieces.has_zero:
+        how += "; none if nothing but the flat base sticks"
+    return Step("corrective", True, how)

@@ -2,9 +2,9 @@
 
 It is one line on standard error where that is a terminal, and in a notebook, and wiped at the end.
 What may take long opens a `Progress`, also inside another. The line counts the steps of the
-outermost work whose number of steps is known, and names what is being done inside it. The open
-work is kept in a context variable, so that a step deep in a solver needs no argument to be counted;
-where nothing is open a step costs a tenth of a microsecond. Only the main thread of a main process
+outermost work, and names what is being done inside it. The open work is kept in a context variable,
+so that a step deep in a solver needs no argument to be counted; where nothing is open a step costs
+a tenth of a microsecond. Only the main thread of a main process
 draws: workers of a pool would write over each other. `TQDM_DISABLE=1` in the environment, or
 `with Progress("", shown=False):`, shows no bar.
 """
@@ -43,28 +43,44 @@ class Progress:
 
     def __init__(self, name: str, total: int = 0, shown: bool = True) -> None:
         self.name, self.total, self.done = name, total, 0
-        self.outer: Progress | None = None
-        self._line = _Line() if shown else None
         self.start = perf_counter()
+        self.works: tuple[Progress, ...] = (
+            self,
+        )  # those that are open around this one, the outermost first
+        self._due = self.start + PATIENCE if shown else inf
+        self._bar: Any = None
 
     def __enter__(self) -> Progress:
-        self.outer = _OPEN.get()
-        if self.outer is not None:
-            self._line = self.outer._line
+        outer = _OPEN.get()
+        if outer is not None:
+            self.works = (*outer.works, self)
         _OPEN.set(self)
         return self
 
     def __exit__(self, *_: object) -> None:
         if _OPEN.get() is self:
-            _OPEN.set(self.outer)
-        if self.outer is None and self._line is not None:
-            self._line.wipe()
+            _OPEN.set(self.works[-2] if len(self.works) > 1 else None)
+        if self._bar is not None:
+            self._bar.close()
 
     def update(self, steps: int = 1) -> None:
         """Count further steps as done."""
         self.done += steps
-        if self._line is not None and perf_counter() >= self._line.due:
-            self._line.draw(self)
+        if perf_counter() >= self.works[0]._due:
+            self.works[0]._draw(self.works[1:])
+
+    def _draw(self, inside: tuple[Progress, ...]) -> None:
+        """Draw what is done, if somebody sees it."""
+        if not _seen():
+            self._due = inf
+            return
+        if self._bar is None:
+            self._bar = _bar(self)
+        self._bar.n = self.done
+        if not self.total:
+            self._bar.set_description_str(_counts(self), refresh=False)
+        self._bar.set_postfix_str(", ".join(map(_counts, inside)))  # and refreshes
+        self._due = perf_counter() + INTERVAL
 
 
 _OPEN: ContextVar[Progress | None] = ContextVar("open work", default=None)
@@ -101,40 +117,6 @@ def _counted(name: str, items: Iterable[T], total: int) -> Iterator[T]:
         for item in items:
             yield item
             work.update()
-
-
-class _Line:
-    """The line of all works that are open inside each other."""
-
-    def __init__(self) -> None:
-        self.due = perf_counter() + PATIENCE
-        self._leader: Progress | None = None
-        self._bar: Any = None
-
-    def draw(self, innermost: Progress) -> None:
-        """Draw what is done."""
-        if not _seen():
-            self.due = inf
-            return
-        works = [innermost]
-        while works[0].outer is not None:
-            works.insert(0, works[0].outer)
-        first = next((k for k, work in enumerate(works) if work.total), 0)
-        leader, inside = works[first], works[first + 1 :]
-        if leader is not self._leader:
-            self.wipe()
-            self._leader, self._bar = leader, _bar(leader)
-        self._bar.n = leader.done
-        if not leader.total:
-            self._bar.set_description_str(_counts(leader), refresh=False)
-        self._bar.set_postfix_str(", ".join(map(_counts, inside)))  # and refreshes
-        self.due = perf_counter() + INTERVAL
-
-    def wipe(self) -> None:
-        """Take the line away."""
-        if self._bar is not None:
-            self._bar.close()
-        self._leader = self._bar = None
 
 
 def _counts(work: Progress) -> str:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import contextlib
 import logging
 import os
-import re
 import shutil
 import sys
 import textwrap
@@ -18,19 +17,10 @@ LOG = logging.getLogger("sie")
 # Characters that are printed at once: if standard output is not buffered, Python does not report an
 # error that occurs in the midst of one piece.
 PIECE = 4096
-# For a terminal without block elements and Greek letters.
-PLAIN = {
-    ord(fancy): plain
-    for fancy, plain in zip(
-        "▁▂▃▄▅▆▇█│└─↑∫σβλμµνκ²×−≤≥°",
-        (*"..::--##|+-^", "int ", *"sbluunk2x-", "<=", ">=", " deg"),
-        strict=True,
-    )
-}
 
 
 def print_text(text: str) -> None:
-    """Print the text, in plain characters where the encoding has no others. Raises OSError."""
+    """Print the text, with question marks where the encoding has no character. Raises OSError."""
     if sys.stdout is None:
         raise OSError("standard output is closed: send it to a file, or to the null device")
     text = _encodable(text, sys.stdout)
@@ -40,22 +30,9 @@ def print_text(text: str) -> None:
 
 
 def _encodable(text: str, stream: TextIO) -> str:
-    """The text, in plain characters if the stream has no others."""
+    """The text, with question marks for the characters that the stream has not."""
     encoding = getattr(stream, "encoding", None) or "utf-8"
-    try:
-        text.encode(encoding)
-    except UnicodeEncodeError:
-        plain = "".join(map(_plain, text.splitlines(keepends=True)))
-        return plain.encode(encoding, "replace").decode(encoding)
-    return text
-
-
-def _plain(line: str) -> str:
-    """The line in plain characters; the next wide gap makes up for what is longer."""
-    plain = line.translate(PLAIN)
-    more = len(plain) - len(line)
-    gap = rf"(?<=\S) {{{more + 1},}}"
-    return re.sub(gap, lambda spaces: spaces[0][more:], plain, count=1) if more else plain
+    return text.encode(encoding, "replace").decode(encoding)
 
 
 def terminal_width() -> int:

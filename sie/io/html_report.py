@@ -127,7 +127,7 @@ def _contact(solution: Solution) -> Any:
 
 
 def _loop(history: History) -> Any:
-    from sie.plots.contact_plot import loop_along  # noqa: PLC0415 -- a higher layer
+    from sie.plots.loop_plot import loop_along  # noqa: PLC0415 -- a higher layer
 
     return history.plot() if loop_along(history) else None
 

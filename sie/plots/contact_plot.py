@@ -20,7 +20,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cached_property, partial
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -31,12 +31,12 @@ from numpy.typing import NDArray
 from sie.io.answers import slip_of
 from sie.io.sample_points import ABOVE_ORDINARY, abscissae, ceiling, full, peak, reach, summits
 from sie.io.scene_file import UNITS, Units
-from sie.paths.history import History, PathSolution, follow
+from sie.paths.history import PathSolution
 from sie.solution import Solution
 
 from . import style
-from .loop_plot import Loop, loop_of
 from .loop_plot import draw as draw_loop
+from .loop_plot import loop_along
 
 Array = NDArray[np.float64]
 
@@ -283,12 +283,6 @@ PANELS: dict[str, Callable[[Axes, _View], None]] = {
     "shear": _draw_shear,
     "slip": _draw_slip,
 }
-
-
-def loop_along(history: History) -> Loop | None:
-    """The loop of a history, None without one, as of `loop_of`."""
-    along = partial(follow, history.scene, tol=history.tol, economy=history.economy)
-    return loop_of(history.path, history.turning_points, along)
 
 
 def _draw_surface(

@@ -10,7 +10,7 @@ from sie.arguments import suggestion
 from sie.io.scene_file import Units
 from sie.paths.history import History
 from sie.solution import Solution
-from sie.sweeps.unit_labels import labels
+from sie.sweeps.result import labels
 
 from . import contact_plot, loop_plot, stress_plot, style
 
@@ -35,7 +35,7 @@ def of_solution(solution: Solution, axes: Axes | None, what: str, units: Any) ->
 
 def of_history(history: History, axes: Axes | None, units: Any) -> Axes:
     """The loop of Q over the shift along a path. ValueError where there is none."""
-    labels, loop = _labels(units), contact_plot.loop_along(history)
+    labels, loop = _labels(units), loop_plot.loop_along(history)
     if loop is None:
         raise ValueError(
             "the path has no loop: give several points with a tangential load, and P > 0 at the "

@@ -20,7 +20,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import cached_property
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -65,35 +64,6 @@ class StressHistory:
         """The history with so many axes behind that of the points, along which planes vary."""
         more = (..., *[None] * axes)
         return StressHistory(self.s[more], self.D[more], self.zz[more])
-
-    @cached_property
-    def sizes(self) -> Sizes:
-        """Bounds of the components and of their ranges, at each point."""
-        across = self.s - self.zz
-        centre = 0.5 * (self.D.real.max(0) + self.D.real.min(0)) + 0.5j * (
-            self.D.imag.max(0) + self.D.imag.min(0)
-        )
-        return Sizes(
-            np.abs(self.D).max(0),
-            2.0 * np.abs(self.D - centre).max(0),
-            (np.abs(across) + np.abs(self.D)).max(0),
-            np.ptp(across, axis=0),
-            np.abs(self.zz).max(0),
-            np.ptp(self.zz, axis=0),
-            np.ptp(self.s, axis=0),
-        )
-
-
-class Sizes(NamedTuple):
-    """Bounds at each point: of |D|, ΔD, |s - σ_zz| + |D|, Δ(s - σ_zz), |σ_zz|, Δσ_zz and Δs."""
-
-    D: Array
-    D_range: Array
-    across: Array
-    across_range: Array
-    zz: Array
-    zz_range: Array
-    s_range: Array
 
 
 class Bounds(NamedTuple):
@@ -172,30 +142,35 @@ class Parameter:
 
     def bounds(self, h: StressHistory) -> tuple[Bounds, Bounds, Bounds]:
         """The bounds of the parameter, of its amplitude and of what multiplies or adds to it."""
-        amplitude, normal = self._amplitude(h.sizes), _normal(h.sizes).scaled(self.weight)
+        amplitude, normal = self._amplitude(h), _normal(h).scaled(self.weight)
         if self.offset is None:
             return amplitude.plus(normal), amplitude, normal
         factor = normal._replace(size=normal.size + self.offset)
         return amplitude.times(factor), amplitude, factor
 
-    def _amplitude(self, of: Sizes) -> Bounds:
-        across = of.across_range + of.D_range
+    def _amplitude(self, h: StressHistory) -> Bounds:
+        middle = [0.5 * (part.max(axis=0) + part.min(axis=0)) for part in (h.D.real, h.D.imag)]
+        D_range = 2.0 * np.abs(h.D - (middle[0] + 1j * middle[1])).max(axis=0)
+        across = np.ptp(h.s - h.zz, axis=0) + D_range
         if self.strain:
-            whole = 2.0 * of.s_range + of.zz_range
-            size = (1.0 + self.poisson) * (of.zz_range + across) + abs(self.poisson) * whole
-            slopes = np.stack((of.D_range, across)) * (1.0 + self.poisson)
-            curved = np.stack((of.D_range, 2.0 * across)) * (1.0 + self.poisson)
+            zz_range = np.ptp(h.zz, axis=0)
+            whole = 2.0 * np.ptp(h.s, axis=0) + zz_range
+            size = (1.0 + self.poisson) * (zz_range + across) + abs(self.poisson) * whole
+            slopes = np.stack((D_range, across)) * (1.0 + self.poisson)
+            curved = np.stack((D_range, 2.0 * across)) * (1.0 + self.poisson)
             return Bounds(size, slopes, curved).scaled(0.5)
-        size = np.hypot(0.5 * across, of.D_range)
-        slopes = np.stack((np.hypot(0.5, 1.0) * of.D_range, np.hypot(across, of.D_range)))
-        curved = np.stack((slopes[0], np.hypot(2.0 * across, of.D_range)))
+        size = np.hypot(0.5 * across, D_range)
+        slopes = np.stack((np.hypot(0.5, 1.0) * D_range, np.hypot(across, D_range)))
+        curved = np.stack((slopes[0], np.hypot(2.0 * across, D_range)))
         return Bounds(size, slopes, curved).scaled(0.5)
 
 
-def _normal(of: Sizes) -> Bounds:
+def _normal(h: StressHistory) -> Bounds:
     """The bounds of the normal stress."""
-    slopes = np.stack((of.D, of.across))
-    return Bounds(of.zz + of.across, slopes, np.stack((of.D, 2.0 * of.across)))
+    D = np.abs(h.D).max(axis=0)
+    across = (np.abs(h.s - h.zz) + np.abs(h.D)).max(axis=0)
+    slopes, curved = np.stack((D, across)), np.stack((D, 2.0 * across))
+    return Bounds(np.abs(h.zz).max(axis=0) + across, slopes, curved)
 
 
 class Worst(NamedTuple):

@@ -83,7 +83,7 @@ class Criterion(NamedTuple):
 
 def smith_watson_topper(states: Sequence[Any]) -> Criterion:
     """The parameter of Smith, Watson and Topper. ValueError without the body's constants."""
-    body = _tractions(states)[0].known_body
+    body = states[0].tractions.known_body
     return Criterion(lambda unit: Parameter(1.0, 0.0, True, body.poisson), body.young)
 
 
@@ -99,7 +99,7 @@ def fatemi_socie(states: Sequence[Any], k: float, yield_stress: float) -> Criter
         arguments.not_negative("k", k),
         arguments.positive("yield_stress", yield_stress),
     )
-    modulus = _tractions(states)[0].known_body.shear_modulus
+    modulus = states[0].tractions.known_body.shear_modulus
     return Criterion(lambda unit: Parameter(k * (unit / yield_stress), 1.0), modulus)
 
 
@@ -121,22 +121,17 @@ def at_points(
     worst = worst_planes(h, parameter)
     planes = parameter.planes(h, worst.phi, worst.psi)
     amplitude, normal = planes.amplitude * (unit / criterion.stiffness), planes.normal * unit
-    value = _value(criterion, parameter, unit, worst.value)
+    # that of Smith, Watson and Topper is a product with the normal stress alone
+    value = worst.value * (unit / criterion.stiffness) * (unit if parameter.offset == 0.0 else 1.0)
     angle = np.mod(0.5 * worst.phi, np.pi)
     found = (value, x, y, angle, worst.psi, amplitude, normal)
     return CriticalPlane(*(np.reshape(field, x.shape)[()] for field in found))
 
 
-def _value(criterion: Criterion, parameter: Parameter, unit: float, value: Array) -> Array:
-    """The value of a parameter in the units of the scene."""
-    squared = parameter.offset == 0.0
-    return value * (unit / criterion.stiffness) * (unit if squared else 1.0)
-
-
 def _worst_x(states: Sequence[Any], criterion: Criterion, y: float) -> float:
     """The position at a depth where the parameter is largest."""
     step_done()
-    x = columns(_tractions(states), y)
+    x = columns([state.tractions for state in states], y)
     h, unit = _in_unit(_history(states, x, y))
     parameter = criterion.parameter(unit)
 
@@ -153,10 +148,6 @@ def _worst_x(states: Sequence[Any], criterion: Criterion, y: float) -> float:
     high = np.flatnonzero(values >= best - TOO_SMALL * abs(best))
     values[high] = worst_planes(h.at(high), parameter, NEARLY).value
     return largest(x, values, best_of)[0]
-
-
-def _tractions(states: Sequence[Any]) -> list[Any]:
-    return [state.tractions for state in states]
 
 
 def _history(states: Sequence[Any], x: Array, y: float | Array) -> StressHistory:

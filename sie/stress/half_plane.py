@@ -19,7 +19,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, NamedTuple, TypeVar
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -35,15 +35,6 @@ Complex = NDArray[np.complex128]
 # Points are taken in parts of this size: temporaries stay in the processor's cache, and few are
 # ever as large as the whole.
 PART = 4096
-
-
-T = TypeVar("T")
-
-
-def _known(value: T | None, refusal: str) -> T:
-    if value is None:
-        raise ValueError(refusal)
-    return value
 
 
 @dataclass(frozen=True, eq=False)
@@ -77,16 +68,19 @@ class Tractions:
     @property
     def known_poisson(self) -> float:
         """Poisson's ratio. ValueError if it was not given."""
-        return _known(self.poisson, NO_POISSON)
+        if self.poisson is None:
+            raise ValueError(NO_POISSON)
+        return self.poisson
 
     @property
     def known_body(self) -> Elastic:
         """The body with its elastic constants. ValueError if they were not given."""
-        return _known(
-            self.body,
-            "strains need the elastic constants of the body: give the body by young and "
-            "poisson in place of modulus",
-        )
+        if self.body is None:
+            raise ValueError(
+                "strains need the elastic constants of the body: give the body by young and "
+                "poisson in place of modulus"
+            )
+        return self.body
 
     @cached_property
     def marks(self) -> Array:
@@ -97,6 +91,13 @@ class Tractions:
     def singular(self) -> Array:
         """The marks at which the slope of a traction is infinite."""
         return np.unique(np.concatenate((self.pressure.singular, self.shear.singular)))
+
+    @cached_property
+    def hilbert_at_edges(self) -> tuple[tuple[float, float], ...]:
+        """(edge, limit from inside of 1/π PV∫ q/(x - t) dt) where q spreads as far as p."""
+        if self.shear.interval != self.pressure.interval:
+            return ()
+        return tuple(zip(self.shear.interval, self.shear.hilbert_at_edges, strict=True))
 
     @cached_property
     def depth_of_surface(self) -> float:

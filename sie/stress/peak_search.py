@@ -18,7 +18,6 @@ so that gradient and Hessian are those of the stress itself, without finite diff
 
 from __future__ import annotations
 
-from itertools import pairwise
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -27,11 +26,21 @@ from numpy.typing import NDArray
 from sie.progress_bar import reported, step_done
 
 from .half_plane import Tractions, potentials
-from .scan_columns import RATIO, Mesh, mesh_of, thinned
-from .surface_peaks import WORTH, Maximum, Measure, on_surface, slope, surface_values
+from .scan_columns import FAR_COLUMNS, RATIO, Mesh, mesh_of, thinned
+from .surface_peaks import (
+    WORTH,
+    Maximum,
+    Measure,
+    beneath_infinite_pressure,
+    on_surface,
+    slope,
+    surface_values,
+    values_inside,
+)
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
+Row = tuple[float, Array, Array]  # of the scan: the depth, and ascending abscissae with values
 
 # A column begins at this part of the scale s of its place.
 SHALLOW = 0.06
@@ -50,11 +59,13 @@ WINDOW = 4.0
 # So are those where so many oscillations of the surface values do not reach the largest one.
 SWINGS = 4.0
 MOST_STARTS = 48
+# A top of the scan is a start if the best value is no farther above it than this times its falls.
+SAFETY = 2.0
 # Points on a circle, and the depth over its radius: seven digits of the third derivative are good.
-CIRCLE = 6
+CIRCLE = 4
 RADIUS = 400.0
 # After PATIENCE steps a start goes on only if its value is at least CLOSE times the highest.
-PATIENCE = 12
+PATIENCE = 6
 CLOSE = 0.99
 # Newton steps, and the longest one in depths.
 STEPS = 60
@@ -71,8 +82,6 @@ TOGETHER = 1e-3
 LEFT = 0.25
 # Depths of starts beneath a maximum of the surface, in units of the scale s there.
 INWARDS = 0.3 ** np.arange(1.0, 14.0)
-# Half-widths beneath a place where p is infinite at which all other terms vanish.
-BENEATH = 1e-100
 # Maxima whose values are this close are tied, and at places this close, in half-widths, the same.
 TIED = 1e-10
 SAME_PLACE = 1e-7
@@ -101,12 +110,12 @@ def largest(tractions: Tractions, measure: Measure) -> tuple[Maximum, ...]:
     Values within TIED of it count as equal.
     """
     mesh = mesh_of(tractions)
-    above = surface_values(tractions, mesh.x)
+    surface = surface_values(tractions, mesh.surface)
     found = [
-        *on_surface(tractions, measure, mesh, above),
+        *on_surface(tractions, measure, mesh, surface),
         *beneath_infinite_pressure(tractions, measure),
     ]
-    found += inside(tractions, measure, mesh, above, found)
+    found += inside(tractions, measure, mesh, surface[:, FAR_COLUMNS:-FAR_COLUMNS], found)
     best = max(m.value for m in found)
     r = 0.5 * float(np.diff(tractions.pressure.interval)[0])
     tied = [m for m in found if m.value == best or m.value >= best * (1.0 - TIED)]
@@ -137,8 +146,9 @@ def inside(
     if np.isinf(best):
         return []
     rows = _rows(tractions, measure, mesh, above, best)
-    floor = WORTH * max(best, *(value.max() for _, _, value in rows))
-    scanned = _starts(rows, floor)
+    best = max(best, *(value.max() for _, _, value in rows))
+    floor = WORTH * best
+    scanned = _starts(rows, best)
     starts = np.concatenate(
         (scanned, _beneath(tractions, measure, mesh, [m.x for m in known if m.value >= floor]))
     )
@@ -146,30 +156,39 @@ def inside(
         return []
     # The best point of the scan is kept if all searches from it leave the body: under a jump of h'
     # the largest value is not reached anywhere
-    z = np.concatenate((scanned[:1], _climbed(tractions, measure, mesh, starts)))
-    values = measure.value(_values(tractions, z))
+    z = np.concatenate((scanned[:1], _climbed(tractions, measure, mesh, starts, best)))
+    values = measure.value(values_inside(tractions, z))
     return [
         Maximum(*row) for row in zip(values.tolist(), z.real.tolist(), z.imag.tolist(), strict=True)
     ]
 
 
-def _starts(rows: list[tuple[float, Array, Array]], floor: float) -> Complex:
-    """The local maxima of the scan and their neighbours left and right."""
+def _starts(rows: list[Row], best: float) -> Complex:
+    """The local maxima of the scan that may exceed the best value, and neighbours left and right.
+
+    Between the places of a scan a concave top exceeds the middle value in each direction by no more
+    than the fall to a neighbour.
+    """
     starts, values = [np.zeros(0, dtype=complex)], [np.zeros(0)]
     for k, (y, x, value) in enumerate(rows):
-        if value.max() < floor:
+        if value.max() < WORTH * best:
             continue
         apart = np.concatenate(([True], np.diff(x) > ALONE * y, [True]))
         left = np.where(apart[:-1], -np.inf, np.append(-np.inf, value[:-1]))
         right = np.where(apart[1:], -np.inf, np.append(value[1:], -np.inf))
-        top = np.flatnonzero((value >= left) & (value >= right) & (value >= floor))
+        top = np.flatnonzero((value >= left) & (value >= right) & (value >= WORTH * best))
+        if not top.size:
+            continue
+        falls = value[top] - np.stack((left[top], right[top], *[np.full(len(top), -np.inf)] * 2))
         # Towards a mark a value may be constant up to rounding.
-        for other, margin in ((k - 1, 0.0), (k + 1, SAME_VALUE)):
-            if 0 <= other < len(rows) and top.size:
+        for fall, other, margin in zip(falls[2:], (k - 1, k + 1), (0.0, SAME_VALUE), strict=True):
+            if 0 <= other < len(rows):
                 _, x_other, value_other = rows[other]
-                nearest = _nearest(x_other, x[top])
+                nearest = np.abs(x_other[:, None] - x[top]).argmin(axis=0)
                 seen = np.abs(x_other[nearest] - x[top]) <= y
-                top = top[~seen | (value[top] >= value_other[nearest] * (1.0 + margin))]
+                fall[seen] = value[top[seen]] - value_other[nearest[seen]] * (1.0 + margin)
+        beside, above = (_largest_known(pair) for pair in (falls[:2], falls[2:]))
+        top = top[(falls >= 0.0).all(axis=0) & (value[top] + SAFETY * (beside + above) >= best)]
         chosen = np.unique(np.clip(np.concatenate((top - 1, top, top + 1)), 0, len(x) - 1))
         starts.append(x[chosen] + 1j * y)
         values.append(value[chosen])
@@ -177,42 +196,50 @@ def _starts(rows: list[tuple[float, Array, Array]], floor: float) -> Complex:
     return z[np.argsort(-np.concatenate(values), kind="stable")][:MOST_STARTS]
 
 
+def _largest_known(falls: Array) -> Array:
+    """The larger of two falls, where one is infinite the other."""
+    return np.where(np.isinf(falls).any(axis=0), falls.min(axis=0), falls.max(axis=0))
+
+
 def _rows(
-    tractions: Tractions, measure: Measure, mesh: Mesh, above: Array, known: float
-) -> list[tuple[float, Array, Array]]:
-    """(depth, abscissae, values) of the scan, the deepest first; a few depths at a time."""
-    columns, shallow, distance = mesh.x, SHALLOW * mesh.scale(mesh.x), mesh.distance
-    y, rows, best = DEEPEST * 0.5 * float(mesh.marks[-1] - mesh.marks[0]), [], known
+    tractions: Tractions, measure: Measure, mesh: Mesh, above: Array, best: float
+) -> list[Row]:
+    """The rows of the scan, the deepest first; a few depths at a time."""
+    columns, distance, shallow = mesh.x, mesh.distance, SHALLOW * mesh.scale(mesh.x)
+    y, rows = DEEPEST * 0.5 * float(mesh.marks[-1] - mesh.marks[0]), list[Row]()
     while columns.size:
         step_done(0)
-        levels = y / RATIO ** np.arange(LEVELS)
+        levels = (y / RATIO ** np.arange(LEVELS)).tolist()
         xs = []
-        for level in levels.tolist():
+        for level in levels:
             apart = (distance == 0.0) | (distance >= SPACING * level)
             xs.append(thinned(columns[(shallow <= level) & apart], CELL * level))
-        z = np.concatenate([x + 1j * level for x, level in zip(xs, levels, strict=True)])
-        value = measure.value(_values(tractions, z))
-        ends = np.cumsum([0, *map(len, xs)])
-        new = [
-            (level, x, value[i:j])
-            for level, x, (i, j) in zip(levels.tolist(), xs, pairwise(ends), strict=True)
-            if len(x)
-        ]
+        new = [row for row in _values_on(tractions, measure, levels, xs) if len(row[1])]
         if not new:
             break
         rows += new
-        best = max(best, value.max())
+        best = max(best, *(value.max() for _, _, value in new))
         _, x, value = new[-1]
         k = np.searchsorted(x, columns)
         beside = np.maximum(value[np.maximum(k - 1, 0)], value[np.minimum(k, len(x) - 1)])
         size, swing = _bounds(columns, above, WINDOW * levels[-1])
-        likely = np.maximum(beside, measure.value(size + swing)) >= HOPELESS * best
-        likely &= measure.value(size + SWINGS * swing) >= best
-        stay = likely & (shallow < levels[-1])
+        stay = np.maximum(beside, measure.value(size + swing)) >= HOPELESS * best
+        stay &= (measure.value(size + SWINGS * swing) >= best) & (shallow < levels[-1])
         columns, shallow = columns[stay], shallow[stay]
         distance, above = distance[stay], above[:, stay]
         y /= RATIO**LEVELS
     return rows
+
+
+def _values_on(
+    tractions: Tractions, measure: Measure, levels: list[float], xs: list[Array]
+) -> list[Row]:
+    """The rows at these depths, from one evaluation of the potentials."""
+    z = np.concatenate([x + 1j * level for x, level in zip(xs, levels, strict=True)])
+    values = np.split(
+        measure.value(values_inside(tractions, z)), np.cumsum([len(x) for x in xs[:-1]])
+    )
+    return list(zip(levels, xs, values, strict=True))
 
 
 def _bounds(x: Array, above: Array, window: float) -> tuple[Array, Array]:
@@ -229,12 +256,10 @@ def _bounds(x: Array, above: Array, window: float) -> tuple[Array, Array]:
     low, high = (np.pad(v, ((0, 0), (1, 1)), mode="edge") for v in (low, high))
     low = np.minimum(np.minimum(low[:, :-2], low[:, 2:]), low[:, 1:-1])
     high = np.maximum(np.maximum(high[:, :-2], high[:, 2:]), high[:, 1:-1])
-    largest_there = np.maximum(-low, high)
-    swing = np.where(np.isinf(largest_there), np.inf, high - np.where(np.isinf(low), 0.0, low)).sum(
-        axis=0
-    )
+    size = np.maximum(-low, high)
+    swing = np.where(np.isinf(size), np.inf, high - np.where(np.isinf(low), 0.0, low)).sum(axis=0)
     count = np.diff(np.append(first, len(x)))
-    return np.repeat(largest_there, count, axis=1), np.repeat(swing, count)
+    return np.repeat(size, count, axis=1), np.repeat(swing, count)
 
 
 def _beneath(tractions: Tractions, measure: Measure, mesh: Mesh, places: list[float]) -> Complex:
@@ -249,20 +274,22 @@ def _beneath(tractions: Tractions, measure: Measure, mesh: Mesh, places: list[fl
     if not x.size:
         return np.zeros(0, dtype=complex)
     z = x[:, None] + 1j * mesh.scale(x)[:, None] * INWARDS
-    value = measure.value(_values(tractions, z.ravel())).reshape(z.shape)
+    value = measure.value(values_inside(tractions, z.ravel())).reshape(z.shape)
     starts: Complex = z[np.arange(len(x)), value.argmax(axis=1)]
     return starts
 
 
-def _climbed(tractions: Tractions, measure: Measure, mesh: Mesh, z: Complex) -> Complex:
+def _climbed(
+    tractions: Tractions, measure: Measure, mesh: Mesh, z: Complex, highest: float
+) -> Complex:
     """The maxima inside that Newton's method reaches, with every step uphill.
 
-    Starts that leave through the surface are dropped.
+    Starts that leave through the surface are dropped, and those that stay below the `highest` value
+    that is known.
     """
     rest: list[Complex] = []
     lowest = LEFT * np.minimum(z.imag, SHALLOW * mesh.scale(z.real))
     before, value, trust = z, np.full(z.shape, -np.inf), np.full(z.shape, LONGEST)
-    highest = -np.inf
     for k in range(STEPS):
         if not z.size:
             break
@@ -321,14 +348,6 @@ def _newton(measure: Measure, at: Local) -> Complex:
     return step
 
 
-def _values(tractions: Tractions, z: Complex) -> Array:
-    """(s, D_r, D_i) inside the body, (3, n)."""
-    Phi, dPhi, Fq = potentials(tractions, z)
-    D = Fq - z.imag * dPhi
-    half = 0.5 * tractions.bulk_stress
-    return np.stack((Phi.imag + half, D.real - half, D.imag))
-
-
 def _local(tractions: Tractions, z: Complex) -> Local:
     """(s, D_r, D_i) and two derivatives of each, in units of the depth, at z (1-d).
 
@@ -352,39 +371,3 @@ def _local(tractions: Tractions, z: Complex) -> Local:
     rows[0, 0] += half
     rows[0, 1] -= half
     return Local(*rows)
-
-
-def beneath_infinite_pressure(tractions: Tractions, measure: Measure) -> list[Maximum]:
-    """The limit of a measure of D alone (an incompressible body) where p is infinite.
-
-    D on the surface itself does not depend on p.
-
-    At a sharp edge D grows without limit. At a jump of h' Fp' ~ C/(z - x), and D tends to Fq - C
-    sin θ e^(-iθ) in the direction θ, on a circle of diameter |C| through Fq: the largest |D| is |Fq
-    + iC/2| + |C|/2.
-    """
-    x = tractions.marks
-    x = x[np.isinf(tractions.pressure(x))]
-    if not x.size:
-        return []
-    on = surface_values(tractions, x)
-    unseen = np.isfinite(measure.value(on))
-    if not unseen.any():
-        return []
-    x, on = x[unseen], on[:, unseen]
-    Fq = on[1] + 1j * on[2]
-    x1, x2 = tractions.pressure.interval
-    beneath = _values(
-        tractions, np.asarray(x + 1j * (BENEATH * 0.5 * (x2 - x1)), dtype=np.complex128)
-    )
-    C = -1j * (beneath[1] + 1j * beneath[2] - Fq)
-    largest_D = np.where((x == x1) | (x == x2), np.inf, np.abs(Fq + 0.5j * C) + 0.5 * np.abs(C))
-    value = measure.value(np.stack((on[0], largest_D, np.zeros(len(x)))))
-    return [Maximum(float(v), float(t), 0.0) for v, t in zip(value, x, strict=True)]
-
-
-def _nearest(x: Array, to: Array) -> NDArray[np.intp]:
-    k = np.clip(np.searchsorted(x, to), 1, max(len(x) - 1, 1))
-    if len(x) == 1:
-        return np.zeros(len(to), dtype=np.intp)
-    return k - (to - x[k - 1] < x[k] - to)

@@ -37,6 +37,8 @@ MANY_MARKS = 40
 MOST_SINGULAR = 24
 # The columns reach so many half-widths beside the contact.
 OUTSIDE = 1.8
+# On the surface there are so many more on either side, up to FAR half-widths.
+FAR, FAR_COLUMNS = 1e3, 12
 # The ratio of the depths of the scan.
 RATIO = 1.45
 
@@ -51,6 +53,12 @@ class Mesh(NamedTuple):
     g: Array
     x: Array
     distance: Array
+
+    @property
+    def surface(self) -> Array:
+        """The columns of the surface: these, and FAR_COLUMNS more on either side."""
+        far = 0.5 * float(self.marks[-1] - self.marks[0]) * np.geomspace(OUTSIDE, FAR, FAR_COLUMNS)
+        return np.concatenate((self.marks[0] - far[::-1], self.x, self.marks[-1] + far))
 
     def scale(self, x: Array) -> Array:
         """s(x) of the module."""

@@ -14,17 +14,19 @@ from numpy.typing import NDArray
 
 from sie.numerics.root_finding import false_positions
 
-from .half_plane import Tractions, hilbert_of_shear
-from .scan_columns import OUTSIDE, Mesh
+from .half_plane import Tractions, hilbert_of_shear, potentials
+from .scan_columns import Mesh
 
 Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
 
-FAR = 1e3
 # Maxima of the scan below this part of the largest known value are not polished; a maximum of the
 # scan is off by its curvature over a cell.
 WORTH = 0.85
 # The part of a cell that is left out at a mark, where the slope may be infinite.
 AT_MARK = 1e-9
+# Half-widths beneath a place where p is infinite at which all other terms vanish.
+BENEATH = 1e-100
 
 
 class Measure(NamedTuple):
@@ -50,13 +52,12 @@ class Maximum(NamedTuple):
     y: float
 
 
-def on_surface(tractions: Tractions, measure: Measure, mesh: Mesh, above: Array) -> list[Maximum]:
-    """Local maxima along the surface that may be the largest, edges and breaks included."""
-    far = 0.5 * float(mesh.marks[-1] - mesh.marks[0]) * np.geomspace(OUTSIDE, FAR, 12)
-    far_left, far_right = mesh.marks[0] - far[::-1], mesh.marks[-1] + far
-    x = np.concatenate((far_left, mesh.x, far_right))
-    values = (surface_values(tractions, far_left), above, surface_values(tractions, far_right))
-    value = measure.value(np.concatenate(values, axis=1))
+def on_surface(tractions: Tractions, measure: Measure, mesh: Mesh, values: Array) -> list[Maximum]:
+    """Local maxima along the surface that may be the largest, edges and breaks included.
+
+    `values` are those of `surface_values` on the columns of the surface.
+    """
+    x, value = mesh.surface, measure.value(values)
     padded = np.concatenate(([-np.inf], value, [-np.inf]))
     best = value.max()
     if np.isinf(best):
@@ -82,28 +83,19 @@ def on_surface(tractions: Tractions, measure: Measure, mesh: Mesh, above: Array)
     highest = np.full(len(x) + 1, -np.inf)  # of the roots between neighbouring columns
     np.maximum.at(highest, np.searchsorted(x, roots), at_root)
     tops = columns[value[columns] >= np.maximum(highest[columns], highest[columns + 1])]
-    places = ((value[tops], x[tops]), (at_root, roots))
-    return [
-        Maximum(float(v), float(t), 0.0)
-        for values, at in places
-        for v, t in zip(values, at, strict=True)
-    ]
+    found = zip(np.append(value[tops], at_root), np.append(x[tops], roots), strict=True)
+    return [Maximum(float(v), float(t), 0.0) for v, t in found]
 
 
 def surface_values(tractions: Tractions, x: Array) -> Array:
     """(s, D_r, D_i) on the surface, (3, n); at the edges their limits from inside the contact."""
     p, q = tractions.pressure(x), tractions.shear(x)
     hilbert = hilbert_of_shear(tractions, x, p)
-    if tractions.shear.interval == tractions.pressure.interval:
-        for x_edge, limit in zip(
-            tractions.shear.interval, tractions.shear.hilbert_at_edges, strict=True
-        ):
-            edge = (x == x_edge) & np.isfinite(p)
-            p, q, hilbert = (
-                np.where(edge, 0.0, p),
-                np.where(edge, 0.0, q),
-                np.where(edge, limit, hilbert),
-            )
+    for x_edge, limit in tractions.hilbert_at_edges:
+        edge = (x == x_edge) & np.isfinite(p)
+        p, q, hilbert = (
+            np.where(edge, value, v) for value, v in ((0.0, p), (0.0, q), (limit, hilbert))
+        )
     half = 0.5 * tractions.bulk_stress
     return np.stack((half - p - hilbert, hilbert - half, -q))
 
@@ -126,3 +118,40 @@ def slope(tractions: Tractions, measure: Measure, x: Array, inwards: bool = Fals
     ds, dD = (dPhi.real, 1j * dFq - dPhi) if inwards else (dPhi.imag, dFq)
     derivative = 0.5 * (x2 - x1) * np.stack((ds, dD.real, dD.imag))
     return (measure.gradient(value) * derivative).sum(axis=0)
+
+
+def values_inside(tractions: Tractions, z: Complex) -> Array:
+    """(s, D_r, D_i) inside the body, (3, n)."""
+    Phi, dPhi, Fq = potentials(tractions, z)
+    D = Fq - z.imag * dPhi
+    half = 0.5 * tractions.bulk_stress
+    return np.stack((Phi.imag + half, D.real - half, D.imag))
+
+
+def beneath_infinite_pressure(tractions: Tractions, measure: Measure) -> list[Maximum]:
+    """The limit of a measure of D alone (an incompressible body) where p is infinite.
+
+    D on the surface itself does not depend on p.
+
+    At a sharp edge D grows without limit. At a jump of h' Fp' ~ C/(z - x), and D tends to Fq - C
+    sin θ e^(-iθ) in the direction θ, on a circle of diameter |C| through Fq: the largest |D| is |Fq
+    + iC/2| + |C|/2.
+    """
+    x = tractions.marks
+    x = x[np.isinf(tractions.pressure(x))]
+    if not x.size:
+        return []
+    on = surface_values(tractions, x)
+    unseen = np.isfinite(measure.value(on))
+    if not unseen.any():
+        return []
+    x, on = x[unseen], on[:, unseen]
+    Fq = on[1] + 1j * on[2]
+    x1, x2 = tractions.pressure.interval
+    beneath = values_inside(
+        tractions, np.asarray(x + 1j * (BENEATH * 0.5 * (x2 - x1)), dtype=np.complex128)
+    )
+    C = -1j * (beneath[1] + 1j * beneath[2] - Fq)
+    largest_D = np.where((x == x1) | (x == x2), np.inf, np.abs(Fq + 0.5j * C) + 0.5 * np.abs(C))
+    value = measure.value(np.stack((on[0], largest_D, np.zeros(len(x)))))
+    return [Maximum(float(v), float(t), 0.0) for v, t in zip(value, x, strict=True)]

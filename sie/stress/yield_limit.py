@@ -97,11 +97,7 @@ def refuse_unknown_criterion(criterion: object) -> None:
 def elastic_limit(
     tractions: Tractions, normal_load: float, criterion: Criterion = "mises"
 ) -> YieldPoint:
-    """The yield point of a body under these tractions.
-
-    ValueError for an unknown criterion, or if Poisson's ratio is needed and missing.
-    """
-    refuse_unknown_criterion(criterion)
+    """The yield point of a body under these tractions. ValueError without Poisson's ratio."""
     kappa = tractions.out_of_plane
     found: list[tuple[float, tuple[Maximum, ...]]] = []
     if criterion == "mises":
@@ -134,7 +130,7 @@ def peak_tension(tractions: Tractions) -> Peak:
         if q * outward == np.inf:
             return Peak(np.inf, x)
     mesh = mesh_of(tractions)
-    found = on_surface(tractions, _tension(), mesh, surface_values(tractions, mesh.x))
+    found = on_surface(tractions, _tension(), mesh, surface_values(tractions, mesh.surface))
     best = max(m.value for m in found)
     middle = 0.5 * sum(tractions.pressure.interval)
     # Without a tension, σ_xx is the same on the whole free surface

@@ -1,9 +1,6 @@
-"""A file that holds the answers of a sweep while they are computed: NetCDF or Zarr, by xarray.
+"""A NetCDF file that holds the answers of a sweep while they are computed, by xarray.
 
-The file is readable at any moment, also after the process was killed. A NetCDF file is replaced in
-one step. The arrays of a Zarr store are written anew in place, first the values, then the reasons;
-points turn from nan into their values, so any mixture of old and new is right. Where a shape has
-changed, the whole store is replaced, which takes two steps.
+It is replaced in one step, and so readable at any moment, also after the process was killed.
 """
 
 from __future__ import annotations
@@ -42,7 +39,7 @@ class SweepFile:
     """The file of a growing result; None for the path writes nothing."""
 
     def __init__(self, path: str | Path | None) -> None:
-        self._write, self._path = _no_file if path is None else _writer(Path(path)), path
+        self._path = None if path is None else _new_file(Path(path))
         self._due = perf_counter() + PERIOD
 
     def grow(self, result: Callable[[], Any]) -> None:
@@ -54,61 +51,35 @@ class SweepFile:
         if self._path is None or begin < self._due:
             return
         with suppress(OSError):
-            self._write(result())
+            write(result(), self._path)
         end = perf_counter()
         self._due = end + max(PERIOD, SHARE * (end - begin))
 
     def finish(self, result: Any) -> Any:
         """Write the result and return it. OSError with the result if it cannot be written."""
         try:
-            self._write(result)
+            if self._path is not None:
+                write(result, self._path)
         except OSError as problem:
             raise Unwritten(str(problem), result) from None
         return result
 
 
-def _no_file(_: Any) -> None: ...
-
-
-def _writer(path: Path) -> Callable[[Any], None]:
-    """What writes to a path. ValueError if nothing can be written there."""
-    writers = {".nc": (_write_netcdf, ("xarray",)), ".zarr": (_write_zarr, ("xarray", "zarr"))}
-    if path.suffix not in writers:
-        raise ValueError(f"to = {str(path)!r} is of no kind known: let it end in .nc or .zarr")
-    write, needed = writers[path.suffix]
-    missing = [name for name in needed if not find_spec(name)]
-    if missing:
-        absent = " and ".join(missing)
-        raise ValueError(f"to = {str(path)!r} needs {absent}: pip install {' '.join(missing)}")
+def _new_file(path: Path) -> Path:
+    """The path. ValueError if nothing can be written there."""
+    if path.suffix != ".nc":
+        raise ValueError(f"to = {str(path)!r} is no NetCDF file: let it end in .nc")
+    if not find_spec("xarray"):
+        raise ValueError(f"to = {str(path)!r} needs xarray: pip install xarray")
     if path.exists():
         raise ValueError(f"to = {str(path)!r} exists: remove it, or give another name")
-    files.writable(path)
-    return lambda data: write(data, path)
+    return files.writable(path)
 
 
-def _write_netcdf(data: Any, path: Path) -> None:
+def write(data: Any, path: Path) -> None:
+    """Write a Dataset to a file. Raises OSError."""
     # Objects are text here; not all versions of the libraries find that out themselves.
     text = {n: v.astype(str) for n, v in data.variables.items() if v.dtype == object}
     with TemporaryDirectory() as folder:
         data.assign(text).to_netcdf(Path(folder, path.name))
         files.write_files({path: Path(folder, path.name).read_bytes()})
-
-
-def _write_zarr(data: Any, path: Path) -> None:
-    values = data.drop_vars(["reason", *data.coords])
-    try:
-        values.to_zarr(path, mode="r+")
-        data[["reason"]].drop_vars(list(data.coords)).to_zarr(path, mode="r+")
-    except (FileNotFoundError, ValueError):  # it is new, or a shape has changed
-        _replace_zarr(data, path)
-
-
-def _replace_zarr(data: Any, path: Path) -> None:
-    """The whole store in the place of the old one."""
-    with TemporaryDirectory(dir=path.parent, prefix=".sie-") as folder:
-        new = Path(folder, "new")
-        # Zarr has no specification of text in its format 3 yet.
-        data.to_zarr(new, mode="w-", zarr_format=2)
-        if path.exists():
-            path.rename(Path(folder, "old"))
-        new.rename(path)

@@ -1,4 +1,7 @@
-"""The answers of a sweep as arrays over its grid, or as a Dataset where xarray is installed."""
+"""The answers of a sweep as arrays over its grid, or as a Dataset where xarray is installed.
+
+What the package names has a long name and a unit there.
+"""
 
 from __future__ import annotations
 
@@ -9,8 +12,6 @@ from typing import Any
 
 import numpy as np
 
-from .unit_labels import PARAMETERS, QUANTITIES, UNITS, attributes
-
 Answer = tuple[dict[str, Any], str]  # values by name, and why there are none ("" if there are)
 
 # Quantities with other names in a result; these are nan where no point has an answer.
@@ -19,6 +20,54 @@ PARTS = {
     "elastic_limit": ("elastic_limit", "elastic_limit_load", "elastic_limit_x", "elastic_limit_y"),
     "peak_tension": ("peak_tension", "peak_tension_x"),
 }
+
+
+# Labels of consistent units, as those of scene files.
+UNITS = {"length": "mm", "force": "N/mm", "stress": "MPa"}
+PURE, LENGTH, FORCE, STRESS = "1", "{length}", "{force}", "{stress}"
+MOMENT, AREA = "{force} {length}", "{length}^2"
+
+# What the package names, and its unit.
+LABELS = {
+    "half_width": ("half-width of the contact", LENGTH),
+    "centre": ("centre of the contact", LENGTH),
+    "normal_load": ("normal load P", FORCE),
+    "moment": ("moment about x = 0", MOMENT),
+    "tilt": ("tilt", PURE),
+    "contact_length": ("length in contact", LENGTH),
+    "gap_volume": ("area of the gaps between patches", AREA),
+    "patches": ("number of patches", PURE),
+    "x1": ("left edge of the contact", LENGTH),
+    "x2": ("right edge of the contact", LENGTH),
+    "shear_load": ("tangential load Q", FORCE),
+    "elastic_limit": ("P/(bk) at first yield", PURE),
+    "elastic_limit_load": ("P/k at first yield", LENGTH),
+    "elastic_limit_x": ("x of first yield", LENGTH),
+    "elastic_limit_y": ("depth of first yield", LENGTH),
+    "peak_tension": ("largest tension on the surface", STRESS),
+    "peak_tension_x": ("x of the largest tension", LENGTH),
+    "error": ("estimated relative error of the pressure", PURE),
+    "friction": ("coefficient of friction", PURE),
+    "tangential_load": ("tangential load Q", FORCE),
+    "bulk_stress": ("bulk stress", STRESS),
+    "sliding": ("direction of sliding", PURE),
+    "modulus": ("modulus E*", STRESS),
+    "dundurs": ("Dundurs' constant beta", PURE),
+    "poisson": ("Poisson's ratio", PURE),
+    "profile.radius": ("radius", LENGTH),
+    "profile.half_flat": ("half of the flat base", LENGTH),
+    "profile.half_width": ("half-width of the punch", LENGTH),
+    "profile.exponent": ("exponent", PURE),
+}
+
+
+def labels(units: Any) -> dict[str, str]:
+    """The labels of units, those that are not given by default. ValueError for others."""
+    given = {} if units is None else units
+    texts = isinstance(given, Mapping) and all(isinstance(v, str) for v in given.values())
+    if not texts or not given.keys() <= UNITS.keys():
+        raise ValueError(f"units = {units!r} are no labels of units: give some of {UNITS!r}")
+    return UNITS | given
 
 
 def labelled(
@@ -53,15 +102,20 @@ def labelled(
         name: (
             (*dims, *(f"{name}_{i}" for i in range(a.ndim - len(dims)))),
             a,
-            attributes(QUANTITIES, named.get(name, ""), units),
+            _attributes(named.get(name, ""), units),
         )
         for name, a in data.items()
     }
-    along = {
-        name: (name, values, attributes(PARAMETERS, name, units))
-        for name, values in coordinates.items()
-    }
+    along = {name: (name, values, _attributes(name, units)) for name, values in coordinates.items()}
     return xarray.Dataset({**variables, "reason": (dims, reasons)}, coords=along)
+
+
+def _attributes(name: str, units: Mapping[str, str]) -> dict[str, str]:
+    """`long_name` and `units`, by which xarray prints and plots; {} for what is not known."""
+    if name not in LABELS:
+        return {}
+    said, unit = LABELS[name]
+    return {"long_name": said, "units": unit.format(**units)}
 
 
 def _shapes(answers: list[Answer]) -> dict[str, tuple[int, ...]]:

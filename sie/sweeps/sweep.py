@@ -28,12 +28,9 @@ from sie import arguments
 from sie.problem.scene import Scene
 from sie.progress_bar import Progress
 from sie.solution import Solution
-from sie.sweeps.workers import Outcome, outcomes
 
-from .chunks import Chunks
 from .file import SweepFile
-from .result import Answer, labelled
-from .unit_labels import labels
+from .result import Answer, labelled, labels
 from .work import (
     DEFAULT,
     QUANTITIES,
@@ -45,6 +42,7 @@ from .work import (
     answers_of,
     reason,
 )
+from .workers import Chunks, Outcome, outcomes
 
 NOT_YET: Answer = ({}, "not computed yet")
 INTERRUPTED: Answer = ({}, "interrupted")
@@ -103,9 +101,9 @@ def sweep(
         Points in a chunk; if it is not given, chunks are sized by the measured time of a scene, to
         take a worker some tenths of a second.
     to : str or Path, optional
-        A new file that holds the result and grows while the work goes on; "x.nc" is written as
-        NetCDF, "x.zarr" as Zarr, by xarray. It is readable at any moment, also after this process
-        was killed; points that are not done are nan with the reason "not computed yet".
+        A new NetCDF file, "x.nc", that holds the result and grows while the work goes on, by
+        xarray. It is readable at any moment, also after this process was killed; points that are
+        not done are nan with the reason "not computed yet".
     progress : bool, optional
         Whether a bar is drawn, on a terminal or in a notebook, if tqdm is installed (the extra
         `cli`) and the work takes more than a second.

@@ -19,9 +19,9 @@ from sie.errors import ContactError
 from sie.problem.scene import Scene
 from sie.progress_bar import Progress
 from sie.solution import Solution, solve
-from sie.sweeps.workers import is_death
 
-from .result import Answer
+from .result import PARTS, Answer
+from .workers import is_death
 
 Point = dict[str, Any]
 Wanted = Callable[[Solution], Any]
@@ -29,33 +29,23 @@ Wanted = Callable[[Solution], Any]
 DEFAULT = ("half_width", "centre", "normal_load", "moment", "tilt")
 
 
-def _elastic_limit(solution: Solution) -> dict[str, float]:
+def _parts(name: str, values: Callable[[Solution], tuple[float, ...]]) -> Wanted:
+    """A quantity of several values, each with a name of its own."""
+    return lambda solution: dict(zip(PARTS[name], values(solution), strict=True))
+
+
+def _elastic_limit(solution: Solution) -> tuple[float, ...]:
     found = solution.elastic_limit()
-    return {
-        "elastic_limit": found.ratio,
-        "elastic_limit_load": found.load,
-        "elastic_limit_x": found.x,
-        "elastic_limit_y": found.y,
-    }
-
-
-def _peak_tension(solution: Solution) -> dict[str, float]:
-    found = solution.peak_tension()
-    return {"peak_tension": found.value, "peak_tension_x": found.x}
-
-
-def _edges(solution: Solution) -> dict[str, float]:
-    return dict(zip(("x1", "x2"), solution.edges, strict=True))
+    return found.ratio, found.load, found.x, found.y
 
 
 QUANTITIES: dict[str, Wanted] = {
-    **{name: attrgetter(name) for name in DEFAULT},
-    **{name: attrgetter(name) for name in ("contact_length", "gap_volume")},
+    **{name: attrgetter(name) for name in (*DEFAULT, "contact_length", "gap_volume")},
     "patches": lambda s: float(len(s.patches)),
-    "edges": _edges,
+    "edges": _parts("edges", lambda s: s.edges),
     "shear_load": lambda s: s.shear.resultant,
-    "elastic_limit": _elastic_limit,
-    "peak_tension": _peak_tension,
+    "elastic_limit": _parts("elastic_limit", _elastic_limit),
+    "peak_tension": _parts("peak_tension", lambda s: s.peak_tension()),
     "error": lambda s: s.check().error,
 }
 
@@ -120,9 +110,7 @@ def _solution(scene: Any, point: Point, tol: float, last: Solution | None) -> So
     if not isinstance(scene, Scene):
         return solve(scene(**point), tol=tol)
     changes = {name: value for name, value in point.items() if "." not in name}
-    of_profile = {
-        name.removeprefix("profile."): value for name, value in point.items() if "." in name
-    }
+    of_profile = {name.partition(".")[2]: point[name] for name in point.keys() - changes.keys()}
     if of_profile:
         changes["profile"] = replace(changes.get("profile", scene.profile), **of_profile)
     base = last if last is not None else solve(replace(scene), tol=tol)

@@ -7,18 +7,10 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-import mpmath
 import numpy as np
 import pytest
-from closed_form_cases import (
-    EPS,
-    HERTZ,
-    POTENTIALS,
-    UNIT,
-    WEDGE,
-    deep,
-    mp,
-)
+from closed_form_cases import EPS, HERTZ, POTENTIALS, UNIT, WEDGE, mp
+from closed_forms import call, every_call, of_every_call
 
 import analytic
 from analytic import flat, hertz, power, rounded_flat, two_parabolas, wedge
@@ -131,114 +123,13 @@ CALLS: list[tuple[Callable[..., Any], dict[str, Any]]] = [
 ]
 
 
-def over_calls(calls: list[tuple[Callable[..., Any], dict[str, Any]]]) -> Any:
-    return pytest.mark.parametrize(
-        ("function", "given"), calls, ids=[f"{f.__module__[9:]}.{f.__name__}" for f, _ in calls]
-    )
-
-
-every_call = over_calls(CALLS)
-LENGTHS = ("x", "z", "half_flat", "half_width", "rim", "radius")
-
-
-def positional(function: Callable[..., Any], given: dict[str, Any], **options: Any) -> Any:
-    """The call with its position first, as users write it."""
-    rest = {name: value for name, value in given.items() if name not in ("x", "z")}
-    return function(*(given[name] for name in ("x", "z") if name in given), **rest, **options)
-
-
-@every_call
-def test_numpy_and_mpmath_agree(function: Callable[..., Any], given: dict[str, Any]) -> None:
-    exact = complex(positional(function, given, lib=mp))
-    assert abs(complex(positional(function, given)) - exact) <= 1e-14 * abs(exact)
-
-
-@every_call
-def test_a_context_gives_all_its_digits_and_leaves_the_global_one_alone(
-    function: Callable[..., Any], given: dict[str, Any]
-) -> None:
-    before = mpmath.mp.dps
-    value, exact = positional(function, given, lib=mp), positional(function, given, lib=deep)
-    assert mpmath.mp.dps == before
-    assert abs(deep.convert(value) - exact) <= deep.mpf("1e-46") * abs(exact)
-
-
-@every_call
-def test_arrays_broadcast(function: Callable[..., Any], given: dict[str, Any]) -> None:
-    scalars = {name: value for name, value in given.items() if name != "exponent"}
-    grown = {
-        name: np.full((3, 1) if i % 2 else 4, value)
-        for i, (name, value) in enumerate(scalars.items())
-    }
-    grid = positional(function, {**given, **grown})
-    expected = np.shape(np.broadcast_arrays(*grown.values())[0])
-    assert np.shape(grid) == expected
-    np.testing.assert_allclose(grid, positional(function, given), rtol=8 * EPS, atol=0)
-    assert np.ndim(positional(function, given)) == 0
-
-
-@pytest.mark.parametrize("length", [1e-100, 1e100])
-@pytest.mark.parametrize("stress", [1e-100, 1e100])
-# Beyond these exponents C itself is out of a double's range.
-@over_calls([call for call in CALLS if call[1].get("exponent", 1) <= 3])
-def test_results_scale_with_lengths_and_moduli(
-    function: Callable[..., Any], given: dict[str, Any], length: float, stress: float
-) -> None:
-    m = given.get("exponent", 1.0)
-    unit = dict.fromkeys(LENGTHS, length) | {"modulus": stress, "normal_load": stress * length}
-    unit |= {"moment": stress * length * length, "coefficient": length ** (1 - m)}
-    value = positional(
-        function, {name: number * unit.get(name, 1.0) for name, number in given.items()}
-    )
-    kind = function.__name__.removeprefix("partial_")
-    by = {
-        "pressure": stress,
-        "peak_pressure": stress,
-        "potential": stress,
-        "potential_derivative": stress / length,
-    }
-    by |= {"load": stress * length, "moment": stress * length * length, "slope": 1.0, "tilt": 1.0}
-    expected = positional(function, given) * by.get(kind, length)
-    assert abs(value - expected) <= 200 * EPS * abs(expected) + sensitivity(given, expected)
-
-
-def sensitivity(given: dict[str, Any], expected: Any) -> float:
-    """What the rounding of scaled positions costs next to a thin rim, where x - a and b - x are
-    known to eps a only.
-    """
-    return (
-        float(20 * EPS * given["half_flat"] / given["rim"] * abs(expected))
-        if "rim" in given
-        else 0.0
-    )
-
-
-BAD_VALUES = [math.nan, math.inf, -math.inf, 0.0, -1.0, "one", None, 1j]
-
-
-@every_call
-@pytest.mark.parametrize("lib", [np, mp], ids=["numpy", "mpmath"])
-def test_bad_numbers_are_refused_by_name_and_with_a_remedy(
-    function: Callable[..., Any], given: dict[str, Any], lib: Any
-) -> None:
-    for name in given:
-        for bad in BAD_VALUES:
-            if not is_good(name, bad):
-                with pytest.raises(ValueError, match=rf"{name} = .*; "):
-                    positional(function, {**given, name: bad}, lib=lib)
-
-
-def is_good(name: str, value: Any) -> bool:
-    """Whether a value that is bad as a modulus has a meaning under this name."""
-    if name in ("x", "z", "moment", "tilt", "half_flat", "rim") and value in (0, -1):
-        return True  # or, below zero, is refused by a test of its own
-    return (name == "z" and value == 1j) or (name in ("half_width", "rim") and value is None)
+TestEveryCall = of_every_call(CALLS, precise=True)
 
 
 EXTREMES = [1e-300, 1e-200, 1e-151, 1e151, 1e200, 1e300]
 
 
-@every_call
+@every_call(CALLS)
 def test_a_parameter_of_any_size_is_answered_in_numbers_or_refused_with_a_remedy(
     function: Callable[..., Any], given: dict[str, Any]
 ) -> None:
@@ -250,7 +141,7 @@ def test_a_parameter_of_any_size_is_answered_in_numbers_or_refused_with_a_remedy
 
 def value_or_refusal(function: Callable[..., Any], given: dict[str, Any]) -> Any:
     try:
-        return positional(function, given)
+        return call(function, given)
     except ValueError as refusal:
         return str(refusal)
 

@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 
 import sie
-from sie.sweeps import chunks as sweep_chunks
 from sie.sweeps import work as sweep_work
+from sie.sweeps import workers
 
 SCENE = sie.Scene(
     profile=sie.Parabola(1.0), modulus=1.0, normal_load=1.0, friction=0.5, tangential_load=0.1
@@ -159,7 +159,7 @@ def test_an_mpi_executor_gives_bitwise_the_serial_answers(tmp_path):
 
 def sizes(points, seconds):
     """The sizes of the chunks of points that take so long each."""
-    chunks, found = sweep_chunks.Chunks(points, None), []
+    chunks, found = workers.Chunks(points, None), []
     for chunk in iter(chunks.take, None):
         done = min(len(chunk), max(1, int(chunks.limit / seconds)))
         chunks.measured(chunk, done, done * seconds)
@@ -184,6 +184,6 @@ def test_a_worker_gives_back_what_it_has_not_begun_in_time(monkeypatch):
 
 @pytest.mark.slow
 def test_what_a_worker_gives_back_is_taken_again():
-    chunks = sweep_chunks.Chunks(10, 5)
+    chunks = workers.Chunks(10, 5)
     chunks.measured(chunks.take(), 2, 0.1)
     assert [list(chunk) for chunk in iter(chunks.take, None)] == [[2, 3, 4], [5, 6, 7, 8, 9]]

@@ -12,6 +12,7 @@ from pathlib import Path
 import pytest
 from command import run
 
+from sie import files
 from sie.cli import main
 
 posix = pytest.mark.skipif(os.name == "nt", reason="devices, pipes and signals are otherwise")
@@ -218,12 +219,19 @@ files.write_files({Path("out.csv"): b"new" * 10**6, Path("out.json"): b"new"})
 @pytest.mark.slow
 @posix
 @pytest.mark.parametrize("place", ["files, '_write_part'", "os, 'fsync'", "os, 'replace'"])
-def test_a_run_that_is_killed_leaves_the_files_as_they_were(place, folder):
+def test_a_killed_run_leaves_every_file_as_it_was(place, folder):
     for name in ("out.csv", "out.json"):
         Path(name).write_bytes(b"old")
     found = subprocess.run([sys.executable, "-c", KILLED, place], check=False, capture_output=True)
     assert found.returncode == -signal.SIGKILL, found.stderr
     assert Path("out.csv").read_bytes() == Path("out.json").read_bytes() == b"old"
+
+
+def test_two_runs_may_write_into_one_folder_at_a_time(folder):
+    with files.writing({folder / "out.csv": b"first"}):
+        files.write_files({folder / "other.csv": b"second"})
+    assert (folder / "out.csv").read_bytes() == b"first"
+    assert not list(folder.glob(".sie-*"))
 
 
 @posix

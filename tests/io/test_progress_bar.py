@@ -84,7 +84,7 @@ def test_the_line_changes_ten_times_a_second_at_most(clock, bars):
     assert len(bars[0].shown) == pytest.approx(30, abs=1)
 
 
-def test_steps_inside_are_named_behind_the_work_that_has_a_total(clock, bars):
+def test_steps_inside_are_named_behind_the_outermost_work(clock, bars):
     with Progress("sie solve"):
         for _ in counted("load path", range(2), 2):
             with Progress("patches, step"):
@@ -92,7 +92,7 @@ def test_steps_inside_are_named_behind_the_work_that_has_a_total(clock, bars):
                 clock.now += 0.6
                 step_done()
     (bar,) = bars
-    assert (bar.total, bar.shown) == (2, [("load path", 1, "patches, step 2")])
+    assert bar.shown == [("sie solve", 0, "load path 1/2, patches, step 2")]
 
 
 def test_work_without_a_total_shows_its_count(clock, bars):

@@ -14,8 +14,6 @@ from sweep_cases import LOADS, SCENE, TILTS, plain, single
 import sie
 from sie import progress_bar
 
-module = sys.modules["sie.sweeps.sweep"]
-
 
 def peak(solution):
     return float(solution.pressure(solution.centre))

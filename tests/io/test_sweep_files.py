@@ -12,20 +12,16 @@ SCENE = sie.Scene(profile=sie.Parabola(1.0), modulus=1.0, normal_load=1.0)
 LOADS = {"normal_load": [1.0, 2.0, 3.0, 4.0]}
 
 
-@pytest.fixture(params=["sweep.nc", "sweep.zarr"])
-def path(request, tmp_path, monkeypatch):
+@pytest.fixture
+def path(tmp_path, monkeypatch):
     """A new file; a sweep writes it after every point."""
-    if request.param.endswith("zarr"):
-        pytest.importorskip("zarr", minversion="3")
     monkeypatch.setattr(sweep_file, "PERIOD", 0.0)
     monkeypatch.setattr(sweep_file, "SHARE", 0.0)
-    return tmp_path / request.param
+    return tmp_path / "sweep.nc"
 
 
 def opened(path):
-    """What a file holds; xarray chooses how it reads it."""
-    engine = {"engine": "zarr"} if path.suffix == ".zarr" else {}
-    with xarray.open_dataset(path, **engine) as data:
+    with xarray.open_dataset(path) as data:
         return data.load()
 
 
@@ -74,15 +70,6 @@ def test_a_sweep_that_ends_in_the_middle_of_a_write_leaves_a_readable_file(path,
     def end_in_a_write():
         monkeypatch.setattr(xarray.Dataset, "to_netcdf", end)
         monkeypatch.setattr(sweep_file.files, "write_files", end)
-        original = xarray.Dataset.to_zarr
-        # The first of two writes into the store is done, the second is not.
-        monkeypatch.setattr(
-            xarray.Dataset,
-            "to_zarr",
-            lambda data, *args, **kwargs: (
-                end() if "reason" in data else original(data, *args, **kwargs)
-            ),
-        )
 
     with pytest.raises(Killed):
         sie.sweep(SCENE, LOADS, half_width_and(end_in_a_write), to=path)
@@ -103,7 +90,6 @@ def test_answers_are_not_lost_where_the_file_cannot_be_written(path, monkeypatch
         raise OSError("No space left on device")
 
     monkeypatch.setattr(xarray.Dataset, "to_netcdf", full)
-    monkeypatch.setattr(xarray.Dataset, "to_zarr", full)
     with pytest.raises(OSError, match=r"No space left .*`result`") as caught:
         sie.sweep(SCENE, LOADS, "half_width", to=path)
     assert np.isfinite(caught.value.result["half_width"]).all()
@@ -111,8 +97,8 @@ def test_answers_are_not_lost_where_the_file_cannot_be_written(path, monkeypatch
 
 def test_a_file_is_written_no_oftener_than_its_period_allows(path, monkeypatch):
     monkeypatch.setattr(sweep_file, "PERIOD", 1e9)
-    written, original = [], sweep_file._writer
-    monkeypatch.setattr(sweep_file, "_writer", lambda to: original(to) and written.append)
+    written = []
+    monkeypatch.setattr(sweep_file, "write", lambda data, to: written.append(to))
     sie.sweep(SCENE, LOADS, "half_width", to=path)
     assert len(written) == 1
 
@@ -120,25 +106,20 @@ def test_a_file_is_written_no_oftener_than_its_period_allows(path, monkeypatch):
 @pytest.mark.parametrize(
     ("name", "said"),
     [
-        ("sweep.csv", "end in .nc or .zarr"),
+        ("sweep.zarr", "end in .nc"),
         ("missing/sweep.nc", "no directory"),
         ("there.nc", "exists: remove it"),
-        ("there.zarr", "exists: remove it"),
     ],
 )
 def test_a_file_that_cannot_be_written_is_refused_before_any_work(name, said, tmp_path):
-    if name.endswith("zarr"):
-        pytest.importorskip("zarr")
     asked = []
     (tmp_path / "there.nc").touch()
-    (tmp_path / "there.zarr").mkdir()
     with pytest.raises(ValueError, match=said):
         sie.sweep(SCENE, LOADS, {"b": asked.append}, to=tmp_path / name)
     assert not asked
 
 
-@pytest.mark.parametrize(("absent", "name"), [("xarray", "sweep.nc"), ("zarr", "sweep.zarr")])
-def test_a_package_that_is_needed_is_named(absent, name, tmp_path, monkeypatch):
-    monkeypatch.setattr(sweep_file, "find_spec", lambda package: package != absent or None)
-    with pytest.raises(ValueError, match=f"pip install {absent}"):
-        sie.sweep(SCENE, LOADS, "half_width", to=tmp_path / name)
+def test_the_package_that_is_needed_is_named(tmp_path, monkeypatch):
+    monkeypatch.setattr(sweep_file, "find_spec", lambda package: None)
+    with pytest.raises(ValueError, match="pip install xarray"):
+        sie.sweep(SCENE, LOADS, "half_width", to=tmp_path / "sweep.nc")

@@ -189,8 +189,8 @@ def test_a_pool_that_broke_before_the_sweep_costs_nothing():
 
 @pools_of_processes
 def test_processes_that_cannot_start_are_not_tried_for_each_chunk(monkeypatch):
-    started, original = [], workers._pool_of_one
-    monkeypatch.setattr(workers, "_pool_of_one", lambda pool: started.append(1) or original(pool))
+    started, original = [], workers._anew
+    monkeypatch.setattr(workers, "_anew", lambda *given: started.append(1) or original(*given))
     with ProcessPoolExecutor(2, initializer=os._exit, initargs=(1,)) as pool:
         found = plain(
             sie.sweep(SCENE, over={"normal_load": LOADS}, want="half_width", executor=pool, chunk=1)

@@ -94,14 +94,7 @@ def test_powers_of_two_change_hardly_a_bit(name):
 @given(strategies.scenes())
 def test_the_mirrored_scene_has_the_mirrored_answer(scene):
     one = sie.solve(scene)
-    other = sie.solve(
-        sie.Scene(
-            profile=scene.profile.mirrored(),
-            modulus=scene.Estar,
-            normal_load=scene.normal_load,
-            tilt=-scene.tilt,
-        )
-    )
+    other = one.with_(profile=scene.profile.mirrored(), tilt=-scene.tilt)
     r = one.half_width
     assert other.half_width == pytest.approx(r, rel=PROMISE)
     assert other.centre == pytest.approx(-one.centre, abs=PROMISE * (r + abs(one.centre)))
@@ -121,14 +114,7 @@ def test_the_mirrored_scene_has_the_mirrored_answer(scene):
 @given(strategies.scenes(), st.integers(-16, 16))
 def test_a_shift_of_the_profile_shifts_the_answer(scene, n):
     one, dx = sie.solve(scene), n / 8
-    other = sie.solve(
-        sie.Scene(
-            profile=scene.profile.shifted(dx),
-            modulus=scene.Estar,
-            normal_load=scene.normal_load,
-            tilt=scene.tilt,
-        )
-    )
+    other = one.with_(profile=scene.profile.shifted(dx))
     r, P = one.half_width, scene.normal_load
     far = (abs(one.centre) + abs(dx)) / r
     assert other.half_width == pytest.approx(r, rel=PROMISE)
@@ -171,15 +157,7 @@ def test_load_and_half_width_are_inverse_to_each_other(scene):
 def test_a_tilt_of_the_scene_is_a_tilt_of_the_profile(scene, share):
     tilt = share * scene.tilt
     one = sie.solve(scene)
-    tilted = scene.profile.tilted(tilt)
-    other = sie.solve(
-        sie.Scene(
-            profile=tilted,
-            modulus=scene.Estar,
-            normal_load=scene.normal_load,
-            tilt=scene.tilt - tilt,
-        )
-    )
+    other = one.with_(profile=scene.profile.tilted(tilt), tilt=scene.tilt - tilt)
     assert other.half_width == pytest.approx(one.half_width, rel=PROMISE)
     assert other.moment == pytest.approx(
         one.moment, abs=PROMISE * scene.normal_load * (one.half_width + abs(one.centre))
