@@ -54,6 +54,7 @@ LAYERS = (
 HANDED_UP = {
     ("sie.paths.history", "sie.io.html_report"),
     ("sie.paths.history", "sie.plots.one_axes"),
+    ("sie.io.html_report", "sie.plots.contact_plot"),
     ("sie.io.html_report", "sie.plots.loop_plot"),
     ("sie.problem.load_path", "sie.io.html_report"),
     ("sie.problem.scene", "sie.io.scene_writing"),

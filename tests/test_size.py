@@ -22,7 +22,7 @@ LINES = {
     "io": 4680,
     "live": 740,
     "numerics": 1810,
-    "patches": 6070,
+    "patches": 6080,
     "paths": 1000,
     "plots": 1010,
     "problem": 1000,

@@ -257,12 +257,7 @@ class PatchPressure(Density):
         P, pieces = o.patches, o.pieces
         real = np.clip(np.real(z.x), P.a[k], P.b[k])
         piece = np.where(real == P.b[k], pieces.locate(real, "left"), pieces.locate(real))
-        away = np.abs(z.x - real)
-        edge = pieces.breaks[piece], pieces.breaks[piece + 1]
-        own = np.minimum(real - edge[0], edge[1] - real)
-        follows = away <= pieces.reach[piece] + np.where(
-            np.abs(np.imag(z.offset)) > 0.0, 0.0, np.maximum(own, 0.0)
-        )
+        follows = o.follows(piece, z)
         reference = np.where(
             follows, pieces.value(piece, z.anchor, z.offset), pieces.value(piece, real, 0.0)
         )

@@ -24,6 +24,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from sie.numerics import chebyshev
 from sie.profiles.pieces import Pieces
 
 from .chord import Points
@@ -36,6 +37,7 @@ Index = NDArray[np.int64]
 
 # half-lengths of a panel, in its angle, from its middle: Gauss' rule resolves poles beyond
 NEAR = 2.5
+LIFTED = 1e3
 
 
 @dataclass(frozen=True, eq=False)
@@ -197,6 +199,28 @@ class Measure:
         lo = np.where(reach > middle, -size * beside, size * inner)
         return lo, size * np.sin(0.5 * np.minimum(middle + reach, np.pi)) ** 2
 
+    def follows(self, k: Index, x: Points) -> NDArray[np.bool_]:
+        """Whether the pieces k may be continued to places x.
+
+        Off the line so far that the terms of a series grow LIFTED times: a pole that is left in a
+        sum over a long panel costs more.
+        """
+        pieces, real, imag = self.pieces, np.real(x.x), np.abs(np.imag(x.offset))
+        lo, hi = pieces.breaks[k], pieces.breaks[k + 1]
+        beyond = np.maximum(np.maximum(lo - real, real - hi), imag)
+        near = beyond <= pieces.reach[k]
+        if not np.iscomplexobj(x.offset) or not pieces.series.shape[1]:
+            return np.asarray(near)
+        s = 2.0 * ((x.anchor - 0.5 * (lo + hi)) + x.offset) / (hi - lo)
+        rho = np.abs(s + np.sqrt(s - 1.0) * np.sqrt(s + 1.0))
+        return np.asarray(near | (rho <= self._lifted[k]))
+
+    @cached_property
+    def _lifted(self) -> Array:
+        """The Bernstein radius of `follows` of each piece; 0 of those that are no series."""
+        series = self.pieces.series[:, 1:].any(axis=1) & ~self.pieces.void
+        return np.where(series, chebyshev.reach(self.pieces.series, LIFTED), 0.0)
+
     def groups(self, i: Index, x: Points, group: Index) -> Groups:
         """The groups of blocks that follow each other, and the intervals that they are in."""
         P = self.patches
@@ -298,12 +322,9 @@ def integrals(o: Measure, panel: Index, nu: Array, t: Targets) -> Any:
     step = np.where(step == 0.0, np.inf, step)
     sums[other] = (nu[other] * ((o.H[q] - ref[:, None]) / step)).sum(axis=1)
     residue = o.pieces.value(own[other], x.anchor, x.offset) - o.H0 - ref
-    lo, hi = o.pieces.breaks[own[other]], o.pieces.breaks[own[other] + 1]
-    real = np.real(x.x)
-    beyond = np.maximum(np.maximum(lo - real, real - hi), np.abs(np.imag(x.offset)))
-    counts = (beyond <= o.pieces.reach[own[other]]) & (residue != 0.0)
+    counts = o.follows(own[other], x) & (residue != 0.0)
     # not beside a repetition of the panel: of one patch per period both sides of a gap are it
-    here = np.abs(real - points.x[:, 0]) <= 0.5 * o.patches.chord.period
+    here = np.abs(np.real(x.x) - points.x[:, 0]) <= 0.5 * o.patches.chord.period
     counts &= here & (k.patch[q] == t.owner[other])
     if counts.any():
         q, x, residue, at = q[counts], x[counts], residue[counts], other[counts]

@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 
 from sie.errors import ContactError
 from sie.io.scene_file import Units
-from sie.paths.history import History, follow
 from sie.problem.load_path import Path
 
 from . import style
@@ -28,7 +27,7 @@ class Loop(NamedTuple):
     corners: Array
 
 
-def loop_along(history: History) -> Loop | None:
+def loop_along(history: Any) -> Loop | None:
     """The loop of a path of several points with Q, None where the shift is not known."""
     path = history.path
     if len(path) < 2 or path.points[0][0] == 0.0 or not any(Q for _, Q, _ in path.points):
@@ -40,7 +39,7 @@ def loop_along(history: History) -> Loop | None:
     parts = max(min(PARTS, MOST // len(path)), 1)
     along = from_start.subdivided(parts)
     try:
-        states = follow(history.scene, along, tol=history.tol, economy=history.economy)
+        states = type(history)(history.scene, along, history.tol, history.economy)
         shifts = [state.shift for state in states]
     except ContactError:
         return None

@@ -208,6 +208,25 @@ def test_the_boundary_value_of_the_potential_is_slope_and_pressure(name):
     assert F.real == pytest.approx(0.5 * solution.scene.profile.slope(x), abs=1e-7)
 
 
+@pytest.mark.parametrize("name", ["row", "wave"])
+@pytest.mark.parametrize("depth", [0.02, 0.05, 0.2])
+def test_the_potential_below_the_surface_is_the_integral_of_the_pressure(name, depth):
+    """Closer to the surface than a panel is long, and farther from it than a series ends."""
+    solution = solved(**SCENES[name])
+    period = solution.scene.profile.period
+    x = np.linspace(*solution.edges, 17) + 1j * depth
+    angle = np.linspace(0.0, np.pi, 4001)
+    angle = 0.5 * (angle[1:] + angle[:-1])  # the midpoint rule of an even periodic function
+    total = 0.0
+    for a, b in solution.patches:
+        t = 0.5 * (a + b) - 0.5 * (b - a) * np.cos(angle)
+        weight = solution.pressure(t) * np.sin(angle) * 0.5 * (b - a) / 4000
+        d = x[:, None] - t
+        kernel = 1.0 / d if np.isinf(period) else np.pi / period / np.tan(np.pi * d / period)
+        total = total + kernel @ weight
+    assert solution.pressure.cauchy(x) == pytest.approx(total, rel=1e-12)
+
+
 @pytest.mark.parametrize("name", ["row", "wave", "trace"])
 def test_the_gap_opens_as_the_potential_says(name):
     solution = solved(**SCENES[name])

@@ -210,6 +210,7 @@ def test_a_scene_without_end_on_standard_input_is_refused():
 KILLED = """
 import os, signal, sys
 from pathlib import Path
+from sie import files
 die = lambda *given, **named: os.kill(os.getpid(), signal.SIGKILL)
 setattr(*eval(sys.argv[1]), die)
 files.write_files({Path("out.csv"): b"new" * 10**6, Path("out.json"): b"new"})
