@@ -231,11 +231,10 @@ def test_slip_at_incipient_sliding_is_the_limit_of_slip(scene):
 
 def test_the_table_of_a_path_lists_the_stick_zones_of_every_patch():
     scene = SCENES["row"]
-    path = ((0.4, 0.0, 0.0), (0.4, 0.12, 0.0))
-    last = sie.follow(scene, sie.Path(path))[-1]
-    table = summary(last, SceneFile(last.scene, path=path, want=("shear",))).split("energy lost")[
-        -1
-    ]
+    path = sie.Path(((0.4, 0.0, 0.0), (0.4, 0.12, 0.0)))
+    last = sie.follow(scene, path)[-1]
+    report = summary(last, SceneFile(last.scene, load_path=path, want=("shear",)))
+    table = report.split("energy lost")[-1]
     for lo, hi in last.stick:
         assert f"{lo:.6g}" in table and f"{hi:.6g}" in table
 
