@@ -24,7 +24,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from .chord import Points
+from sie.numerics.chord import Points
+
 from .panels import Patches, PatchPanels, patch_panels
 from .pieces import Pieces
 from .sums import Groups, far_sums, multiply, parts

@@ -8,10 +8,10 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from sie.numerics.chord import Chord
 from sie.problem.scene import Scene
 from sie.profiles.slope import Slope
 
-from .chord import Chord
 from .pieces import Pieces
 from .profile_pieces import of_profile
 from .state import Effort, Given

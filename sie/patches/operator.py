@@ -22,7 +22,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .chord import Points
+from sie.numerics.chord import Points
+
 from .measure import Measure, Targets, close, integrals
 from .panels import GapPanels, gap_panels
 from .pieces import Pieces

@@ -16,9 +16,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie.numerics import chebyshev
+from sie.numerics.chord import Chord, Points
 from sie.numerics.zones import Zones
 
-from .chord import Chord, Points
 from .pieces import Pieces
 
 Array = NDArray[np.float64]

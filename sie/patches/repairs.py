@@ -6,8 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie.errors import LoadError
+from sie.numerics.chord import Chord
 
-from .chord import Chord
 from .panels import Patches
 from .pieces import Pieces
 from .state import Event, Findings, Overlap, State

@@ -7,7 +7,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from .chord import Chord
+from sie.numerics.chord import Chord
+
 from .of_scene import Problem
 from .pieces import Pieces
 from .repairs import apart, bounded, one_period
