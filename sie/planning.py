@@ -35,7 +35,7 @@ FULL_STICK: dict[str, tuple[str, ...]] = {
 # ... and for dissimilar bodies in partial slip.
 COUPLED = {name: ("coupled", *stages) for name, stages in FULL_STICK.items()}
 # And for these under P, then Q.
-SHEARED = {name: ("pressed", "tangential_search", *stages) for name, stages in COUPLED.items()}
+SHEARED = {name: ("pressed", "locked_in", *stages) for name, stages in COUPLED.items()}
 
 
 @dataclass(frozen=True)
@@ -146,7 +146,7 @@ def plan(
 
 
 def _of_coupled(scene: Scene, names: tuple[str, ...]) -> Plan:
-    if scene.tangential_load:
+    if scene.tangential_load or scene.tau:
         return _of_sheared(scene, names)
     stages = {stage for name in names for stage in COUPLED[name]}
     how = f"β = {scene.beta:.4g}: p and q are one problem; the stick zone is that of a flat punch"
@@ -166,12 +166,12 @@ def _of_coupled(scene: Scene, names: tuple[str, ...]) -> Plan:
 
 
 def _of_sheared(scene: Scene, names: tuple[str, ...]) -> Plan:
-    """The steps of dissimilar bodies under P, then Q."""
+    """The steps of dissimilar bodies under P, then Q and bulk stress."""
     stages = {stage for name in names for stage in SHEARED[name]}
     how = f"β = {scene.beta:.4g}: p and q are one problem; first under P alone"
     steps = (
         Step("coupling", True, how, "pressed"),
-        Step("slip gradient", True, "that of P alone, kept in stick", "tangential_search"),
+        Step("slip gradient", True, "that of P alone, kept in stick", "locked_in"),
         Step("zones", True, "four edges, of contact and stick zone, by Newton", "coupled"),
         Step("edges", True, "found with the zones", "normal"),
         _if_asked("energy", "energy" in names, "the power of friction, summed over states"),
