@@ -20,7 +20,7 @@ LINES = {
     "examples": 10,
     "friction": 16100,
     "io": 4680,
-    "live": 740,
+    "live": 750,
     "numerics": 1810,
     "patches": 6080,
     "paths": 1000,

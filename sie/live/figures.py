@@ -5,10 +5,6 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from bokeh.embed import json_item
-from bokeh.models import ColumnDataSource, LinearColorMapper
-from bokeh.palettes import viridis
-from bokeh.plotting import figure
 
 from .controls import ACROSS, BANDS, DOWN
 
@@ -17,11 +13,21 @@ TOOLS = "pan,wheel_zoom,box_zoom,reset,save"
 
 def items() -> dict[str, Any]:
     """Each picture as what Bokeh's script embeds, by the name of its place on the page."""
-    pictures = {"pressure": _pressure, "shear": _shear, "stress": _stress, "errors": _errors}
-    return {name: json_item(drawn()) for name, drawn in pictures.items()}
+    # Imported here: it takes a second, and only this page needs it.
+    from bokeh.embed import json_item  # noqa: PLC0415
+
+    pictures = {
+        "pressure": _pressure(),
+        "shear": _shear(),
+        "stress": _stress(),
+        "errors": _errors(),
+    }
+    return {name: json_item(figure) for name, figure in pictures.items()}
 
 
 def _figure(title: str, x: str, y: str, **given: Any) -> Any:
+    from bokeh.plotting import figure  # noqa: PLC0415
+
     drawn = figure(
         title=title,
         x_axis_label=x,
@@ -38,6 +44,8 @@ def _figure(title: str, x: str, y: str, **given: Any) -> Any:
 
 
 def _source(name: str, **columns: list[Any]) -> Any:
+    from bokeh.models import ColumnDataSource  # noqa: PLC0415
+
     return ColumnDataSource(columns, name=name)
 
 
@@ -63,6 +71,9 @@ def _shear() -> Any:
 
 
 def _stress() -> Any:
+    from bokeh.models import LinearColorMapper  # noqa: PLC0415
+    from bokeh.palettes import viridis  # noqa: PLC0415
+
     drawn = _figure("Mises stress; ×: first yield", "x", "depth y", match_aspect=True)
     drawn.y_range.flipped = True
     blank = _source(
