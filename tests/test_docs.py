@@ -19,7 +19,8 @@ ROOT = Path(__file__).parent.parent
 DOCUMENTS = sorted(
     [*(ROOT / "docs").rglob("*.md"), *(ROOT / name for name in ("README.md", "CONTRIBUTING.md"))]
 )
-GALLERY = sorted((ROOT / "docs" / "gallery").glob("plot_*.py"))
+GALLERY_OF = ROOT / "docs" / "gallery"
+GALLERY = sorted(GALLERY_OF.glob("*/plot_*.py"))
 each = pytest.mark.parametrize("document", DOCUMENTS, ids=lambda path: path.name)
 PACKAGES = "sie|analytic|validation|oracles"
 
@@ -132,7 +133,7 @@ def energies(text):
 
 
 def test_the_fretting_loop_encloses_the_energy_in_its_title():
-    _, (_, loop) = drawn(ROOT / "docs" / "gallery" / "plot_fretting_loop.py")
+    _, (_, loop) = drawn(GALLERY_OF / "2_friction" / "plot_fretting_loop.py")
     assert (loop.get_xlabel()[-2:], loop.get_ylabel()[-4:]) == ("µm", "N/mm")
     shift, force = loop.lines[0].get_data()
     area = abs(np.trapezoid(force[9:], shift[9:]))
@@ -140,7 +141,7 @@ def test_the_fretting_loop_encloses_the_energy_in_its_title():
 
 
 def test_a_rounded_punch_is_stronger_than_hertz_up_to_the_ratio_that_the_gallery_gives():
-    text = (ROOT / "docs" / "gallery" / "plot_05_elastic_limit.py").read_text(encoding="utf-8")
+    text = (GALLERY_OF / "1_punches" / "plot_05_elastic_limit.py").read_text(encoding="utf-8")
     ratio = float(re.findall(r"Up to a/b = ([\d.]+)", text)[0])
     loads = charts.elastic_limits((0.0, ratio - 0.005, ratio + 0.005), (0.0,)).limit[:, 0]
     assert loads[1] > loads[0] > loads[2]
