@@ -236,14 +236,11 @@ def test_one_topic_by_the_command_line(tmp_path, capsys):
 KEPT = json.loads(readme.KEPT.read_text(encoding="utf-8"))
 
 
-def test_the_table_of_the_readme_is_the_one_that_was_measured():
-    text = readme.README.read_text(encoding="utf-8")
-    assert readme.with_table(text, readme.markdown(KEPT["rows"])) == text
-
-
-def test_a_table_that_was_changed_by_hand_is_detected():
-    text = readme.README.read_text(encoding="utf-8")
-    table = readme.markdown(KEPT["rows"])
+@pytest.mark.parametrize("document", [readme.README, readme.PAGE], ids=lambda path: path.name)
+def test_a_table_is_the_one_that_was_measured_and_a_change_by_hand_is_detected(document):
+    text = document.read_text(encoding="utf-8")
+    table = readme.tables(KEPT["rows"])[document]
+    assert readme.with_table(text, table) == text
     assert readme.with_table(text, table.replace("e-16", "e-17", 1)) != text
 
 
