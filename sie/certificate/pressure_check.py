@@ -95,6 +95,7 @@ def _measured(density: SlopeDensity, slope: Slope, tol: float) -> Certificate:
         overlap=intervals_below(outside, gaps),
         resolution=resolution,
         edges=_load_on_edges(density, resolved, rule) / (math.pi * r * (bounded_peak or peak)),
+        root=0.5 + abs(density.epsilon),
         notes=unresolved(abscissae)
         + notes(np.concatenate((H, H_at_edges)), bounded_peak / (2.0 * density.half_modulus)),
     )

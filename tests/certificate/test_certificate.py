@@ -10,7 +10,7 @@ import sie
 from oracles import normal_contact
 from oracles.normal_contact import mp
 from sie.certificate import pressure_check, quadrature, result
-from sie.certificate.result import PROMISE
+from sie.certificate.result import BESIDES, PROMISE
 from sie.contact import gap, inequalities, normal
 from sie.numerics.interval import interval_about
 from sie.profiles import unresolved
@@ -158,7 +158,9 @@ def test_a_trace_pressed_on_a_steep_flank_costs_no_digits_either(steepness, give
 def test_the_same_promise_is_printed_and_documented():
     found = solved(sie.Parabola(1.0)).check()
     assert PROMISE in " ".join(str(found).split())
-    assert PROMISE in " ".join(result.Certificate.__doc__.split())
+    assert f"{PROMISE} {BESIDES}" in " ".join(result.Certificate.__doc__.split())
+    for nearer in (1.0, 1e2, 1e4):
+        assert f"{3.0 * (found.error + found.edges * nearer**0.5):.1e}" in str(found)
 
 
 def test_a_contact_that_is_off_as_a_whole_shows_in_the_error_that_its_residual_implies():
