@@ -31,5 +31,5 @@ for radius in (5.0, 10.0, 20.0, 50.0, 100.0):
     ax.plot(ratios * width, modulus * width**2 / radius * load, label=f"{radius:g} mm")
 ax.set(xlabel="half of the flat part, mm", ylabel="load at first yield, N/mm")
 ax.set(xlim=(0.0, 3.0), ylim=(0.0, 2500.0))
-ax.legend(title="radius of the edges")
+fig.legend(title="radius of the edges", loc="outside right upper")
 plt.show()

@@ -28,6 +28,7 @@ for k in (9, 18, 27, 36):
 left.set(xlabel="x, mm", ylabel="shear traction, MPa")
 left.legend(fontsize=8)
 right.plot([1e3 * point.shift for point in path], turns)
+right.locator_params(axis="x", nbins=4)
 right.set(xlabel="shift of the punch by slip, µm", ylabel="Q, N/mm")
 lost = path[-1].energy_lost - path[9].energy_lost
 right.set_title(f"{1e3 * lost:.2f} µJ per mm and cycle", fontsize=9)

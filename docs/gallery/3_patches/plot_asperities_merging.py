@@ -12,7 +12,7 @@ import numpy as np
 import sie
 
 ridge = sie.FromFunction(lambda x: x / 4.0 + 0.25 * np.sin(5.0 * x), breaks=(), domain=(-4.0, 4.0))
-x = np.linspace(-2.2, 2.2, 2201)
+x = np.linspace(-3.2, 3.2, 3201)
 fig, axes = plt.subplots(2, 1, sharex=True, layout="constrained")
 loads = np.geomspace(0.02, 2.0, 24)
 answers = [

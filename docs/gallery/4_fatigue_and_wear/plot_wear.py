@@ -4,7 +4,8 @@ Wear, by solving again and again
 
 The package has no law of wear; a user brings one. Archard's: the height that is lost in a cycle is
 proportional to pressure times sliding distance. A cylinder that slides to and fro wears flat, and
-the pressure with it becomes even.
+the pressure with it becomes even. Where the wear has just arrived the surface has a convex corner:
+there the pressure peaks, and wears it away.
 """
 
 import matplotlib.pyplot as plt
