@@ -148,6 +148,16 @@ def _mark_numbers(app, doctree):
             entry["classes"].append("number")
 
 
+def _describe_pictures(app, doctree):
+    """A picture that a cell draws is described by the first sentence before it."""
+    said = ""
+    for node in doctree.findall(lambda node: isinstance(node, nodes.paragraph | nodes.image)):
+        if isinstance(node, nodes.paragraph):
+            said = node.astext()
+        elif not node.get("alt"):
+            node["alt"] = re.split(r"(?<=[.:?]) ", " ".join(said.split()))[0]
+
+
 def _save_live_page(app, failure):
     """The page of `sie live` with its answers inside, beside the site's own pages."""
     if failure is None and app.builder.name == "html":
@@ -170,6 +180,7 @@ def setup(app):
     draw_sketches.draw_all(SKETCHES)
     app.add_directive("sketch", Sketch)
     app.connect("doctree-read", _mark_numbers)
+    app.connect("doctree-read", _describe_pictures)
     app.connect("build-finished", _save_live_page)
     app.connect("build-finished", _validate)
     app.connect("autodoc-process-docstring", _as_restructured_text, priority=100)
