@@ -123,7 +123,7 @@ def _intervals(zones: Any, digits: int) -> str:
 
 
 def _zones(solution: Solution) -> list[dict[str, Any]]:
-    """Lines on the surface, and the kind of each: "stick", "slip" or, without friction, "smooth"."""
+    """Lines on the surface, each of a kind: stick, slip or, without friction, smooth."""
     stick = list(solution.stick)
     rest = "slip" if solution.scene.friction else "smooth"
     zones = [(lo, hi, "stick") for lo, hi in stick]
@@ -149,12 +149,13 @@ def _stress(setting: Setting, solution: Solution, word: dict[str, str]) -> Answe
 
 def _strength(setting: Setting, solution: Solution, word: dict[str, str]) -> Answer:
     weakest, tension = solution.elastic_limit(), solution.peak_tension()
-    place = f"({weakest.x:.4g}, {weakest.y:.4g})"
+    at = f"at ({weakest.x:.4g}, {weakest.y:.4g})"
+    first = f"{weakest.ratio:.6g} {at}" if weakest.ratio > 0.0 else f"0 {at}: infinite stress"
     tensile = f"{tension.value:.6g} at x = {tension.x:.6g}" if tension.value > 0.0 else "none"
     return {
         "weakest": [_rounded(where) for where in weakest.places],
         "numbers": [
-            ["first yield P/(b k) at (x, y)", f"{weakest.ratio:.6g} at {place}"],
+            ["first yield P/(b k) at (x, y)", first],
             [word["stress"].format("largest tension"), tensile],
         ],
     }
@@ -206,7 +207,7 @@ def _lesson(errors: list[float]) -> str:
             )
     power = -np.polyfit(np.log(NODES), np.log(errors), 1)[0]
     if power < 0.5:
-        return f"p is infinite under the tip: the error hardly falls, about like 1/n^{power:.1f}."
+        return "p is infinite under a kink like a tip: more nodes hardly lower the error."
     return (
         f"The profile has a kink: the error falls about like 1/n^{power:.1f}. One more digit takes "
         f"{10 ** (1 / power):.0f} times as many nodes."

@@ -125,7 +125,6 @@ function fixAxes(shape, a) {
   figures.pressure.left[0].axis_label = a.axes.p;
   figures.shear.left[0].axis_label = a.axes.q;
   figures.stress.left[0].axis_label = a.axes.x.replace("x", "depth y");
-  figures.stress.right[0].title = a.axes.mises;
   scaleHeights();
 }
 
@@ -220,7 +219,7 @@ function showStress(a) {
   const none = a.refusal !== undefined;
   element("about-stress").textContent = none
     ? "No Mises stress: the sentence above says why."
-    : "Mises stress in the body, depth and length to one scale. Red ×: first yield.";
+    : `${shown.contact.axes.mises} in the body; depth and length to one scale. Red ×: first yield.`;
   fill("weakest", { x: [], y: [] });
   const [source] = sources.levels;
   if (none) {
@@ -319,7 +318,7 @@ function colours() {
       axis.axis_line_color = axis.major_tick_line_color = axis.minor_tick_line_color = ink;
     }
     for (const grid of figure.center) if ("grid_line_color" in grid) grid.grid_line_color = line;
-    for (const bar of figure.right) bar.title_text_color = bar.major_label_text_color = ink;
+    for (const bar of figure.right) bar.major_label_text_color = ink;
   }
   if (shown) drawPunch(shown.contact);
 }
