@@ -238,9 +238,8 @@ def saved_answers() -> dict[str, Answer]:
             names = (control.name for control in controls)
             given: dict[str, Any] = dict(zip(names, values, strict=True))
             setting = Setting(shape=shape, **given)
-            parts = {part: answer(setting, part) for part in PARTS}
-            if not any("refusal" in known for known in parts.values()):
-                found[_name(shape, given)] = parts
+            if _answered(setting):
+                found[_name(shape, given)] = {part: answer(setting, part) for part in PARTS}
     return found
 
 

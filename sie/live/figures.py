@@ -31,7 +31,6 @@ def items() -> dict[str, Any]:
 
 
 def _figure(x: str, y: str, **given: Any) -> Any:
-    from bokeh.models import BasicTickFormatter  # noqa: PLC0415
     from bokeh.plotting import figure  # noqa: PLC0415
 
     drawn = figure(
@@ -45,10 +44,16 @@ def _figure(x: str, y: str, **given: Any) -> Any:
         **given,
     )
     if "y_axis_type" not in given:
-        drawn.yaxis.formatter = BasicTickFormatter(power_limit_low=DECIMALS)
+        drawn.yaxis.formatter = _ticks()
     drawn.toolbar.logo = None
     drawn.toolbar.autohide = True
     return drawn
+
+
+def _ticks() -> Any:
+    from bokeh.models import BasicTickFormatter  # noqa: PLC0415
+
+    return BasicTickFormatter(power_limit_low=DECIMALS)
 
 
 def _ranged(x: str, y: str) -> Any:
@@ -104,12 +109,8 @@ def _shear() -> Any:
 
 
 def _stress() -> Any:
-    from bokeh.models import (  # noqa: PLC0415
-        BasicTickFormatter,
-        ColorBar,
-        ColumnDataSource,
-        LinearColorMapper,
-    )
+    from bokeh.models import ColumnDataSource, LinearColorMapper  # noqa: PLC0415
+    from bokeh.models.annotations.legends import ColorBar  # noqa: PLC0415
     from bokeh.palettes import viridis  # noqa: PLC0415
 
     drawn = _ranged("x", "depth y")
@@ -124,9 +125,8 @@ def _stress() -> Any:
         color_mapper=LinearColorMapper(palette=colours, low=0, high=255),
     )  # fmt: skip
     scale = LinearColorMapper(palette=colours, low=0, high=1)
-    ticks = BasicTickFormatter(power_limit_low=DECIMALS)
     bar = ColorBar(
-        color_mapper=scale, formatter=ticks, width=12, padding=4, background_fill_alpha=0
+        color_mapper=scale, formatter=_ticks(), width=12, padding=4, background_fill_alpha=0
     )
     drawn.add_layout(bar, "right")
     drawn.scatter(

@@ -1,11 +1,14 @@
-"""The page served on this machine, by the standard library."""
+"""The page served on this machine: one answer at a time, and none that nobody waits for."""
 
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
+from collections import OrderedDict
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from http import HTTPStatus
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
+from threading import Condition
 from typing import Any
 from urllib.parse import parse_qsl, urlsplit
 
@@ -16,10 +19,10 @@ from sie.problem.scene import Scene
 from .answer import PARTS, answer
 from .page import bokeh_script, served
 from .setting import Setting, sliders
-from .turns import Turns
 
 HOST = "127.0.0.1"  # no other machine is answered
 NAMES = (HOST, "localhost")  # a page of another name would be of a site that points here
+PAGES = 64  # that are remembered: a page that is forgotten is answered like a new one
 
 
 class LiveServer(ThreadingHTTPServer):
@@ -68,6 +71,43 @@ class LiveServer(ThreadingHTTPServer):
     def address(self) -> str:
         """Where a browser finds the page."""
         return f"http://{HOST}:{self.server_port}/"
+
+
+class Turns:
+    """Requests that wait for a computation.
+
+    A page numbers its settings: those of a later one leave no use for the answers before.
+    """
+
+    def __init__(self) -> None:
+        self._change = Condition()
+        self._busy = False
+        self._newest: OrderedDict[str, int] = OrderedDict()
+
+    @contextmanager
+    def taken(self, page: str, turn: int) -> Iterator[bool]:
+        """Wait until no other request is worked on; False at once if the page has moved on."""
+        with self._change:
+            self._note(page, turn)
+            self._change.wait_for(lambda: not self._busy or self._late(page, turn))
+            wanted = not self._late(page, turn)
+            self._busy = self._busy or wanted
+        try:
+            yield wanted
+        finally:
+            if wanted:
+                with self._change:
+                    self._busy = False
+                    self._change.notify_all()
+
+    def _note(self, page: str, turn: int) -> None:
+        self._newest[page] = max(turn, self._newest.pop(page, turn))
+        while len(self._newest) > PAGES:
+            self._newest.popitem(last=False)
+        self._change.notify_all()
+
+    def _late(self, page: str, turn: int) -> bool:
+        return turn < self._newest.get(page, turn)
 
 
 class _Handler(BaseHTTPRequestHandler):

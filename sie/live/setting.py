@@ -74,7 +74,7 @@ class Setting:
     @cached_property
     def mean_pressure(self) -> float:
         """The mean pressure p̄ of the base."""
-        return self.at_rest.normal_load / (2.0 * self.at_rest.half_width)
+        return _mean_pressure(self.at_rest)
 
     @cached_property
     def untouched(self) -> bool:
@@ -96,12 +96,10 @@ class Setting:
             "bulk_stress": self.bulk * self.mean_pressure,
             "sliding": 0,
         }
-        tilt = base.tilt
-        if base.moment is not None:
+        if self.tilt != _tilt(self.at_rest):
+            changes |= {"moment": None, "tilt": self.tilt * self.mean_pressure / base.Estar}
+        elif base.moment is not None:
             changes["moment"] = base.moment * self.load  # the load keeps its place
-            tilt = self.at_rest.tilt
-        if self.tilt:
-            changes |= {"moment": None, "tilt": tilt + self.tilt * self.mean_pressure / base.Estar}
         if self.beta != base.beta:
             changes["dundurs"] = self.beta
         return replace(base, **changes)
@@ -124,6 +122,15 @@ def _at_rest(base: Scene) -> Solution:
     return solve(replace(base, friction=0.0, tangential_load=0.0, bulk_stress=0.0, sliding=0))
 
 
+def _mean_pressure(rest: Solution) -> float:
+    return rest.normal_load / (2.0 * rest.half_width)
+
+
+def _tilt(rest: Solution) -> float:
+    """The tilt over p̄/E*, that of a moment too."""
+    return rest.tilt * rest.scene.Estar / _mean_pressure(rest)
+
+
 @lru_cache(maxsize=1)
 def sliders(file: Scene | None) -> tuple[Control, ...]:
     """The sliders of the served page, which start from the values of the file.
@@ -142,12 +149,12 @@ def sliders(file: Scene | None) -> tuple[Control, ...]:
             "friction = inf has no place on a slider: give a finite friction, or use sie solve"
         )
     rest = _at_rest(file)
-    P, mean = rest.normal_load, rest.normal_load / (2.0 * rest.half_width)
-    limit = file.friction * P
+    limit = file.friction * rest.normal_load
     start = {
+        "tilt": _tilt(rest),
         "friction": file.friction,
         "share": float(file.sliding or (file.tangential_load / limit if limit else 0.0)),
-        "bulk": file.bulk_stress / mean,
+        "bulk": file.bulk_stress / _mean_pressure(rest),
         "beta": file.beta,
     }
     known = {"beta": (0.0,)} if file.body is not None else {}  # two bodies have a β of their own

@@ -23,11 +23,10 @@ from sie.live.answer import PARTS, answer
 from sie.live.controls import ACROSS, DOWN, LIVE, OF_FILE, SAVED, shapes
 from sie.live.frame import frame_of, surface
 from sie.live.setting import Setting, sliders
-from sie.live.turns import Turns
 
 pytest.importorskip("bokeh", reason="the live page needs the extra `live`")
 from sie.live.page import saved
-from sie.live.server import LiveServer
+from sie.live.server import LiveServer, Turns
 
 SHAPES = shapes(None)
 FILES = ["partial-slip", "dissimilar", "flat", "sliding", "wedge"]
@@ -179,6 +178,14 @@ def test_a_load_off_the_centre_keeps_its_place():
     scene = parse(example("flat")).scene
     moved = Setting.of_words({"load": "2"}, scene).scene
     assert (moved.normal_load, moved.moment) == (2 * scene.normal_load, 2 * scene.moment)
+
+
+def test_the_tilt_of_a_file_is_where_its_slider_starts():
+    scene = sie.Scene(profile=sie.Parabola(2.0), modulus=3.0, normal_load=0.7, tilt=0.01)
+    start = {control.name: control.start for control in sliders(scene)}["tilt"]
+    assert Setting.of_words({"load": "2"}, scene).scene.tilt == scene.tilt
+    moved = Setting.of_words({"tilt": "0"}, scene).scene
+    assert (start != 0.0, moved.tilt, moved.normal_load) == (True, 0.0, scene.normal_load)
 
 
 def test_a_bonded_file_has_no_place_on_the_sliders():
