@@ -10,10 +10,10 @@ from typing import Any
 
 import numpy as np
 
+from sie import Solution
 from sie.arguments import with_short_words
 from sie.errors import ContactError
 from sie.io.scene_file import Units
-from sie.solution import Solution
 
 from . import teaching
 from .controls import ROUNDED, SAVED, SHAPES
@@ -52,12 +52,14 @@ def answer(setting: Setting, part: str, units: Units | None = None) -> Answer:
 def _in_the_sliders_words(setting: Setting) -> str:
     """Which slider alone, set to 0, would give an answer."""
     labels = {control.name: control.label for control in sliders(setting.file)}
-    at_zero = {
-        name: replace(setting, **{name: 0.0})
-        for name in ("bulk", "beta", "tilt", "share")
-        if getattr(setting, name)
+    zeros: dict[str, dict[str, Any]] = {
+        name: {name: 0.0} for name in ("bulk", "beta", "tilt", "share") if getattr(setting, name)
     }
-    ways = [f"“{labels[name]}” to 0" for name, other in at_zero.items() if _answered(other)]
+    ways = [
+        f"“{labels[name]}” to 0"
+        for name, zero in zeros.items()
+        if _answered(replace(setting, **zero))
+    ]
     remedy = f"Set {' or '.join(ways)}." if ways else "Move the sliders nearer to their start."
     return f"These settings together have no answer. {remedy}"
 

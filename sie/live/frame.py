@@ -12,10 +12,9 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
+from sie import Scene, Solution
 from sie.errors import ContactError
 from sie.io.scene_file import Units
-from sie.problem.scene import Scene
-from sie.solution import Solution
 
 from .controls import ACROSS, DEPTH, DOWN, OF_FILE, ROUNDED, WEDGE
 from .setting import Setting, sliders, solution_of

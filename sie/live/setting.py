@@ -13,9 +13,8 @@ from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
 from typing import Any
 
-from sie.problem.scene import Scene
+from sie import Scene, Solution, solve
 from sie.profiles.shapes import RoundedFlat
-from sie.solution import Solution, solve
 
 from .controls import LIVE, LOAD, OF_FILE, ROUNDED, SHAPES, Control, shapes
 
