@@ -15,12 +15,12 @@ LINES = {
     "benchmark_set": 10,
     "cauchy": 2260,
     "certificate": 1690,
-    "cli": 900,
+    "cli": 910,
     "contact": 2980,
     "examples": 10,
     "friction": 16100,
     "io": 4680,
-    "live": 750,
+    "live": 1190,
     "numerics": 1810,
     "patches": 6080,
     "paths": 1000,
@@ -31,7 +31,7 @@ LINES = {
     "sweeps": 1080,
     "traction": 2790,
 }
-FILES = 293
+FILES = 295
 
 
 def lines_of(folder):
