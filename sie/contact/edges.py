@@ -49,7 +49,6 @@ MISSED = 1e-6  # of the load: a search that ends with more has not found a conta
 # distance, and so many steps settle it.
 NEAR, NEAR_STEPS = 0.25, 5
 HUGE = 1e300
-PLACES = 64.0  # fewer places in a half-width do not show the pressure
 UNEVEN = 1e-30  # the left side is not sought nearer than this fraction of the right one
 
 

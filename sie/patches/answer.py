@@ -20,8 +20,9 @@ from .certificate import certificate
 from .density import PatchPressure
 from .full import FullContact, full_contact
 from .gap import gap, gap_volume
+from .newton import Found
 from .of_scene import Problem, problem_of
-from .operator import Found, Operator
+from .operator import Operator
 from .result import PatchCertificate
 from .solver import contact
 from .unseen import unseen
@@ -70,9 +71,9 @@ class SeveralPatches:
         return gap_volume(self.found.operator)
 
     def certificate(self, tol: float) -> PatchCertificate:
-        asked = self.problem.given, self.problem.height
         missed = unseen(self.found, self.problem)
-        found = certificate(self.found, self.pressure, asked, tol, missed)
+        height = self.problem.profile.height
+        found = certificate(self.found, self.pressure, height, tol, missed)
         return replace(found, notes=found.notes + self.notes)
 
 

@@ -19,7 +19,7 @@ from sie.numerics.interval import EPS
 from .bounds import DEEPEST, NODES, halves, legendre, lower_bound
 from .operator import Operator, gap_values
 from .panels import FARTHEST, GapPanels, distance_of, gap_panels
-from .state import Overlap
+from .state import Findings, Overlap
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
@@ -29,24 +29,12 @@ ROUNDING = 7e-14  # of max|H| on the patches times the distance from an edge
 # of the load over E*/2: where h is rounded to less, a place that its rounding leaves open carries
 # too little to look for it
 NEGLIGIBLE = 1e-9
-# halved at once, in 200 MB; a hundred patches have a thousand: more are values that are none
-MOST = 2**16
+# halved at once, in 100 MB; a hundred patches have a thousand: more are values that are none
+MOST = 2**15
 OUT_OF_SIGHT = 1e16  # widths of the whole contact: from there doubles do not tell its edges
 
 
-class Looked(NamedTuple):
-    """The overlaps of the bodies, and the places where the rounding of h does not tell.
-
-    doubt      the largest bound of that rounding at such a place, a length
-    place      where that is
-    """
-
-    overlap: tuple[Overlap, ...]
-    doubt: float
-    place: float
-
-
-def overlaps(o: Operator, tilt: float, load: float) -> Looked:
+def overlaps(o: Operator, tilt: float, load: float) -> Findings:
     """Where the gap is negative by more than the rounding of h, at a tilt and a load over E*/2.
 
     Raises ResolutionError if that is open on more than `MOST` parts.
@@ -54,29 +42,33 @@ def overlaps(o: Operator, tilt: float, load: float) -> Looked:
     beyond = min(1.1 * o.pieces.horizon(tilt, o.patches.c) / o.patches.hull, OUT_OF_SIGHT)
     panels = gap_panels(o.patches, o.pieces, outside=True, farthest=max(FARTHEST, beyond))
     if not len(panels.gap):
-        return Looked((), 0.0, 0.0)
-    side = sides(o, panels)
-    parts = _parts(o, panels)
+        return Findings()
+    side, parts = sides(o, panels), _parts(o, panels)
     largest = np.zeros(o.patches.number + 1)
     bad: list[tuple[int, float, float, float]] = []
     doubts = [(0.0, 0.0)]
     for depth in range(DEEPEST):
         last = depth == DEEPEST - 1
         seen = _judged(o, (tilt, load), side, parts, last)
-        gap = panels.gap[parts.panel]
+        gap, value, x = panels.gap[parts.panel], seen.value, seen.x
         if depth == 0:
-            beside = np.where(np.isfinite(seen.value) & seen.near, seen.value, 0.0)
+            beside = np.where(np.isfinite(value) & seen.near, value, 0.0)
             np.maximum.at(largest, gap + 1, beside.max(axis=1))
-        bad += seen.places(gap)
-        doubts += seen.doubt()
+        wide = np.ptp(x, axis=1)
+        for j, m in zip(*np.nonzero(seen.negative), strict=True):
+            bad.append((int(gap[j]), float(x[j, m]), float(value[j, m]), float(wide[j])))
+        if seen.unsure.any():
+            worst = int(np.argmax(np.where(seen.unsure, seen.rounding, 0.0)))
+            place = float(x[worst, np.argmin(value[worst])])
+            doubts.append((float(seen.rounding[worst]), place))
         count = int(np.count_nonzero(seen.unknown))
         if not count or last:
             break
         if count > MOST:
-            raise _undecided(count, seen.x[seen.unknown])
+            raise _undecided(count, x[seen.unknown])
         parts = parts.halved(seen.unknown)
     doubt, place = max(doubts, key=itemgetter(0))
-    return Looked(_gathered(bad, largest), doubt, place)
+    return Findings(overlap=_gathered(bad, largest), doubt=doubt, place=place)
 
 
 class Parts(NamedTuple):
@@ -114,21 +106,6 @@ class Judged(NamedTuple):
     unsure: Bool
     unknown: Bool
 
-    def places(self, gap: Index) -> list[tuple[int, float, float, float]]:
-        """The places of overlap: (gap, x, the gap there, width of the part)."""
-        wide = self.x.max(axis=1) - self.x.min(axis=1)
-        return [
-            (int(gap[j]), float(self.x[j, m]), float(self.value[j, m]), float(wide[j]))
-            for j, m in zip(*np.nonzero(self.negative), strict=True)
-        ]
-
-    def doubt(self) -> list[tuple[float, float]]:
-        """The largest rounding that hides the gap, and the place; nothing where none does."""
-        if not self.unsure.any():
-            return []
-        worst = int(np.argmax(np.where(self.unsure, self.rounding, 0.0)))
-        return [(float(self.rounding[worst]), float(self.x[worst, np.argmin(self.value[worst])]))]
-
 
 def _judged(
     o: Operator, given: tuple[float, float], side: Side, parts: Parts, last: bool
@@ -140,7 +117,8 @@ def _judged(
     t = parts.lo[:, None] + (parts.hi - parts.lo)[:, None] * g
     value, x, phi = opening(o, side, parts.panel, t)
     away = np.abs(x - anchor)
-    rounding = _rounding(o, tilt, anchor[:, 0], x)
+    lo, hi = np.minimum(anchor[:, 0], x.min(axis=1)), np.maximum(anchor[:, 0], x.max(axis=1))
+    rounding = o.pieces.rounding(lo, hi) + EPS * abs(tilt) * (hi - lo)
     tolerance = rounding + ROUNDING * float(np.abs(o.H).max()) * away.max(axis=1)
     bound = lower_bound(value)
     opens = parts.edge & (lower_bound(phi) >= 0.0)
@@ -160,12 +138,6 @@ def _undecided(count: int, x: Array) -> ResolutionError:
         f"{count} parts of the gap, and {MOST} are the most: raise the load, or give a smoother "
         "profile"
     )
-
-
-def _rounding(o: Operator, tilt: float, edge: Array, x: Array) -> Array:
-    """A bound of the rounding of the gap on parts, from the edges (m,) that they count from."""
-    lo, hi = np.minimum(edge, x.min(axis=1)), np.maximum(edge, x.max(axis=1))
-    return np.asarray(o.pieces.rounding(lo, hi) + EPS * abs(tilt) * (hi - lo))
 
 
 def _gathered(bad: list[tuple[int, float, float, float]], largest: Array) -> tuple[Overlap, ...]:

@@ -27,8 +27,9 @@ from sie.profiles.look import (
 from sie.profiles.unresolved import misfit, start_of
 
 from .gap import overlaps
+from .newton import Found
 from .of_scene import Problem
-from .operator import Found, Operator
+from .operator import Operator
 from .state import Unseen
 from .window import whole_window
 

@@ -9,8 +9,8 @@ from sie.errors import LoadError
 from sie.profiles.look import closer, may_touch, values
 from sie.profiles.look import falls as look_falls
 
+from .newton import Found
 from .of_scene import Problem
-from .operator import Found
 from .start import grid_pressure
 
 Array = NDArray[np.float64]
@@ -75,7 +75,8 @@ def _first_window(problem: Problem) -> tuple[float, float]:
     lo, hi = problem.domain
     if np.isfinite(lo) and np.isfinite(hi):
         return lo, hi
-    finite = problem.breaks[np.isfinite(problem.breaks)]
+    breaks = np.asarray(problem.profile.breaks)
+    finite = breaks[np.isfinite(breaks)]
     first, last = (float(finite.min()), float(finite.max())) if finite.size else (0.0, 0.0)
     sizes = np.geomspace(1e-140, 1e140, 561)
     with np.errstate(all="ignore"):
