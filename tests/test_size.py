@@ -16,7 +16,7 @@ LINES = {
     "cauchy": 2260,
     "certificate": 1690,
     "cli": 900,
-    "contact": 2790,
+    "contact": 2780,
     "examples": 10,
     "friction": 16100,
     "io": 4680,

@@ -23,17 +23,18 @@ from numpy.typing import ArrayLike, NDArray
 from sie import arguments
 from sie.contact.known_contact import Edges
 from sie.numerics import chebyshev
+from sie.numerics.graded_rule import graded, on_panels
 from sie.numerics.interval import EPS, Interval
 from sie.profiles.pieces import Pieces
 from sie.traction.base import Density, refuse_side
 
 from .bounds import DEEPEST, NODES, TENSION, halves, lower_bound
-from .chord import Chord
+from .chord import Chord, Points
 from .density import PatchPressure
 from .operator import Operator
 from .panels import Patches
 from .result import CLOSE, LEAST, PatchCertificate
-from .rule import Rule, principal_value, rule_of
+from .rule import Rule, principal_value
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -42,6 +43,12 @@ FEWEST = 8  # panels on which p is bounded
 APART = 0.25  # of a period: the least distance of the places where the ends of patches meet
 SLIT = 1e-9  # periods: the gap there, of which the square counts
 CLOSED = 1e-12  # periods: a gap at a concave corner that is no wider is taken for none
+# how often the panels of the certificate are graded towards breaks, and where H jumps at some:
+# p is infinite there like a logarithm, of which the last panel has to hold next to nothing
+LEVELS, DEEP = 8, 20
+# of the period: a break within rounding of an even cut leaves a panel without places between nodes
+NARROWEST = 1e-10
+PLACES, MIDWAY = 100, 0.45  # where the equation is measured, at this part of a panel
 SUSPECTS = 16  # places of lowest pressure on a grid: tension there rules full contact out
 ZOOMS, ZOOMED = 6, 10  # around the least pressure: how often, and places each time
 OPENING = "note: full contact is about to end: a gap opens where the load falls by {:.0e} of it"
@@ -170,8 +177,24 @@ class FullPressure(Density):
 
     @cached_property
     def rules(self) -> tuple[Rule, Rule]:
-        """A composite rule over a period, and places between its points."""
-        return rule_of(self._slit(self.parts[0].interval[0], LEAST))
+        """A composite rule over a period, and places between its points.
+
+        Both count from the ends of the panels: next to a jump of H, p is that of the exact place.
+        """
+        (lo, hi), steep = self.panels, self.steepness is None
+        near = 0.5 * graded(DEEP if steep else LEVELS)
+        cuts = np.concatenate(([0.0], near, [0.5], 1.0 - near[::-1], [1.0]))
+        part, weight = (v.ravel() for v in on_panels(cuts))
+        wide = np.flatnonzero(hi - lo > NARROWEST * self.period)
+        some = wide[:: max(len(wide) // PLACES, 1)]
+        x = (lo[:, None] + (hi - lo)[:, None] * part).ravel()
+        weights = ((hi - lo)[:, None] * weight).ravel()
+        between = lo[some] + MIDWAY * (hi - lo)[some]
+        return self._ruled(x, weights), self._ruled(between, np.zeros(len(some)))
+
+    def _ruled(self, x: Array, weight: Array) -> Rule:
+        piece = self.pieces.locate(x)
+        return Rule(Points(x, np.zeros(len(x))), np.zeros(len(x), dtype=int), piece, weight)
 
     @property
     def rule(self) -> Rule:

@@ -1,7 +1,7 @@
 """The gap beside and between patches: where it would be negative, its values, and its volume.
 
 On panels that count from an edge g'/root is a Legendre series, and g the primitive of one. That
-g'/root >= 0 from the edge on, or g >= 0, is verified by bounds and not by samples.
+g'/root >= 0 all the way from the edge, or g >= 0, is verified by bounds and not by samples.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from sie.errors import ResolutionError
 from sie.numerics import chebyshev
 from sie.numerics.interval import EPS
 
-from .bounds import DEEPEST, NODES, halves, legendre, lower_bound
+from .bounds import DEEPEST, NODES, legendre, lower_bound
 from .operator import Operator, gap_values
 from .panels import FARTHEST, GapPanels, distance_of, gap_panels
 from .state import Findings, Overlap
@@ -66,24 +66,37 @@ def overlaps(o: Operator, tilt: float, load: float) -> Findings:
             break
         if count > MOST:
             raise _undecided(count, x[seen.unknown])
-        parts = parts.halved(seen.unknown)
+        parts = parts._replace(opened=seen.opened).halved(seen.unknown)
     doubt, place = max(doubts, key=itemgetter(0))
     return Findings(overlap=_gathered(bad, largest), doubt=doubt, place=place)
 
 
 class Parts(NamedTuple):
-    """Parts of panels, from lo to hi in their parameter; `edge`: whether one begins at the edge."""
+    """Parts of panels, from lo to hi in their parameter, ascending on each side of a gap.
+
+    opened     whether the gap does nothing but open from the edge up to lo
+    """
 
     panel: Index
     lo: Array
     hi: Array
-    edge: Bool
+    opened: Bool
 
     def halved(self, kept: Bool) -> Parts:
-        """The halves of those that are kept: all left ones, then all right ones."""
-        lo, hi = halves(self.lo[kept], self.hi[kept])
-        edge = np.concatenate((self.edge[kept], np.zeros(np.count_nonzero(kept), dtype=bool)))
-        return Parts(np.tile(self.panel[kept], 2), lo, hi, edge)
+        """The halves of those that are kept."""
+        panel, lo, hi = (np.repeat(v[kept], 2) for v in (self.panel, self.lo, self.hi))
+        lo[1::2] = hi[::2] = 0.5 * (lo + hi)[::2]
+        opened = np.repeat(self.opened[kept], 2)
+        opened[1::2] = False
+        return Parts(panel, lo, hi, opened)
+
+    def followed(self, run: Index, rising: Bool) -> Bool:
+        """`opened` of these parts, by the side (run) of each panel and what rises all over."""
+        after = (self.lo[1:] == self.hi[:-1]) & (np.diff(run[self.panel]) == 0)
+        begins = self.opened | ~np.concatenate(([False], after))
+        first = np.maximum.accumulate(np.where(begins, np.arange(len(begins)), 0))
+        before = np.cumsum(~rising) - ~rising
+        return np.asarray(self.opened[first] & (before == before[first]))
 
 
 class Judged(NamedTuple):
@@ -96,6 +109,7 @@ class Judged(NamedTuple):
     rounding   a bound of the rounding of h (m,)
     unsure     whether that rounding hides what the gap is
     unknown    whether a part has to be halved
+    opened     what `Parts` has of that name
     """
 
     value: Array
@@ -105,6 +119,7 @@ class Judged(NamedTuple):
     rounding: Array
     unsure: Bool
     unknown: Bool
+    opened: Bool
 
 
 def _judged(
@@ -121,7 +136,9 @@ def _judged(
     rounding = o.pieces.rounding(lo, hi) + EPS * abs(tilt) * (hi - lo)
     tolerance = rounding + ROUNDING * float(np.abs(o.H).max()) * away.max(axis=1)
     bound = lower_bound(value)
-    opens = parts.edge & (lower_bound(phi) >= 0.0)
+    rising = lower_bound(phi) >= 0.0
+    opened = parts.followed(np.cumsum(side.panels.lo == 0.0), rising)
+    opens = opened & rising
     matters = (rounding > NEGLIGIBLE * load) & ~opens & (bound < tolerance)
     enough = (bound >= -tolerance) & ~(matters & (not last)) | opens
     may_be = ~opens & (bound < -tolerance)
@@ -129,7 +146,8 @@ def _judged(
     sure = negative.any(axis=1)
     unsure = matters & ~sure & (value < tolerance[:, None]).any(axis=1)
     near = away <= o.patches.hull
-    return Judged(value, x, near, negative, rounding, unsure, ~enough & ~sure & ~unsure)
+    unknown = ~enough & ~sure & ~unsure
+    return Judged(value, x, near, negative, rounding, unsure, unknown, opened)
 
 
 def _undecided(count: int, x: Array) -> ResolutionError:
