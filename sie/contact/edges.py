@@ -62,6 +62,11 @@ class Found(NamedTuple):
     sharp: tuple[bool, bool] = (False, False)
     integrals: EdgeIntegrals | None = None
 
+    def mirrored(self) -> Found:
+        """The same of h(-x)."""
+        k = self.integrals
+        return Found(self.contact.mirrored(), self.sharp[::-1], k.mirrored() if k else None)
+
 
 @dataclass
 class Search:
@@ -235,11 +240,7 @@ class Search:
         self.evaluations += flipped.evaluations
         if left is None:
             return Found(Interval(*self.slope.domain), (True, True))
-        return Found(
-            left.contact.mirrored(),
-            left.sharp[::-1],
-            left.integrals.mirrored() if left.integrals else None,
-        )
+        return left.mirrored()
 
     def _right_edge(self, load: float) -> Found | None:
         """The contact whose right edge is smooth, and whose left edge may be sharp.
@@ -343,6 +344,18 @@ class Search:
                 load=carried * self.half_modulus,
             )
         return Found(contact, (left_sharp, False), k)
+
+    def near(self, contact: Interval, sharp: tuple[bool, bool], load: float) -> Found:
+        """The contact under a load near one that is known; that one where no step comes nearer."""
+        if all(sharp):
+            return Found(contact, sharp)
+        if sharp[1]:
+            flipped = replace(self, slope=self.slope.mirrored(), epsilon=-self.epsilon)
+            return flipped.near(contact.mirrored(), (True, False), load).mirrored()
+        closer, k, settled = self.polish.both(
+            contact, load / self.half_modulus, sharp[0], self.touch()
+        )
+        return Found(closer, sharp, k) if settled else Found(contact, sharp)
 
     # -- a prescribed half-width -------------------------------------------------------------------
 

@@ -91,19 +91,14 @@ def of_one_patch(edges: Edges, scene: Scene, tol: float, economy: Collection[str
 
 
 def _closer(edges: Edges, scene: Scene, slope: Slope, economy: Collection[str]) -> Edges:
-    """The edges by their conditions on a resolved slope; as they are where one is sharp."""
-    if any(edges.sharp):
-        return edges
-    load = edges.normal_load
-    if scene.moment is not None:
+    """The edges by their conditions on a resolved slope."""
+    load, smooth = edges.normal_load, not any(edges.sharp)
+    if scene.moment is not None and smooth:
         search = _search(scene, slope, economy)
         return given_moment.near(search, edges.contact, load, scene.moment) or edges
     search = _search(scene, slope.tilted(edges.tilt), economy)
-    contact, k, settled = search.polish.both(
-        edges.contact, load / search.half_modulus, False, search.touch()
-    )
-    found = Found(contact, integrals=k)
-    return search.finished(found, load, edges.tilt) if settled else edges
+    found = search.finished(search.near(edges.contact, edges.sharp, load), load, edges.tilt)
+    return found if scene.moment is None else replace(found, moment=scene.moment)
 
 
 def one_series(scene: Scene, tol: float, economy: Collection[str]) -> Normal | None:
