@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
-from .contact.convexity import rises, rises_beside, turns_away
+from .contact.convexity import may_have_merged, rises, rises_beside, turns_away
 from .contact.known_contact import Normal
 from .contact.normal import normal_contact, not_one_patch, of_one_patch, one_series
 from .contact.pressure import pressure
@@ -33,6 +33,7 @@ if TYPE_CHECKING:  # patches are imported where one patch is no answer
 
 # of a patch: the pressure on more of them is more exact as that of several patches
 MOST_PANELS = 128
+MERGED = "in one patch, merged from several"
 SAME = 1e-6  # of a half-width: patches that differ by more from one patch are others
 
 
@@ -137,15 +138,29 @@ class Frictionless:
     @property
     def as_one_patch(self) -> Normal:
         """The contact, for what is solved on one patch only. Raises ContactError for several."""
-        found = self.normal
-        if isinstance(found, Normal):
-            return found
-        number, period = len(found.patches), self.scene.profile.period
-        where = f"in {number} patches" if number > 1 else "in one patch, merged from several"
+        if isinstance(self.normal, Normal):
+            return self.normal
+        number = len(self.normal.patches)
+        raise self._not_grown(f"in {number} patches" if number > 1 else MERGED)
+
+    @property
+    def grown_as_one_patch(self) -> Normal:
+        """The contact, for what is solved on one patch from the first touch on.
+
+        Raises ContactError where several have touched, or may have.
+        """
+        found = self.as_one_patch
+        contact = found.edges.contact
+        if may_have_merged(found.slope(self.scene.profile), (contact.x1, contact.x2)):
+            raise self._not_grown(MERGED)
+        return found
+
+    def _not_grown(self, where: str) -> ContactError:
+        period = self.scene.profile.period
         remedy = smoothing_remedy(self.scene.profile) or "give a convex profile"
         if np.isfinite(period):
             where, remedy = f"that repeats every {period:.6g}", "give the profile without period"
-        raise ContactError(
+        return ContactError(
             f"contact {where}: what is asked for is solved in one patch that grows from the first "
             f"touch on; {remedy}, set friction = 0, or give dundurs = 0 to neglect β"
         )

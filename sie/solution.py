@@ -124,7 +124,7 @@ class Solution(Frictionless, StressAnswers):
         if not scene.profile.convex:
             P, b = scene.normal_load, scene.half_width
             plain = Scene(profile=scene.profile, modulus=scene.Estar, normal_load=P, half_width=b)
-            _ = Frictionless(plain, self.tol).as_one_patch
+            _ = Frictionless(plain, self.tol).grown_as_one_patch
         edges, state = coupled_contact(scene, self._frictionless)
         lever = edges.normal_load * edges.contact.r
         if scene.moment is not None and abs(edges.moment - scene.moment) > BALANCED * lever:

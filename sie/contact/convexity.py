@@ -46,6 +46,16 @@ def turns_away(slope: Slope, contact: tuple[float, float]) -> bool:
     return any(slope.corner(b)[0] < 0.0 for b in inside)
 
 
+def may_have_merged(slope: Slope, contact: tuple[float, float]) -> bool:
+    """Whether h' falls between parts of a contact on which it rises: these may have touched apart.
+
+    As one patch grows from the first touch on, h' falls at most towards its edges.
+    """
+    falling = look.falls(look.values(slope, look.across(slope, contact)))
+    rising = np.flatnonzero(~falling)
+    return bool(rising.size) and bool(falling[rising[0] : rising[-1]].any())
+
+
 def _pieces_rise(slope: Slope) -> bool:
     """The same of polynomials; h'' of the second degree is lowest at an end of its piece."""
     ends, k = finite_ends(slope), np.arange(len(slope.origins))

@@ -24,10 +24,14 @@ TOLERANCE = 1e-15  # to which functions are resolved
 
 @dataclass(frozen=True, eq=False)
 class Problem:
-    """A profile, the load or half-width, tilt or moment, and what the search has taken so far."""
+    """A profile, the load, tilt or moment, and what the search has taken so far.
+
+    `load` is P as it was given, which messages name.
+    """
 
     profile: Profile
     given: Given
+    load: float
     effort: Effort = field(default_factory=Effort)
     _known: dict[tuple[float, float], Pieces] = field(default_factory=dict)
 
@@ -72,4 +76,5 @@ def problem_of(scene: Scene) -> Problem:
     G = 0.5 * scene.Estar
     moment = None if scene.moment is None else scene.moment / G
     assert scene.normal_load is not None
-    return Problem(scene.profile, Given(scene.normal_load / G, scene.tilt, moment))
+    P = scene.normal_load
+    return Problem(scene.profile, Given(P / G, scene.tilt, moment), P)

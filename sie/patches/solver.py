@@ -53,12 +53,12 @@ def contact(problem: Problem) -> Found:
         beyond = widened(found, problem, window)
         if beyond == window:
             found = _in_one_period(_with_far_valleys(found, problem), problem)
-            refuse_unknown_depths(found)
+            refuse_unknown_depths(found, problem)
             return found
         window = beyond
     raise LoadError(
-        f"contact goes on beyond [{window[0]:.6g}, {window[1]:.6g}]: the slope rises too little; "
-        "give a domain"
+        f"the load {problem.load:.6g} makes contact reach beyond [{window[0]:.6g}, "
+        f"{window[1]:.6g}]: the slope rises too little, give a domain"
     )
 
 

@@ -45,7 +45,7 @@ def refuse_unknown_ends(state: State, problem: Problem) -> None:
             )
 
 
-def refuse_unknown_depths(found: Found) -> None:
+def refuse_unknown_depths(found: Found, problem: Problem) -> None:
     """Raises LoadError where the rounding of h decides which valleys touch, or how they share."""
     P, seen, load = found.state.patches, found.findings, found.given.load
 
@@ -53,7 +53,7 @@ def refuse_unknown_depths(found: Found) -> None:
         away = abs(place - P.c[k])
         decides = load / np.pi * (np.log(max(2.0 * away / P.r[k], 1.0)) + 0.5)
         if known > least * decides:
-            raise _unknown_depth(load, (float(P.c[k]), place), known, decides)
+            raise _unknown_depth(problem.load, (float(P.c[k]), place), known, decides)
 
     if seen.doubt:
         refuse(int(np.argmin(np.abs(P.c - seen.place))), seen.place, seen.doubt, UNKNOWN)
@@ -68,7 +68,7 @@ def _unknown_depth(
 ) -> LoadError:
     x1, x2 = sorted(places)
     return LoadError(
-        f"how the valleys at x = {x1:.6g} and {x2:.6g} share normal_load = {load:.6g} E*/2 "
+        f"how the valleys at x = {x1:.6g} and {x2:.6g} share normal_load = {load:.6g} "
         f"is decided by a difference of depths of {decides:.2g}, and doubles of h tell "
         f"{known:.2g}: raise the load, or make one valley deeper",
         valleys=(x1, x2),
@@ -79,7 +79,7 @@ def unsettled(problem: Problem, patches: int) -> LoadError:
     """The refusal of a load under which the search does not come to rest."""
     other = problem.given.moment is not None
     return LoadError(
-        f"the patches of contact do not settle at normal_load = {problem.given.load:.6g} E*/2: two "
+        f"the patches of contact do not settle at normal_load = {problem.load:.6g}: two "
         "of them are about to merge, or one to appear; change the load"
         f"{' or the moment' * other} a little",
         patches=patches,

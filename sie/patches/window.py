@@ -61,9 +61,8 @@ def fitted_window(problem: Problem) -> tuple[float, float]:
             return lo, hi
         lo, hi = max(lo, a - 2.0 * (b - a)), min(hi, b + 2.0 * (b - a))
     raise LoadError(
-        f"normal_load over E*/2 = {problem.given.load:.6g} makes contact reach beyond [{lo:.6g}, "
-        f"{hi:.6g}]: "
-        "the slope rises too little, give a domain"
+        f"the load {problem.load:.6g} makes contact reach beyond [{lo:.6g}, {hi:.6g}]: the slope "
+        "rises too little, give a domain"
     )
 
 

@@ -200,7 +200,7 @@ def test_the_potential_of_a_cusp_is_right_at_every_depth_beneath_it(m, axis):
     profile = sie.Power(m, 0.75).shifted(axis)
     solution = sie.solve(sie.Scene(profile=profile, modulus=2.0, half_width=1.0))
     peak, load = solution.pressure(axis), solution.normal_load
-    apart = np.log10(1e3 * np.spacing(abs(axis))) if axis else -15.0  # places that doubles tell
+    apart = np.log10(1e4 * np.spacing(abs(axis))) if axis else -15.0  # told to four digits
     for depth in 10.0 ** np.array([apart, -11, -9, -7, -4, -1, 0, 3, 6]):
         for across in (0.0, -0.7, 20.0):
             z = axis + across * depth + 1j * depth
