@@ -23,8 +23,7 @@ from sie.problem.request import ECONOMY
 from sie.problem.scene import Scene
 from sie.profiles.base import Profile
 from sie.profiles.power_law import PowerLaw
-from sie.profiles.profile_pieces import one_piece
-from sie.profiles.resolution import refined
+from sie.profiles.resolution import one_piece, refined
 from sie.profiles.slope import Slope
 from sie.profiles.unresolved import between_pieces, between_points, expanded
 

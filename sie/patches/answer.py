@@ -20,9 +20,8 @@ from .certificate import certificate
 from .density import PatchPressure
 from .full import FullContact, full_contact
 from .gap import gap, gap_volume
-from .newton import Found
 from .of_scene import Problem, problem_of
-from .operator import Operator
+from .operator import Found, Operator
 from .result import PatchCertificate
 from .solver import contact
 from .unseen import unseen

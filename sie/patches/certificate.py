@@ -24,8 +24,8 @@ from sie.progress_bar import reported
 
 from .density import PatchPressure
 from .gap import gap
-from .newton import Found
-from .operator import Operator
+from .newton import Linear, conditions_of
+from .operator import Found, Operator
 from .result import CLOSE, LEAST, PatchCertificate
 from .rule import SHORT, Rule, principal_value
 from .state import Unseen
@@ -66,8 +66,9 @@ def certificate(
     if given.moment is not None:
         found_moment = float(rule.weight @ (p * (rule.points.x - middle))) + load * middle
         moment = abs(found_moment - G * given.moment) / (asked * hull)
-    condition = conditioning(found)
-    measured_to = max(LEAST, min(EXPLAINED * _rounding(found, peak / G), MOST))
+    linear = conditions_of(found)
+    condition = conditioning(found, linear)
+    measured_to = max(LEAST, min(EXPLAINED * _rounding(found, linear, peak / G), MOST))
     return PatchCertificate(
         residual=float(np.abs(total - G * H).max(initial=0.0)) / peak,
         force=abs(load - asked) / asked,
@@ -82,7 +83,7 @@ def certificate(
         overlap=tuple((v.lo, v.hi) for v in (*found.findings.overlap, *missed.overlap)),
         resolution=G * missed.resolution / peak,
         lowest_gap=missed.lowest_gap,
-        notes=(*_notes(condition), *_notes_on_heights(found)),
+        notes=(*_notes(condition), *_notes_on_heights(found, linear)),
     )
 
 
@@ -96,10 +97,10 @@ def _notes(condition: float) -> tuple[str, ...]:
     return (sentence,)
 
 
-def _notes_on_heights(found: Found) -> tuple[str, ...]:
+def _notes_on_heights(found: Found, linear: Linear) -> tuple[str, ...]:
     """What the rounding of h leaves open: the loads of patches, and whether there is another."""
     P, doubt = found.state.patches, found.findings.doubt
-    moved = found.linear.rounded_moves(found.state) / np.repeat(P.r, 2)
+    moved = linear.rounded_moves(found.state) / np.repeat(P.r, 2)
     share = 2.0 * float(np.nan_to_num(np.abs(moved)).max())
     notes = []
     if share > SHARED:
@@ -115,14 +116,14 @@ def _notes_on_heights(found: Found) -> tuple[str, ...]:
     return tuple(notes)
 
 
-def conditioning(found: Found) -> float:
+def conditioning(found: Found, linear: Linear) -> float:
     """The largest |d e / d ln P| of an edge e over its patch or gap."""
     state = found.state
-    change = np.abs(found.linear.growth(state, found.given.load)) / state.patches.narrower
+    change = np.abs(linear.growth(state, found.given.load)) / state.patches.narrower
     return float(np.nan_to_num(change, nan=np.inf).max(initial=0.0))
 
 
-def _rounding(found: Found, peak: float) -> float:
+def _rounding(found: Found, linear: Linear, peak: float) -> float:
     """The largest relative change of p, load or moment by rounding of the edges and the slope.
 
     All smooth edges move by half an ulp, as if at random. `peak` is in units of E*/2.
@@ -130,7 +131,7 @@ def _rounding(found: Found, peak: float) -> float:
     An edge that moves is a point charge, which the conditions of the patches and of the load miss.
     """
     o, P, given = found.operator, found.state.patches, found.given
-    charge = 0.25 * found.linear.intensity * np.spacing(np.abs(P.edges))
+    charge = 0.25 * linear.intensity * np.spacing(np.abs(P.edges))
     force = charge * P.chord.apart(np.repeat(P.r, 2))
     pole, _ = P.chord.poles(P.chord.difference(P.c[:, None] - P.edges))
     missed = np.linalg.norm(pole * (force / peak), axis=1)  # a square of the load may be no double

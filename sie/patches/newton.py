@@ -18,8 +18,6 @@ At a sharp edge, the end of the indenter, the unknown is the charge itself.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
@@ -32,9 +30,9 @@ from sie.progress_bar import step_done
 from .edge_charges import EdgeCharges
 from .edge_moves import INSISTS, INWARD, Damping, event_of, moved, turning_smooth
 from .measure import edge_ratio
-from .operator import Operator, at_edges, gap_values, operator_of
+from .operator import Found, Operator, at_edges, gap_values, operator_of
 from .repairs import after
-from .state import Event, Findings, Given, State, balances
+from .state import Event, Given, State, balances
 from .sums import parts
 
 Array = NDArray[np.float64]
@@ -220,22 +218,6 @@ class Linear(NamedTuple):
         return self.moves(state, self.charged(self.roundings())[:, 0])
 
 
-@dataclass(frozen=True, eq=False)
-class Found:
-    """An answer: a state that its findings certify, for what was given."""
-
-    state: State
-    operator: Operator
-    given: Given
-    findings: Findings
-    steps: int
-
-    @cached_property
-    def linear(self) -> Linear:
-        """How its conditions change."""
-        return conditions(self.state, self.operator, self.given)
-
-
 def loaded(state: State, size: float) -> Array:
     """The change of the conditions by a load, or by a width in its place, (2N + 1, 1)."""
     changes = np.zeros((2 * state.patches.number + 1, 1))
@@ -264,6 +246,11 @@ def conditions(state: State, o: Operator, given: Given) -> Linear:
     slack[-2:] = 0.0
     charges = edge_charges(o, given.moment is not None)
     return Linear(charges, intensity, replaced, np.array(rows), slack)
+
+
+def conditions_of(found: Found) -> Linear:
+    """The same at an answer."""
+    return conditions(found.state, found.operator, found.given)
 
 
 def missed(state: State, o: Operator, given: Given, linear: Linear) -> Array:

@@ -27,7 +27,7 @@ from sie.profiles.pieces import Pieces
 from .chord import Points
 from .measure import Measure, Targets, close, integrals
 from .panels import GapPanels, gap_panels
-from .state import State
+from .state import Findings, Given, State
 from .sums import Groups, add, far_sums, parts, ranges, steps
 from .tree import Level, Separation, Tree
 
@@ -248,6 +248,17 @@ def gap_values(o: Operator, panels: GapPanels | None = None) -> tuple[Array, Arr
         S,
     )
     return reference, T, np.asarray(o.D(targets))
+
+
+@dataclass(frozen=True, eq=False)
+class Found:
+    """An answer: a state that its findings certify, for what was given."""
+
+    state: State
+    operator: Operator
+    given: Given
+    findings: Findings
+    steps: int
 
 
 def operator_of(state: State, pieces: Pieces) -> Operator:

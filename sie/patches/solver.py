@@ -19,13 +19,14 @@ from sie.profiles.pieces import Pieces
 from sie.progress_bar import reported
 
 from . import newton
+from .chord import Chord
 from .gap import overlaps
-from .newton import FINAL, MOST_STEPS, Found
+from .newton import FINAL, MOST_STEPS
 from .of_scene import Problem
-from .operator import Operator, operator_of
+from .operator import Found, Operator, operator_of
 from .panels import Patches
-from .repairs import after, apart, bounded, mended
-from .start import cells_of, grid_pressure, touched
+from .repairs import after, apart, bounded, mended, one_period
+from .start import Grid, cells_of, grid_pressure
 from .state import SAME, Event, Findings, Given, State, balances
 from .tension import tensions
 from .unknown import refuse_unknown_depths, refuse_unknown_ends, unsettled
@@ -42,6 +43,7 @@ NEARLY = 1e-7
 FEWEST_CELLS, MOST_CELLS = 2048, 1 << 18
 FINER = 8  # a second grid, if the first as a start leads nowhere
 CELLS = 1.5  # for each break in the window
+BEYOND = 0.9  # of a cell: an edge is no farther from the middle of the outer cell
 
 
 @reported("patches of contact, step")
@@ -53,7 +55,9 @@ def contact(problem: Problem) -> Found:
         beyond = widened(found, problem, window)
         if beyond == window:
             found = _in_one_period(_with_far_valleys(found, problem), problem)
-            refuse_unknown_depths(found, problem)
+            linear = newton.conditions_of(found)
+            moved = linear.rounded_moves(found.state)
+            refuse_unknown_depths(found, problem, linear.rounding, moved)
             return found
         window = beyond
     raise LoadError(
@@ -114,6 +118,33 @@ def _within(problem: Problem, window: tuple[float, float]) -> Found:
             refuse_unknown_ends(found.state, problem)
             return found
     raise unsettled(problem, 0)
+
+
+def touched(grid: Grid, pieces: Pieces, chord: Chord, tilt: float) -> State:
+    """The patches on a grid; per period they begin where the pressure is least.
+
+    Edges are where p², linear next to a smooth edge, reaches zero.
+    """
+    p, turn = grid.p, 0
+    if grid.periodic:
+        turn = int(np.argmin(p))
+        p = np.roll(p, -turn)
+        p[0] = 0.0  # a gap may be narrower than a cell
+    x = grid.x + grid.dx * turn
+    ends = np.flatnonzero(np.diff(p > 0.0, prepend=False, append=False))
+    first, last = ends[::2], ends[1::2] - 1
+    a = x[first] - grid.dx * _beyond(p[first], p[np.minimum(first + 1, last)])
+    b = x[last] + grid.dx * _beyond(p[last], p[np.maximum(last - 1, first)])
+    if chord.periodic:
+        a, b = one_period(a, b, chord.period)
+    return bounded(a, b, pieces, chord, tilt)
+
+
+def _beyond(outer: Array, inner: Array) -> Array:
+    """How many cells from the middle of an outer cell on p², linear to it, is zero."""
+    rise = inner**2 - outer**2
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return np.where(rise > 0.0, np.minimum(outer**2 / rise, BEYOND), 0.5)
 
 
 def attempted(start: Callable[[], State], pieces: Pieces, problem: Problem) -> Found | None:

@@ -2,7 +2,7 @@
 
 The pressure minimises ½∫p u + ∫p h under p >= 0 and ∫p = P (Polonsky & Keer 1999), with
 u = -1/(πG) ∫p ln|x - t| on the line and the harmonics p_k/(G|k|) per period; each product takes two
-FFTs. Edges are where p², linear next to a smooth edge, reaches zero.
+FFTs.
 """
 
 from __future__ import annotations
@@ -14,12 +14,6 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from sie.profiles.pieces import Pieces
-
-from .chord import Chord
-from .repairs import bounded, one_period
-from .state import State
-
 Array = NDArray[np.float64]
 
 COARSEST = 256  # cells
@@ -29,7 +23,6 @@ ITERATIONS, PRECONDITIONED = 400, 200  # on one grid
 # Steps from one look for overlaps to the next: new contact ends the conjugate directions, and in
 # noise some comes with every step
 SELDOM = 5
-BEYOND = 0.9  # of a cell: an edge is no farther from the middle of the outer cell
 LAST = 5e-5  # relative change of the pressure in a step, below which a grid is done
 
 
@@ -187,27 +180,3 @@ def _pressed_apart(system: System, p: Array, deep: Array, step: float, plain: bo
     if not plain:
         step = float(deep @ deep) / float(deep @ system.displaced(deep))
     return np.asarray(np.maximum(p - step * deep, 0.0))
-
-
-def touched(grid: Grid, pieces: Pieces, chord: Chord, tilt: float) -> State:
-    """The patches on a grid; per period they begin where the pressure is least."""
-    p, turn = grid.p, 0
-    if grid.periodic:
-        turn = int(np.argmin(p))
-        p = np.roll(p, -turn)
-        p[0] = 0.0  # a gap may be narrower than a cell
-    x = grid.x + grid.dx * turn
-    ends = np.flatnonzero(np.diff(p > 0.0, prepend=False, append=False))
-    first, last = ends[::2], ends[1::2] - 1
-    a = x[first] - grid.dx * _beyond(p[first], p[np.minimum(first + 1, last)])
-    b = x[last] + grid.dx * _beyond(p[last], p[np.maximum(last - 1, first)])
-    if chord.periodic:
-        a, b = one_period(a, b, chord.period)
-    return bounded(a, b, pieces, chord, tilt)
-
-
-def _beyond(outer: Array, inner: Array) -> Array:
-    """How many cells from the middle of an outer cell on p², linear to it, is zero."""
-    rise = inner**2 - outer**2
-    with np.errstate(divide="ignore", invalid="ignore"):
-        return np.where(rise > 0.0, np.minimum(outer**2 / rise, BEYOND), 0.5)

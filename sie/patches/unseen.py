@@ -27,9 +27,8 @@ from sie.profiles.look import (
 from sie.profiles.unresolved import misfit, start_of
 
 from .gap import overlaps
-from .newton import Found
 from .of_scene import Problem
-from .operator import Operator
+from .operator import Found, Operator
 from .state import Unseen
 from .window import whole_window
 

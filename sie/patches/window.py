@@ -9,8 +9,8 @@ from sie.errors import LoadError
 from sie.profiles.look import closer, may_touch, values
 from sie.profiles.look import falls as look_falls
 
-from .newton import Found
 from .of_scene import Problem
+from .operator import Found
 from .start import grid_pressure
 
 Array = NDArray[np.float64]

@@ -15,7 +15,7 @@ from sie.numerics import chebyshev
 from sie.numerics.root_finding import false_position
 
 from .pieces import root_bound
-from .profile_pieces import without_functions
+from .resolution import without_functions
 from .slope import Slope
 
 Array = NDArray[np.float64]

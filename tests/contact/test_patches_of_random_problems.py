@@ -237,9 +237,7 @@ def test_a_load_under_which_no_search_settles_is_refused_by_its_name(moment, mon
 
     monkeypatch.setattr(solver, "settled", astray)
     row = sie.Row([sie.Parabola(1.0), sie.Parabola(0.5).shifted(2.0).raised(0.1)])
-    with pytest.raises(
-        sie.LoadError, match=r"normal_load = 0\.6: .* change the load"
-    ) as error:
+    with pytest.raises(sie.LoadError, match=r"normal_load = 0\.6: .* change the load") as error:
         solver.contact(problem_of(sie.Scene(profile=row, modulus=2.0, normal_load=0.6, **moment)))
     assert ("or the moment" in str(error.value)) == bool(moment)
     assert len(calls) <= 3
