@@ -292,7 +292,8 @@ class Frictionless:
     @property
     def moment(self) -> float:
         """Moment of the pressure ∫p x dx about x = 0, force per length times length."""
-        return self.normal.edges.moment
+        several = self._several
+        return self.normal.edges.moment if several is None else several.moment
 
     @property
     def tilt(self) -> float:

@@ -68,14 +68,18 @@ def with_breaks(slope: Slope, places: tuple[float, ...]) -> Slope:
 
 def refuse_unresolved(edges: Edges, scene: Scene) -> None:
     """Raises LoadError where doubles cannot hold the contact."""
-    (x1, x2), r, P = edges.contact[:2], edges.contact.r, edges.normal_load
+    refuse_narrow(edges.contact.x1, edges.contact.x2)
+    refuse_out_of_scale(edges.contact.r, edges.normal_load, scene.Estar)
+
+
+def refuse_narrow(x1: float, x2: float) -> None:
+    """Raises LoadError for a contact in which doubles are too few to show the pressure."""
     apart = math.ulp(max(abs(x1), abs(x2)))
-    if not r >= PLACES * apart:
+    if not 0.5 * (x2 - x1) >= PLACES * apart:
         raise LoadError(
-            f"the contact at x = {edges.contact.m:.6g} is {2.0 * r:.6g} wide, where doubles are "
-            f"{apart:.2g} apart: {NEARER}"
+            f"the contact at x = {0.5 * (x1 + x2):.6g} is {x2 - x1:.6g} wide, where doubles are "
+            f"{apart:.2g} apart: raise the load, {NEARER}"
         )
-    refuse_out_of_scale(r, P, scene.Estar)
 
 
 def refuse_out_of_scale(r: float, load: float, Estar: float) -> None:

@@ -262,6 +262,10 @@ class FullContact:
     def patches(self) -> tuple[tuple[float, float], ...]:
         return self.pressure.patches
 
+    @property
+    def moment(self) -> float:
+        return self.pressure.moment
+
     def gap(self, x: Array) -> Array:
         """No gap anywhere."""
         return np.where(np.isnan(x), np.nan, 0.0)
@@ -303,5 +307,5 @@ def full_contact(
     if (pressure(np.append(corners - CLOSED * period, corners + CLOSED * period)) < 0.0).any():
         return None
     contact, level = Interval(start, start + period), (False, False)
-    edges = Edges(contact, load, pressure.moment, 0.0, level, 0.0, 0.0, 0.0, 0)
+    edges = Edges(contact, load, np.nan, 0.0, level, 0.0, 0.0, 0.0, 0)
     return FullContact(edges, pressure)
