@@ -84,18 +84,18 @@ class Parts(NamedTuple):
 
     def halved(self, kept: Bool) -> Parts:
         """The halves of those that are kept."""
-        panel, lo, hi = (np.repeat(v[kept], 2) for v in (self.panel, self.lo, self.hi))
+        lo, hi = np.repeat(self.lo[kept], 2), np.repeat(self.hi[kept], 2)
         lo[1::2] = hi[::2] = 0.5 * (lo + hi)[::2]
         opened = np.repeat(self.opened[kept], 2)
         opened[1::2] = False
-        return Parts(panel, lo, hi, opened)
+        return Parts(np.repeat(self.panel[kept], 2), lo, hi, opened)
 
     def followed(self, run: Index, rising: Bool) -> Bool:
         """`opened` of these parts, by the side (run) of each panel and what rises all over."""
         after = (self.lo[1:] == self.hi[:-1]) & (np.diff(run[self.panel]) == 0)
         begins = self.opened | ~np.concatenate(([False], after))
         first = np.maximum.accumulate(np.where(begins, np.arange(len(begins)), 0))
-        before = np.cumsum(~rising) - ~rising
+        before: Index = np.cumsum(~rising) - ~rising
         return np.asarray(self.opened[first] & (before == before[first]))
 
 
