@@ -128,7 +128,8 @@ def plan(
     steps = (
         *normal(scene, economy),
         _tilt(scene),
-        *_pressure(scene, "pressure" in stages, economy),
+        _pressure(scene, "pressure" in stages, economy),
+        _convexity(scene, economy),
         _coupling(scene),
         _slip(scene, "tangential" in stages, economy),
         _corrective(scene, economy),
@@ -288,17 +289,9 @@ def _tilt(scene: Scene) -> Step:
     return Step("tilt", not given, f"given: {scene.tilt:g}" if given else how)
 
 
-def _pressure(scene: Scene, asked: bool, economy: Collection[str]) -> tuple[Step, Step]:
-    """The steps of the pressure and of its inequalities."""
-    name, how = "inequalities", _expansion(scene, economy)
-    if scene.profile.convex and "convexity" in economy:
-        convex = "the profile is convex: p > 0 and gap > 0 follow"
-        return _if_asked("pressure", asked, how, "pressure"), Step(name, False, convex, name)
-    why = NO_ECONOMY if scene.profile.convex else "the profile is not known to be convex"
-    verified = Step(name, True, f"{why}: p >= 0 and gap >= 0 are verified", name)
-    if asked:
-        return Step("pressure", True, how, "pressure"), verified
-    return Step("pressure", True, f"needed for the inequalities: {how}"), verified
+def _pressure(scene: Scene, asked: bool, economy: Collection[str]) -> Step:
+    how = _expansion(scene, economy)
+    return _if_asked("pressure", asked, how, "pressure")
 
 
 def _expansion(scene: Scene, economy: Collection[str]) -> str:
@@ -313,6 +306,17 @@ def _expansion(scene: Scene, economy: Collection[str]) -> str:
     if upright_law(scene, economy) is not None:
         return "two series of a power law"
     return "exact panels on the pieces in the contact; one DCT if no break falls inside"
+
+
+def _convexity(scene: Scene, economy: Collection[str]) -> Step:
+    name, stage, profile = "convexity", "rises", scene.profile
+    if asks_for_patches(profile):
+        return Step(name, False, "not asked: patches are found whatever the profile", stage)
+    if profile.convex and "convexity" in economy:
+        return Step(name, False, "the profile is known to be convex: one patch, p > 0", stage)
+    unknown = "the profile is not known to be convex"
+    why = "economy is switched off" if profile.convex else unknown
+    return Step(name, True, f"{why}: one patch where h' rises, otherwise as patches", stage)
 
 
 # -- then the shear --------------------------------------------------------------------------------

@@ -7,7 +7,7 @@ contact without shear is in `frictionless`, the stress in the body in `stress_an
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Sequence
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING, Any, cast
@@ -19,7 +19,7 @@ from . import arguments
 from .contact.known_contact import Edges, Normal
 from .contact.normal import contact_under
 from .contact.pressure import pressure
-from .errors import ContactError, InequalityError, LoadError
+from .errors import ContactError
 from .frictionless import Frictionless
 from .numerics.interval import Interval
 from .problem.coverage import held_moment, refuse_uncovered, uneven_under_shear
@@ -124,7 +124,7 @@ class Solution(Frictionless, StressAnswers):
         if not scene.profile.convex:
             P, b = scene.normal_load, scene.half_width
             plain = Scene(profile=scene.profile, modulus=scene.Estar, normal_load=P, half_width=b)
-            _ = Frictionless(plain, self.tol).as_one_patch
+            _ = Frictionless(plain, self.tol).grown_as_one_patch
         edges, state = coupled_contact(scene, self._frictionless)
         lever = edges.normal_load * edges.contact.r
         if scene.moment is not None and abs(edges.moment - scene.moment) > BALANCED * lever:
@@ -171,10 +171,8 @@ class Solution(Frictionless, StressAnswers):
 
         Raises
         ------
-        InequalityError
-            If one patch of contact would need tension, or would overlap the body elsewhere.
-        LoadError
-            If the profile carries no such load in one patch.
+        ContactError
+            If the profile carries no such load.
         """
         if self.scene.bonded:
             from .friction.full_stick import Component
@@ -257,16 +255,36 @@ class Solution(Frictionless, StressAnswers):
         if self._several is None:
             from .friction.partial_slip import slip
 
-            try:
-                return slip(self.load_step(*loads, near), one_sign)
-            except (InequalityError, LoadError):  # the stick zones may be several
-                if self.scene.profile.convex:
-                    raise
+            step = self.load_step(*loads, near)
+            if self.convex or self._sticks_in_one_patch(step):
+                return slip(step, one_sign)
         from .patches.friction import PatchSlip
 
         state = PatchSlip(self.scene, self.in_patches, loads, under)
         _ = state.corrective
         return state
+
+    def _sticks_in_one_patch(self, step: Step) -> bool:
+        """Whether the stick zone of slip in one direction is one patch; there may be none."""
+        from .friction.partial_slip import corrective_loads
+
+        f, Q = self.scene.friction, step.Q
+        slides = not 0.0 < abs(Q) < f * step.normal_load
+        if slides or math.pi * step.pressure.contact.r * abs(step.tau) > abs(Q):
+            return True
+        loads = corrective_loads(step, math.copysign(1.0, Q))
+        return isinstance(self._contact_under(*loads).normal, Normal)
+
+    def _contact_under(self, load: float, tilt: float) -> Frictionless:
+        """The contact of the profile under another load and tilt, kept."""
+        if (load, tilt) not in self._others:
+            plain = self._without_shear(load, tilt)
+            self._others[load, tilt] = Frictionless(plain, self.tol, self.economy)
+        return self._others[load, tilt]
+
+    @cached_property
+    def _others(self) -> dict[tuple[float, float], Frictionless]:
+        return {}
 
     def load_step(self, Q: float, tau: float, near: Interval | None = None) -> Step:
         """The load Q and the strain τ on this contact of one patch.
@@ -289,9 +307,11 @@ class Solution(Frictionless, StressAnswers):
         from .friction.slip_state import Step
 
         scene, tol, economy, normal = self.scene, self.tol, self.economy, self.as_one_patch
-        under = partial(
+        under: Callable[[float, float], Normal] = partial(
             contact_under, scene=scene, tol=tol, economy=economy, near=near, seen=normal.seen
         )
+        if not self.convex:
+            under = lambda load, tilt: self._contact_under(load, tilt).as_one_patch  # noqa: E731
         on = partial(pressure, scene=scene, tol=tol, economy=economy)
         return Step(scene, normal, self.slope_density, Q, tau, tol, economy, under, on)
 
@@ -346,7 +366,7 @@ class Solution(Frictionless, StressAnswers):
             return of_memory(cast("GoodmanSlip", self.tangential), self.scene, self.tol)
         from .certificate.shear_check import shear_certificate
 
-        p: Density = self.in_patches.pressure if of_pressures else self.pressure
+        p: Density = self.pressure
         tol = min((c.tol for c in of_pressures), default=self.tol)
         state, slope = self.tangential, self._slope
         return shear_certificate(state, p, self._loads, slope, tol=tol, of_pressures=of_pressures)

@@ -11,7 +11,6 @@ import numpy as np
 
 from sie.arguments import as_numbers
 
-GRADING = 0.4  # parts of a panel shrink towards its ends by this factor
 LEAST = 8.0 * float(np.finfo(float).eps)
 WIDE = 79
 CLOSE = 1e4  # condition from which a patch is about to appear, or two to merge

@@ -11,7 +11,7 @@ from oracles import normal_contact
 from oracles.normal_contact import mp
 from sie.certificate import pressure_check, quadrature, result
 from sie.certificate.result import BESIDES, PROMISE
-from sie.contact import gap, inequalities, normal
+from sie.contact import gap, least_gaps, normal
 from sie.numerics.interval import interval_about
 from sie.profiles import unresolved
 from sie.traction import on_panels
@@ -389,7 +389,7 @@ def test_a_gap_that_opens_everywhere_is_not_integrated(monkeypatch):
     def refuse(*_):
         raise AssertionError("integrated")
 
-    monkeypatch.setattr(inequalities, "gap", refuse)
+    monkeypatch.setattr(least_gaps, "gap", refuse)
     powers = sie.Power(1.001, 0.75), sie.Power(2.5, 0.75), sie.Power(60.0, 0.75)
     for profile in (
         sie.Parabola(1.0),
@@ -410,7 +410,7 @@ def test_the_certificate_of_a_power_resolves_no_function(exponent, monkeypatch):
 
     profile = sie.Power(exponent, 0.75).shifted(0.7)
     solution = solved(profile)
-    for module in (pressure_check, inequalities, quadrature, gap, on_panels):
+    for module in (pressure_check, quadrature, gap, on_panels):
         monkeypatch.setattr(module, "refined", refuse)
     assert solution.check().ok
 

@@ -190,7 +190,7 @@ def test_the_error_does_not_depend_on_the_units():
 
 def test_a_report_solves_no_contact(monkeypatch):
     solution = solved(sie.Sampled(X, 0.5 * (X**2 + 1e-4 * white(5)), "gcv"))
-    before = solution.edges
+    before, _ = solution.edges, solution.pressure
     monkeypatch.setattr("sie.frictionless.normal_contact", None)
     monkeypatch.setattr("sie.frictionless.pressure", None)
     assert solution.trace_reports()[0].points == 401

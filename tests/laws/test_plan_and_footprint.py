@@ -12,7 +12,7 @@ from hypothesis import given
 
 import sie
 
-STAGES = {"bonded", "normal", "pressure", "inequalities", "tangential", "tractions", "certificate"}
+STAGES = {"bonded", "normal", "pressure", "rises", "tangential", "tractions", "certificate"}
 ECONOMIES = ("symmetry", "transform", "zero panels", "convexity", "shear", "sliding")
 SHEARED = {
     "profile": sie.RoundedFlat(1.0, 2.0), "modulus": 1.0, "normal_load": 1.0, "friction": 0.5,

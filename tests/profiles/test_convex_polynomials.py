@@ -28,10 +28,10 @@ def test_an_odd_term_without_an_even_one_on_each_side_is_not_known_to_be_convex(
     assert not of_curvature(*curvature).convex
 
 
-def test_a_polynomial_known_to_be_convex_is_solved_without_a_search_for_other_patches(monkeypatch):
-    looked, rises = [], sie.frictionless.slope_rises
+def test_a_polynomial_known_to_be_convex_is_solved_without_a_look_at_its_slope(monkeypatch):
+    looked, rises = [], sie.frictionless.rises
     counted = lambda *given: looked.append(1) or rises(*given)  # noqa: E731
-    monkeypatch.setattr(sie.frictionless, "slope_rises", counted)
+    monkeypatch.setattr(sie.frictionless, "rises", counted)
     for first, scenes in ((0.3, 0), (3.0, 1)):
         profile = of_curvature(1.0, first, 1.0)
         solution = sie.solve(sie.Scene(profile=profile, modulus=1.0, normal_load=0.3))

@@ -14,8 +14,8 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from sie.contact.inequalities import TOLERATED
 from sie.contact.known_contact import Edges
+from sie.contact.least_gaps import TOLERATED
 from sie.numerics.root_finding import false_position
 from sie.problem.coverage import refused_load, refused_slip
 from sie.problem.scene import Scene
