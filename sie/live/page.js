@@ -301,10 +301,10 @@ async function update() {
     element("pictures").classList.remove("stale");
     const stress = await answer(values, "stress", turn);
     if (turn !== latest) return;
-    say(stress.refusal || "");
     showStress({ ...stress, frame: contact.frame });
     const strength = stress.refusal ? stress : await answer(values, "strength", turn);
     if (turn !== latest) return;
+    say(strength.refusal || "");
     showStrength(strength, contact);
     document.body.dataset.shown = document.body.dataset.settled = turn;
   } catch (error) {
