@@ -17,12 +17,12 @@ from sie.io.scene_file import Units
 
 from . import teaching
 from .controls import ROUNDED, SAVED, SHAPES
-from .frame import Array, frame_of, indenter, inside, mises, surface, tops, words
+from .frame import Array, frame_of, inside, mises, surface, tops, words
 from .setting import Setting, sliders, solution_of
 
 NODES = (4, 8, 16, 32, 64, 128)
 ALL_DIGITS = 1e-12  # of the textbook's error: what is left is rounding
-GROUND, ARC = 64, 25  # points of the surface and of a zone's line
+GROUND = 81  # points of the surface
 LEVELS = 1000  # of heights, over that of the frame
 
 Answer = dict[str, Any]
@@ -124,28 +124,21 @@ def _intervals(zones: Any, digits: int) -> str:
     return ", ".join(f"[{lo:.{digits}g}, {hi:.{digits}g}]" for lo, hi in zones)
 
 
-def _zones(solution: Solution) -> list[dict[str, Any]]:
-    """Lines on the surface, each of a kind: stick, slip or, without friction, smooth."""
-    stick = list(solution.stick)
+def _zones(solution: Solution) -> list[tuple[float, float, str]]:
+    """The ends of the zones of the contact: stick, slip or, without friction, smooth."""
     rest = "slip" if solution.scene.friction else "smooth"
-    zones = [(lo, hi, "stick") for lo, hi in stick]
+    zones = [(lo, hi, "stick") for lo, hi in solution.stick]
     for lo, hi in solution.patches:
-        marks = [lo, *(end for zone in stick if lo <= zone[0] <= hi for end in zone), hi]
+        marks = [lo, *(end for zone in solution.stick if lo <= zone[0] <= hi for end in zone), hi]
         zones += [(a, b, rest) for a, b in zip(marks[::2], marks[1::2], strict=True) if b > a]
-    return [_line(solution, *zone) for zone in zones]
-
-
-def _line(solution: Solution, lo: float, hi: float, kind: str) -> dict[str, Any]:
-    x = np.linspace(lo, hi, ARC)
-    x = x[np.isfinite(indenter(solution, x))]  # its corner may be an edge
-    return {"kind": kind, "x": _rounded(x), "y": _rounded(indenter(solution, x))}
+    return [(_number(lo), _number(hi), kind) for lo, hi, kind in zones]
 
 
 def _stress(setting: Setting, solution: Solution, word: dict[str, str]) -> Answer:
     values, top = mises(solution, frame_of(setting.shape, setting.file))
     levels = np.clip(np.rint(values / top * 255), 0, 255).astype(np.uint8)
-    # Differences of neighbours pack into less than the levels themselves.
-    steps = np.diff(levels, axis=1, prepend=np.uint8(0))
+    # Differences along both axes pack into less than the levels themselves.
+    steps = np.diff(np.diff(levels, axis=1, prepend=np.uint8(0)), axis=0, prepend=np.uint8(0))
     return {"steps": base64.b64encode(steps.tobytes()).decode(), "top": _number(top)}
 
 

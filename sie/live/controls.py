@@ -18,7 +18,7 @@ SHAPES = {
     WEDGE: Wedge(0.01),
     "two parabolas": Row([Parabola(1.0).shifted(-0.011), Parabola(0.5).shifted(0.011)]),
 }
-ACROSS, DOWN = 97, 61  # points of the picture of the stress, which the page refines
+ACROSS, DOWN = 81, 51  # points of the picture of the stress, which the page refines
 DEPTH = 0.62  # of that picture over its width
 
 

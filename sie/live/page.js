@@ -154,14 +154,17 @@ function drawPunch(a) {
   const punch = heights(solid.map(([, k]) => a.punch[k]));
   const xs = solid.map(([x]) => x);
   fill("punch", { x: [xs[0], ...xs, xs.at(-1)], y: [high, ...punch, high] });
-  const color = a.zones.map((zone) => inks(zone.kind));
-  fill("zones", { xs: a.zones.map((z) => z.x), ys: a.zones.map((z) => z.y), color });
-  fill("bars", { lo: a.zones.map((z) => z.x[0]), hi: a.zones.map((z) => z.x.at(-1)), color });
-  drawArrows(a.loads, body[nearest(a.ground, a.loads.at)]);
+  const color = a.zones.map(([, , kind]) => inks(kind));
+  const places = a.zones.map(([lo, hi]) => [lo, ...a.ground.filter((x) => x > lo && x < hi), hi]);
+  fill("zones", { xs: places, ys: places.map((xs) => xs.map((x) => between(a.ground, body, x))), color });
+  fill("bars", { lo: a.zones.map(([lo]) => lo), hi: a.zones.map(([, hi]) => hi), color });
+  drawArrows(a.loads, between(a.ground, body, a.loads.at));
 }
 
-function nearest(places, x) {
-  return places.reduce((best, place, k) => (Math.abs(place - x) < Math.abs(places[best] - x) ? k : best), 0);
+// The value at x of the line through points.
+function between(xs, ys, x) {
+  const k = Math.max(1, xs.findIndex((place) => place >= x));
+  return ys[k - 1] + ((ys[k] - ys[k - 1]) * (x - xs[k - 1])) / (xs[k] - xs[k - 1]);
 }
 
 function drawArrows(loads, ground) {
@@ -238,6 +241,7 @@ function showStress(a) {
 
 function levelsOf(steps) {
   const levels = Uint8Array.from(atob(steps), (c) => c.charCodeAt(0));
+  for (let k = page.across; k < levels.length; k++) levels[k] += levels[k - page.across];
   for (let k = 1; k < levels.length; k++) if (k % page.across) levels[k] += levels[k - 1];
   return levels;
 }
@@ -297,10 +301,10 @@ async function update() {
     element("pictures").classList.remove("stale");
     const stress = await answer(values, "stress", turn);
     if (turn !== latest) return;
-    say(stress.refusal || "");
     showStress({ ...stress, frame: contact.frame });
     const strength = stress.refusal ? stress : await answer(values, "strength", turn);
     if (turn !== latest) return;
+    say(strength.refusal || "");
     showStrength(strength, contact);
     document.body.dataset.shown = document.body.dataset.settled = turn;
   } catch (error) {

@@ -42,7 +42,7 @@ def test_the_page_shows_what_the_solver_answers(shape):
     found = np.array(shown["p"][inside])
     # x has five digits on the page
     assert np.abs(found - exact)[finite].max() < 0.01 * exact[finite].max()
-    stick = [(zone["x"][0], zone["x"][-1]) for zone in shown["zones"] if zone["kind"] == "stick"]
+    stick = [(lo, hi) for lo, hi, kind in shown["zones"] if kind == "stick"]
     assert np.allclose(stick, solution.stick, rtol=1e-4)
 
 
@@ -54,16 +54,11 @@ def test_an_answer_is_json_without_nan_or_infinity(shape, part):
 
 
 @pytest.mark.parametrize("share", [0.0, 0.6, 1.0])
-def test_the_zones_cover_the_contact_and_lie_on_the_indenter(share):
+def test_the_zones_cover_the_contact(share):
     setting = Setting(shape="two parabolas", share=share)
     zones, solution = answer(setting, "contact")["zones"], sie.solve(setting.scene)
-    assert math.isclose(
-        sum(zone["x"][-1] - zone["x"][0] for zone in zones),
-        sum(hi - lo for lo, hi in solution.patches),
-        rel_tol=1e-3,
-    )
-    for zone in zones:
-        assert np.allclose(zone["y"], solution.scene.profile.height(np.array(zone["x"])), atol=1e-8)
+    covered = sum(hi - lo for lo, hi, _ in zones)
+    assert math.isclose(covered, sum(hi - lo for lo, hi in solution.patches), rel_tol=1e-3)
 
 
 @pytest.mark.parametrize("name", FILES)
@@ -102,7 +97,8 @@ def test_the_picture_of_the_stress_is_that_of_the_solver():
     setting = Setting(shape="parabola")
     shown, frame = answer(setting, "stress"), frame_of("parabola", None)
     steps = np.frombuffer(base64.b64decode(shown["steps"]), np.uint8).reshape(DOWN, ACROSS)
-    found = np.cumsum(steps, axis=1, dtype=np.uint8) / 255.0 * shown["top"]
+    levels = np.cumsum(np.cumsum(steps, axis=0, dtype=np.uint8), axis=1, dtype=np.uint8)
+    found = levels / 255.0 * shown["top"]
     exact = sie.solve(setting.scene).stress(frame.columns[None, :], frame.rows[:, None]).mises
     assert np.abs(found - np.minimum(exact, shown["top"])).max() < shown["top"] / 400
 
@@ -298,7 +294,7 @@ sys.exit(main(sys.argv[1:]))
         try:
             address = running.stdout.readline().split()[0]
             with urllib.request.urlopen(address + "answer?friction=0.5&share=0.5") as reply:
-                assert "stick" in {zone["kind"] for zone in json.load(reply)["zones"]}
+                assert "stick" in {kind for _, _, kind in json.load(reply)["zones"]}
         finally:
             running.send_signal(signal.SIGINT)
         assert running.wait(timeout=60) == 130
