@@ -19,10 +19,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from sie import arguments
 from sie.numerics import chebyshev
+from sie.numerics.chord import Points
 from sie.progress_bar import reported
 from sie.traction.base import Density, in_order, on_surface, reflected, refuse_side, zero_or_nan
 
-from .chord import Points
 from .measure import Targets
 from .operator import Operator, at_edges, blocks, on_patches
 from .panels import graded

@@ -20,12 +20,12 @@ from numpy.typing import ArrayLike, NDArray
 from sie import arguments
 from sie.contact.known_contact import Edges
 from sie.numerics import chebyshev
+from sie.numerics.chord import Chord, Points
 from sie.numerics.interval import Interval
 from sie.profiles.pieces import Pieces
 from sie.traction.base import Density, refuse_side, zero_or_nan
 
 from .bounds import DEEPEST, NODES, TENSION, halves, lower_bound
-from .chord import Chord, Points
 from .density import NARROW, by_circle, potential_of
 from .measure import NEAR
 from .panels import Patches

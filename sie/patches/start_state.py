@@ -7,9 +7,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from sie.numerics.chord import Chord
 from sie.profiles.pieces import Pieces
 
-from .chord import Chord
 from .of_scene import Problem
 from .repairs import apart, bounded, one_period
 from .start import FEW, Grid, Patch, patches_on

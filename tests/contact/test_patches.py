@@ -11,8 +11,8 @@ from strategies import between, log_between
 
 import sie
 from analytic import flat_row, two_parabolas, wavy
+from sie.numerics.chord import Chord, Points
 from sie.patches import certificate
-from sie.patches.chord import Chord, Points
 from sie.patches.of_scene import problem_of
 from sie.patches.operator import Operator
 from sie.patches.panels import Patches

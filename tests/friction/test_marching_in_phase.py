@@ -10,7 +10,6 @@ from marched_cases import (
     TRAVELLING,
     TURNED,
     UNTIL_STUCK,
-    all_marched,
     followed,
     inside,
     parts_of,
@@ -20,10 +19,6 @@ from marched_cases import (
 import sie
 from oracles.kalker import Mesh
 from oracles.load_history import history as on_a_mesh
-from sie.friction.load_history import marching
-from sie.friction.load_history.joined_zones import joined
-from sie.friction.load_history.receding_step import Receded
-from sie.friction.load_history.slip_rates import SlipRates
 
 OPPOSITE = [(1, 0, 0), (0.8, 0.05, 0.5)]
 # Slip in two directions while the contact grows.
@@ -40,7 +35,7 @@ def test_loads_that_return_in_phase_bring_back_the_shear_that_they_left():
     """An edge that grew and stuck slips as it retreats, until it is where it was."""
     first, grown, again = followed(HERTZ, IN_PHASE)[1:]
     x = inside(first)
-    assert grown.history.turning_points[2].marched and grown.history.turning_points[3].marched
+    assert grown.history.turning_points[2].parts and grown.history.turning_points[3].parts
     assert again.shear(x) == pytest.approx(first.shear(x), abs=1e-9 * f)
 
 
@@ -70,16 +65,6 @@ def test_a_second_zone_of_slip_joins_the_first_one_as_loads_return_in_phase():
     assert state.check().ok
 
 
-@pytest.mark.parametrize("earlier", [1e-6, 1e-5])
-def test_zones_that_join_leave_the_same_state_from_whenever_it_is_sought(earlier):
-    before, after = parts_of(followed(HERTZ, RETURNS)[-1])
-    begun = before.share - earlier
-    again = joined(before.until(begun).held, after.change, after.signs, (begun, after.share))
-    x = np.linspace(*after.kept_in(after.before.pressure.contact)[0], 43)[1:-1]
-    assert again.stick.x1 == pytest.approx(after.stick.x1, abs=1e-9)
-    assert again.shear(x) == pytest.approx(after.shear(x), abs=1e-9 * f)
-
-
 @pytest.mark.slow
 def test_a_mesh_tends_to_the_shear_after_two_zones_of_slip_have_joined(monkeypatch):
     """For so long a part only the force of what came into contact is known well."""
@@ -106,7 +91,7 @@ def caught_up():
 
 @pytest.mark.slow
 def test_slip_turns_where_an_edge_of_contact_catches_up_with_its_zone(caught_up):
-    before, after = caught_up.history.turning_points[2].marched
+    before, after = caught_up.history.turning_points[2].parts
     assert before.signs == (-1.0, 1.0) and after.signs == (1.0, 1.0)
     assert 0.0 < before.stick.x1 - before.pressure.contact.x1 < 1e-5
     assert caught_up.check().ok
@@ -130,29 +115,13 @@ DETOUR = [(1, 0, 0), (1.2, 0.1, 0.05), (0.9, -0.05, -0.025)]
 
 
 @pytest.mark.slow
-def test_a_detour_that_sticks_costs_no_energy_and_few_states(monkeypatch):
-    """The rest of the way slips as the straight way does, which layers answer."""
-    states, power = [], SlipRates.power
-
-    def counted(self, pressure, stick):
-        states.append(stick)
-        return power(self, pressure, stick)
-
-    monkeypatch.setattr(SlipRates, "power", counted)
-    detour, straight = (sie.follow(HERTZ, path_of(p)) for p in (DETOUR, DETOUR[::2]))
-    assert detour.turning_points[2].marched and not straight.turning_points[1].marched
-    assert detour[-1].energy_lost == pytest.approx(straight[-1].energy_lost, rel=1e-9)
-    assert len(states) < 300
-
-
-@pytest.mark.slow
 def test_an_end_next_to_the_mark_where_loads_return_balances_them_to_rounding():
     """What the equations miss there has another slope beyond the mark."""
     profile = sie.Polynomial((0.0, 0.05, 1.0, 0.4, 0.6))
     scene = sie.Scene(profile=profile, modulus=2.0, normal_load=0.375, friction=0.5, tilt=0.02)
     most, least = (0.3491272, -0.0438307, -0.1277112), (0.3724127, -0.00438307, -0.01277112)
     path = sie.Path([(0.375, 0, 0), most, least, most])
-    part = sie.follow(scene, path).turning_points[-1].marched[-1]
+    part = sie.follow(scene, path).turning_points[-1].parts[-1]
     assert max(part.until(part.share - rest).error for rest in (1e-7, 2.2e-8)) < 1e-13
 
 
@@ -187,29 +156,6 @@ def test_a_mesh_tends_to_the_slip_of_new_points_and_the_shift(points):
     (slip, shift), (finer_slip, finer_shift) = errors
     assert finer_slip < 0.7 * slip < 0.7 * 0.02
     assert finer_shift < 0.7 * shift < 0.7 * 0.05
-
-
-@pytest.mark.parametrize(
-    ("run", "points"),
-    [(followed, TOGETHER), (all_marched, APART)],
-    ids=["one direction", "two directions"],
-)
-def test_the_slip_at_an_edge_is_the_integral_over_the_zone_of_slip(run, points):
-    part = run(LOPSIDED, points).turning_points[-1].marched[-1]
-    for state in (part.until(0.01), part.until(0.9)):
-        along = state.slip(np.array(state.pressure.interval))
-        assert [state.slip_at_edge(k) for k in (0, 1)] == pytest.approx(along, rel=1e-10)
-
-
-def test_no_zone_of_slip_on_the_way_is_opened_for_points_that_come_into_contact(monkeypatch):
-    history = followed(LOPSIDED, TOGETHER)
-    opened, on_one_side = [], Receded._on_one_side
-    monkeypatch.setattr(Receded, "_on_one_side", lambda *at: opened.append(at) or on_one_side(*at))
-    (_, x2), (_, wider) = history[2].edges, history[3].edges
-    history[3].slip(x2 + (wider - x2) * np.linspace(0.1, 0.9, 5))
-    assert {part for part, *_ in opened} <= {
-        part for point in history.turning_points for part in point.marched
-    }
 
 
 # -- what is told ----------------------------------------------------------------------------------
