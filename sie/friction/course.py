@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -54,6 +55,12 @@ class Part:
     def stuck(self) -> Ends:
         """What stuck all along."""
         return self.state.stick
+
+    @cached_property
+    def equations(self) -> Equations:
+        """Those that the state solves."""
+        signs = tuple(s for *_, s in self.state.slip)
+        return Equations(self.before, self.state.contact, Zones(self.state.stick, signs))
 
 
 def course(before: State, step: LoadStep) -> tuple[Part | StripPart, ...]:

@@ -1,49 +1,33 @@
-"""The slip in a part of a step, and what it shifts the indenter.
-
-With the potential of the change, (E*/2) dΔg/dx = Re F - Δτ = T_k PV Ψ_k beside the stick zones, and
-D on strips. Beside a stick zone it is fitted on panels and integrated from the end of the zone: an
-end that receded stuck all along, one that gained a strip slipped by the integral of D before.
-"""
+"""The slip in a part of a step, and what it shifts the indenter."""
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
 from numpy.polynomial.chebyshev import chebval, chebvander
 from numpy.typing import NDArray
 
 from sie.errors import ContactError
-from sie.numerics.graded_panels import Pieces, Rule
+from sie.numerics.graded_panels import Rule
 
 from .course import Part
-from .finite_step import Equations, Gap, Zones
+from .finite_step import Equations
+from .gained_slip import GainedSlip
 from .loading import LoadStep
 from .state import SAME, intervals, united
-from .step_energy import Way, work_of_finite_part, work_of_panel
+from .step_energy import Way
 from .strip_part import StripPart
-from .strips import TAU, StripEquations
+from .strips import TAU
 
 Array = NDArray[np.float64]
 
 HALVINGS = 52  # of the time at which a place comes into contact
 
 
-def work(part: Part | StripPart, step: LoadStep) -> float:
-    """The energy that friction dissipates."""
-    scaled = (
-        work_of_panel(part.panel)
-        if isinstance(part, StripPart)
-        else work_of_finite_part(part.before, part.state, step, (part.begun, part.until))
-    )
-    return scaled * 2.0 / step.contacts.scene.Estar
-
-
 def slip(part: Part | StripPart, step: LoadStep, x: Array) -> Array:
     """The slip at places (1-d); at one that came into contact in the part, since then."""
-    found = _Slip(_equations(part)).at(x)
+    found = GainedSlip(part.equations).at(x)
     old, new = (part.before.contact.patches, part.state.contact.patches)
     touches, touched = _within(x, new), _within(x, old)
     gained = touches & ~touched
@@ -67,13 +51,6 @@ def drag(part: Part | StripPart) -> float:
     return float(-(change @ log) + math.pi * (new.tau - old.tau) * x_s)
 
 
-def _equations(part: Part | StripPart) -> Equations:
-    if isinstance(part, StripPart):
-        return part.equations
-    signs = tuple(s for *_, s in part.state.slip)
-    return Equations(part.before, part.state.contact, Zones(part.state.stick, signs))
-
-
 def _within(x: Array, patches: tuple[tuple[float, float], ...]) -> NDArray[np.bool_]:
     out = np.zeros(x.shape, dtype=bool)
     for lo, hi in patches:
@@ -87,85 +64,6 @@ def _stuck_all_along(part: Part | StripPart) -> float:
         raise ContactError("no point stuck all along: how far slip shifts is not covered")
     lo, hi = max(part.stuck, key=lambda zone: zone[1] - zone[0])
     return 0.5 * (lo + hi)
-
-
-# -- the slip of places ----------------------------------------------------------------------------
-
-
-@dataclass(eq=False)
-class _Slip:
-    """(E*/2) Δg from a place that stuck all along, where equations are solved."""
-
-    equations: Equations
-
-    def at(self, x: Array) -> Array:
-        total = np.zeros(x.shape)
-        for lo, hi, pieces in [*self.beside, *self.strips]:
-            inside = (x >= lo) & (x <= hi)
-            total[inside] = pieces(x[inside])
-        return total
-
-    @cached_property
-    def at_ends(self) -> dict[float, float]:
-        """Δg at the ends of the stick zones."""
-        found = dict.fromkeys(self.equations.stick.ravel().tolist(), 0.0)
-        for lo, hi, pieces in self.strips:
-            for e in (lo, hi):
-                if e in found:
-                    found[e] = float(pieces(np.array([e]))[0])
-        return found
-
-    @cached_property
-    def strips(self) -> list[tuple[float, float, Pieces]]:
-        """The integral of D over each strip, from its beginning."""
-        now, found = self.equations, []
-        if not isinstance(now, StripEquations):
-            return []
-        for strip, c in zip(now.strips, now.series, strict=True):
-            lo, hi = strip.reaches(float(now.stick.ravel()[strip.j]))
-            places = Pieces.places(np.array([[lo, hi]]))
-            whole = Pieces.integral(places, c @ strip.basis(places))
-            if strip.outward < 0.0:
-                whole.series[..., 0] -= whole.last
-            found.append((lo, hi, whole))
-        return found
-
-    @cached_property
-    def beside(self) -> list[tuple[float, float, Pieces]]:
-        """Δg on each slip zone."""
-        now, found = self.equations, []
-        for lo, hi, s in now.slip:
-            ends = now.rule.ends
-            places = Pieces.places(ends[(ends[:, 0] >= lo) & (ends[:, 1] <= hi)])
-            whole = Pieces.integral(places, self._strain(places, s))
-            if lo in self.at_ends:
-                start = self.at_ends[lo]
-            elif hi in self.at_ends:
-                start = self.at_ends[hi] - whole.last
-            else:
-                start = self._across_gap(lo, hi, whole.last)
-            whole.series[..., 0] += start
-            found.append((lo, hi, whole))
-        return found
-
-    def _strain(self, places: Rule, sense: float) -> Array:
-        """Re F - Δτ at places in a slip zone."""
-        now = self.equations
-        middle = 0.5 * float(places.ends.min() + places.ends.max())
-        k = int(np.abs(now.stick - middle).min(axis=1).argmin())
-        root = now.chord(places.apart(now.centres[k])) * now.ratios(places.apart)
-        change = sense * now.after.limit.on(places) - now.before.shear.on(places)
-        found: Array = root * now.psi(k, places, change / root)
-        return found
-
-    def _across_gap(self, lo: float, hi: float, across: float) -> float:
-        """Δg at the left edge of a patch that slides as a whole, from the nearest stick zone."""
-        now, ends = self.equations, self.equations.stick.ravel()
-        if (ends < lo).any():
-            e = float(ends[ends < lo].max())
-            return self.at_ends[e] + now.over(Gap(e, lo))
-        e = float(ends.min())
-        return self.at_ends[e] - now.over(Gap(hi, e)) - across
 
 
 # -- places that come into contact -----------------------------------------------------------------
@@ -189,7 +87,8 @@ def _slip_at_touch(part: Part | StripPart, step: LoadStep, x: Array) -> Array:
             if outward and gained.any():
                 edges = [equations.after.patches[k][side] for equations in moments]
                 slips = [
-                    _Slip(equations).at(np.array([e]))[0] for equations, e in zip(moments, edges)
+                    GainedSlip(equations).at(np.array([e]))[0]
+                    for equations, e in zip(moments, edges)
                 ]
                 tau = _time_at(_series([was[side], *edges]), x[gained], side == 1)
                 found[gained] = chebval(2.0 * tau - 1.0, _series([0.0, *slips]))
@@ -200,7 +99,7 @@ def _moments(part: Part | StripPart, step: LoadStep) -> list[Equations]:
     """The equations at the moments of a part."""
     if isinstance(part, StripPart):
         return list(part.panel.equations)
-    way = Way.back(part.before, part.state, step, (part.begun, part.until))
+    way = Way.back(part, step)
     shares = part.begun + (part.until - part.begun) * TAU[1:] ** 2
     return [way.equations(float(share)) for share in shares[::-1]][::-1]
 

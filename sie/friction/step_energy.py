@@ -1,9 +1,18 @@
 """The energy that friction dissipates in a part of a step: ∫ dt ∫ f p |dg/dt| dx.
 
-The power follows from the zones at a moment (`rates`). On a strip part they are known at its
-moments, where Clenshaw and Curtis integrate 2 T τ dτ. In a finite part each moment is a finite step
-from the start of it; the zones move smoothly but where an end passes a mark of the shear, at which
-the time is cut. On each piece t = t_a + (t_b - t_a) sin²(πv/2), with Gauss nodes in v.
+Each place slips in one direction, so that by parts, with Δg since the start of the part,
+
+    W = ∫ f p₁ |Δg₁| dx - ∫ dt ∫ f dp/dt |Δg| dx,
+
+where p = 0 at a place that comes into contact or leaves it. The second integral is 0 under constant
+pressure. Its integrand is continuous in time even where zones leap, as they do where the loads come
+back to what they were. On a strip part the zones are known at its moments, where Clenshaw and
+Curtis integrate 2 T τ dτ. In a finite part each moment is a finite step from the start of it. Time
+is cut where an end passes a mark of the shear, and on each piece t = t_a + (t_b - t_a) sin²(πv/2).
+
+A slip zone at an edge that retreats may vanish and begin anew in the other direction. Its length d
+is then like (t - t*)², and s sqrt(d) a smooth function of time which changes its sign at t*: by it
+zones are continued from known moments to others, and the time is cut at t*.
 """
 
 from __future__ import annotations
@@ -14,81 +23,114 @@ from functools import lru_cache
 from itertools import pairwise
 
 import numpy as np
+from numpy.polynomial.chebyshev import chebvander
 from numpy.typing import NDArray
 
 from sie.errors import ContactError
-from sie.numerics.chebyshev import gauss_legendre
+from sie.numerics.graded_panels import OF_SERIES, Rule
+from sie.numerics.root_finding import false_position
 
 from .cells import zones_on_cells
+from .course import Part
 from .finite_step import Equations, Zones, newton
+from .gained_slip import GainedSlip
 from .loading import LoadStep
-from .onset import onset
 from .rates import Rates
-from .state import Contact, Slips, State
-from .strips import MOMENTS, TAU, Panel
+from .state import SAME, Contact, State, intervals
+from .strip_part import StripPart
+from .strips import TAU
 
 Array = NDArray[np.float64]
 
-NODES = 16
+INTERVALS = 16  # of the rule of Clenshaw and Curtis on a piece of time
 LOOKED = np.array([1e-4, 0.01, 0.05, 0.15, 0.3, 0.5, 0.7, 0.9])  # shares where marks are passed
 GOES_ON = -1e-5  # of the largest K, and of the largest rate of slip
-HALVINGS = 30  # of the time between two shares, to find when an end passes a mark
+CUT = 1e-6  # of a part: so well a time is known at which the integrand has a kink
+APART = 1e-5  # of a part: cuts that are closer are one
+ACCURATE = 1e-9  # of the energy: pieces of time are halved until it is known to so much
+REFUSED = 1e-7  # of the energy: it is refused if it is known to less
+MOST_PIECES = 40
 
 
-def rates_of(contact: Contact, zones: Zones, slip: Slips, step: LoadStep) -> Rates:
-    """The rates of a state at the rates of loads of a step."""
-    return Rates.solved(
-        contact.patches,
-        zones.stick,
-        slip,
-        step.rates,
-        friction=step.friction,
-        period=contact.period,
-    )
-
-
-def power(contact: Contact, zones: Zones, slip: Slips, step: LoadStep) -> float:
-    """(E*/2) ∫ f p |dg| of a state, per unit of the step's share."""
-    rates = rates_of(contact, zones, slip, step)
-    return rates.power(contact.limit.on, tuple(contact.limit.marks))
-
-
-@lru_cache(maxsize=1)
-def _weights() -> Array:
-    """The weights of Clenshaw and Curtis at the moments of a panel, of ∫ dτ from 0 to 1."""
-    k = np.arange(MOMENTS + 1)
-    of_polynomials = np.where(k % 2, 0.0, 1.0 / (1.0 - np.where(k % 2, 0.0, k) ** 2))
-    matrix = np.polynomial.chebyshev.chebvander(2.0 * TAU - 1.0, MOMENTS)
-    return np.linalg.solve(matrix.T, of_polynomials)
-
-
-def work_of_panel(panel: Panel) -> float:
-    """(E*/2) times the energy of a part on which something comes to stick."""
-    powers = [
-        rates.power(contact.limit.on, tuple(contact.limit.marks))
-        for rates, contact in zip(panel.rates, panel.span.contacts, strict=True)
-    ]
-    return float(_weights()[1:] @ (2.0 * panel.span.length * TAU[1:] * np.array(powers)))
-
-
-def work_of_finite_part(
-    before: State, after: State, step: LoadStep, span: tuple[float, float]
-) -> float:
-    """(E*/2) times the energy of a finite step between two shares of a step of loads."""
-    if not after.slip:
+def work(part: Part | StripPart, step: LoadStep) -> float:
+    """The energy of a part. Raises ContactError where it is not known to `REFUSED`."""
+    if not part.state.slip:
         return 0.0
-    begun, until = span
-    way = Way.back(before, after, step, span)
-    shares = [until, *(begun + (until - begun) * LOOKED[::-1]).tolist()]
-    cuts = sorted({begun, until, *_cuts(way, shares)})
-    g, w = gauss_legendre(NODES)
-    turn, pace = np.sin(0.5 * np.pi * g) ** 2, 0.5 * np.pi * np.sin(np.pi * g) * w
-    total = 0.0
-    for a, b in reversed(list(pairwise(cuts))):
-        for share, weight in zip(reversed(turn.tolist()), reversed(pace.tolist()), strict=True):
-            now = way.equations(a + (b - a) * share)
-            total += (b - a) * weight * power(now.after, now.zones, now.slip, step)
+    contact = part.state.contact
+    whole, error = _paired(contact, part.equations, contact.limit.on), 0.0
+    if not step.constant:
+        of_pressure = _of_panel if isinstance(part, StripPart) else _of_finite_part
+        moved, error = of_pressure(part, step, whole)
+        whole -= moved
+    if error > REFUSED * whole:
+        raise ContactError(
+            f"the energy lost is known to {error / whole:.0e} of it only: put a point of the path "
+            f"in between; the state is not concerned"
+        )
+    return whole * 2.0 / step.contacts.scene.Estar
+
+
+def _paired(contact: Contact, now: Equations, density: Callable[[Rule], Array]) -> float:
+    """∫ d |Δg| dx of a density d."""
+    total, slipped = 0.0, GainedSlip(now)
+    for lo, hi, pieces in [*slipped.beside, *slipped.strips]:
+        marks = np.unique(np.concatenate((pieces.marks, contact.limit.marks)))
+        rule = Rule.graded(intervals([(lo, hi)], marks, SAME * contact.width), OF_SERIES)
+        total += float(rule.weight @ (density(rule) * np.abs(pieces.on(rule))))
     return total
+
+
+def _by_pressure(now: Equations, rates: Rates) -> float:
+    """∫ f dp/dt |Δg| dx."""
+    return rates.friction * _paired(now.after, now, rates.pressure.density)
+
+
+@lru_cache(maxsize=2)
+def _clenshaw_curtis(n: int) -> tuple[Array, Array, Array]:
+    """Nodes from 0 to 1, weights of ∫, and the matrix of Chebyshev coefficients."""
+    nodes = 0.5 * (1.0 - np.cos(np.pi * np.arange(n + 1) / n))
+    k = np.arange(n + 1)
+    of_polynomials = np.where(k % 2, 0.0, 1.0 / (1.0 - np.where(k % 2, 0.0, k) ** 2))
+    transform = np.linalg.inv(chebvander(2.0 * nodes - 1.0, n))
+    return nodes, of_polynomials @ transform, transform
+
+
+def _integral(values: Array) -> tuple[float, float]:
+    """The integral from 0 to 1 of values at the nodes, and its error by the last coefficients.
+
+    A term T_n adds 1/n² to the integral, about.
+    """
+    n = len(values) - 1
+    _, weights, transform = _clenshaw_curtis(n)
+    tail = np.abs(transform[-3:] @ values).max()
+    return float(weights @ values), float(tail) / n**2
+
+
+def _of_panel(part: StripPart, step: LoadStep, whole: float) -> tuple[float, float]:
+    """∫ dt ∫ f dp/dt |Δg| dx of a part on which something comes to stick, and its error."""
+    panel = part.panel
+    values = [_by_pressure(*one) for one in zip(panel.equations, panel.rates, strict=True)]
+    return _integral(np.append(0.0, 2.0 * panel.span.length * TAU[1:] * np.array(values)))
+
+
+def _of_finite_part(part: Part, step: LoadStep, whole: float) -> tuple[float, float]:
+    """The same of a finite step between two shares of a step of loads."""
+    begun, until = part.begun, part.until
+    way = Way.back(part, step)
+    cuts = [begun]
+    for cut in sorted(_cuts(way, [until, *(begun + (until - begun) * LOOKED[::-1]).tolist()])):
+        if cut - cuts[-1] > APART * (until - begun) < until - cut:
+            cuts.append(cut)
+    pieces = [(*span, *way.integral(*span)) for span in pairwise([*cuts, until])]
+    while len(pieces) < MOST_PIECES:
+        worst = max(pieces, key=lambda piece: piece[3])
+        if worst[3] <= ACCURATE * whole:
+            break
+        pieces.remove(worst)
+        a, b = worst[:2]
+        halves = (a, 0.5 * (a + b)), (0.5 * (a + b), b)
+        pieces += [(*half, *way.integral(*half)) for half in halves]
+    return sum(piece[2] for piece in pieces), sum(piece[3] for piece in pieces)
 
 
 @dataclass(eq=False)
@@ -97,35 +139,64 @@ class Way:
 
     before: State
     step: LoadStep
-    start: Array  # the ends as the step begins
-    begun: float
-    known: dict[float, Equations] = field(default_factory=dict)
+    span: tuple[float, float]
+    known: dict[float, Equations]
+    values: dict[float, float] = field(default_factory=dict)
 
     @classmethod
-    def back(cls, before: State, after: State, step: LoadStep, span: tuple[float, float]) -> Way:
-        """Through the part between two states, from its end on."""
-        start = np.array(onset(before, step.rates, step.friction).stick).ravel()
-        zones = Zones(after.stick, tuple(s for *_, s in after.slip))
-        way = cls(before, step, start, span[0])
-        way.known[span[1]] = Equations(before, after.contact, zones)
-        return way
+    def back(cls, part: Part, step: LoadStep) -> Way:
+        """Through a part, from its end on."""
+        return cls(part.before, step, (part.begun, part.until), {part.until: part.equations})
+
+    def integral(self, a: float, b: float) -> tuple[float, float]:
+        """∫ dt ∫ f dp/dt |Δg| dx between two shares, and its error."""
+        v = _clenshaw_curtis(INTERVALS)[0][1:-1]
+        turn, pace = np.sin(0.5 * np.pi * v) ** 2, 0.5 * np.pi * np.sin(np.pi * v)
+        values, doubt = np.zeros(INTERVALS + 1), 0.0
+        for i in range(INTERVALS - 2, -1, -1):
+            value, error = self.value(a + (b - a) * float(turn[i]))
+            values[i + 1] = (b - a) * pace[i] * value
+            doubt += (b - a) * pace[i] * error / INTERVALS
+        whole, error = _integral(values)
+        return whole, error + doubt
+
+    def value(self, share: float) -> tuple[float, float]:
+        """∫ f dp/dt |Δg| dx at a share; between known ones where no zones are found, and its error.
+
+        They are not found next to where they leap, and the integrand is continuous there.
+        """
+        try:
+            now = self.equations(share)
+        except ContactError:
+            beside = [k for k in self.known if k < share], [k for k in self.known if k > share]
+            if not beside[0]:
+                raise
+            a, b = max(beside[0]), min(beside[1])
+            first, last = self.value(a)[0], self.value(b)[0]
+            return first + (last - first) * (share - a) / (b - a), abs(last - first)
+        if share not in self.values:
+            self.values[share] = _by_pressure(now, rates_of(now, self.step))
+        return self.values[share], 0.0
 
     def equations(self, share: float) -> Equations:
-        """The equations at a share, whose zones go on as they have to; else the guess for it."""
+        """The equations at a share, whose zones go on as they have to."""
         if share not in self.known:
-            after, guesses = self.step.at(share), list(self._guesses(share))
-            found = (self._passed(after, guess) for guess in guesses)
-            self.known[share] = next(
-                (now for now in found if now is not None),
-                Equations(self.before, after, guesses[0]),
-            )
+            after = self.step.at(share)
+            found = (self._passed(after, guess) for guess in self._guesses(share))
+            one = next((now for now in found if now is not None), None)
+            if one is None:
+                raise ContactError(
+                    f"the energy lost is not known: no zones of slip are found at {share:.6g} of "
+                    "the step; the state at its end is not concerned"
+                )
+            self.known[share] = one
         return self.known[share]
 
     def _passed(self, after: Contact, guess: Zones) -> Equations | None:
         """The equations from a guess, if they are solved and nothing in it sticks or turns."""
         try:
             found = newton(self.before, after, guess)
-            rates = rates_of(after, found.zones, found.slip, self.step)
+            rates = rates_of(found, self.step)
         except ContactError:
             return None
         margins = rates.signed_K[np.isfinite(rates.signed_K)]
@@ -133,78 +204,113 @@ class Way:
         return None if stops or rates.turning < GOES_ON else found
 
     def _guesses(self, share: float) -> Iterator[Zones]:
-        """By a line through known zones, the nearest ones, those of other signs, else by cells."""
-        nearest = min(self.known, key=lambda other: abs(other - share))
-        now = self.known[nearest]
-        ends, signs = now.stick.ravel(), now.zones.signs
-        others = {k: e.stick.ravel() for k, e in self.known.items() if e.zones.signs == signs}
-        if len(self.start) == len(ends):
-            others[self.begun] = self.start
-        others.pop(nearest)
-        if others:
-            k = min(others, key=lambda other: abs(other - share))
-            line = ends + (others[k] - ends) * ((share - nearest) / (k - nearest))
-            if (np.diff(line) > 0.0).all() and _inside(line, self.step.at(share)):
-                yield Zones(tuple((float(a), float(b)) for a, b in line.reshape(-1, 2)), signs)
-        yield now.zones
-        others = {k: e.zones for k, e in self.known.items() if e.zones.signs != signs}
-        if others:
-            yield others[min(others, key=lambda other: abs(other - share))]
-            return
+        """By a line or a parabola through known zones, the nearest ones, else by cells."""
+        nearest = sorted(self.known, key=lambda other: abs(other - share))
+        count = len(self.known[nearest[0]].zones.stick)
+        alike = [k for k in nearest if len(self.known[k].zones.stick) == count]
+        for several in (3, 2, 1):
+            if len(alike) >= several:
+                zones = self._continued(alike[:several], share)
+                if zones is not None:
+                    yield zones
+        beyond = [k for k in nearest if (k < share) != (nearest[0] < share)]
+        yield from (self.known[k].zones for k in beyond[:1])
         try:
             yield from zones_on_cells(self.before, self.step.at(share))
         except ContactError:
             return
 
+    def _continued(self, shares: list[float], share: float) -> Zones | None:
+        """The zones by a polynomial through those at some shares."""
+        known = [smooth_coordinates(self.known[k]) for k in shares]
+        found = np.zeros(len(known[0]))
+        for k, value in zip(shares, known, strict=True):
+            others = [other for other in shares if other != k]
+            found += value * np.prod([(share - other) / (k - other) for other in others])
+        return _zones_at(found, self.known[shares[0]], self.step.at(share))
 
-def _inside(ends: Array, contact: Contact) -> bool:
-    edges = np.array(contact.patches)
-    return bool(((edges[:, :1] < ends) & (ends < edges[:, 1:])).any(axis=0).all())
+
+def rates_of(now: Equations, step: LoadStep) -> Rates:
+    """The rates of solved equations at the rates of loads of a step."""
+    return Rates.solved(
+        now.after.patches,
+        now.zones.stick,
+        now.slip,
+        step.rates,
+        friction=step.friction,
+        period=now.after.period,
+    )
 
 
-def _cuts(way: Way, shares: list[float]) -> list[float]:
-    """The shares at which ends pass marks, or other zones slip; `shares` falls."""
-    found = []
-    for later, sooner in pairwise(shares):
-        first, last = way.equations(sooner), way.equations(later)
-        if first.zones.signs != last.zones.signs:
-            found.append(_first(_Signed(last.zones.signs), way, sooner, later))
-            continue
-        near = 1e-9 * way.before.contact.width
-        for j, (a, b) in enumerate(zip(first.stick.ravel(), last.stick.ravel(), strict=True)):
-            inside = (way.before.marks - a) * (b - way.before.marks) > near**2
-            for mark in way.before.marks[inside]:
-                passed = _Passed(j, mark, float(np.sign(b - a)))
-                found.append(_first(passed, way, sooner, later))
+def smooth_coordinates(now: Equations) -> Array:
+    """S sqrt(d) for ends beside a slip zone of length d at an edge, and the places of others."""
+    left, right = ({zone[k]: zone for zone in now.slip} for k in (0, 1))
+    edges = np.array(now.after.patches).ravel()
+    found = now.stick.ravel().copy()
+    for j, e in enumerate(now.stick.ravel()):
+        lo, hi, s = (left if j % 2 else right)[e]
+        if (hi if j % 2 else lo) in edges:
+            found[j] = s * np.sqrt(hi - lo)
     return found
 
 
-@dataclass(frozen=True)
-class _Signed:
-    """Whether slip has these directions."""
-
-    signs: tuple[float, ...]
-
-    def __call__(self, now: Equations) -> bool:
-        return now.zones.signs == self.signs
-
-
-@dataclass(frozen=True)
-class _Passed:
-    """Whether an end is beyond a mark; one on it is not, which Newton's method prefers."""
-
-    j: int
-    mark: float
-    way: float
-
-    def __call__(self, now: Equations) -> bool:
-        ends = now.stick.ravel()
-        return self.j < ends.size and self.way * (ends[self.j] - self.mark) > 0.0
+def _zones_at(coordinates: Array, like: Equations, contact: Contact) -> Zones | None:
+    """The zones of coordinates, beside the same patches; None where they are none."""
+    ends, signs, patches = coordinates.copy(), list(like.zones.signs), like.after.patches
+    for j, e in enumerate(like.stick.ravel()):
+        zones = [k for k, zone in enumerate(like.slip) if zone[j % 2 == 0] == e]
+        outer = like.slip[zones[0]][j % 2]
+        for old, new in zip(patches, contact.patches, strict=True):
+            if outer == old[j % 2]:
+                inward = -1.0 if j % 2 else 1.0
+                ends[j] = new[j % 2] + inward * coordinates[j] ** 2
+                signs[zones[0]] = 1.0 if coordinates[j] > 0.0 else -1.0
+    edges = np.array(contact.patches)
+    inside = ((edges[:, :1] < ends) & (ends < edges[:, 1:])).any(axis=0).all()
+    if not inside or not (np.diff(ends) > 0.0).all():
+        return None
+    return Zones(tuple((float(a), float(b)) for a, b in ends.reshape(-1, 2)), tuple(signs))
 
 
-def _first(holds: Callable[[Equations], bool], way: Way, sooner: float, later: float) -> float:
-    """The share from which on something holds, by halving: other ends ask at the same shares."""
-    for _ in range(HALVINGS):
-        middle = 0.5 * (sooner + later)
-        sooner, later = (sooner, middle) if holds(way.equations(middle)) else (middle, later)
-    return later
+def _cuts(way: Way, shares: list[float]) -> list[float]:
+    """The shares at which ends pass marks, or slip at an edge turns; `shares` falls."""
+    found = []
+    near = 1e-9 * way.before.contact.width
+    for later, sooner in pairwise(shares):
+        first, last = way.equations(sooner), way.equations(later)
+        if len(first.zones.stick) != len(last.zones.stick):
+            continue
+        ends = smooth_coordinates(first), smooth_coordinates(last)
+        for j, (a, b) in enumerate(zip(first.stick.ravel(), last.stick.ravel(), strict=True)):
+            if first.zones.signs != last.zones.signs and ends[0][j] * ends[1][j] < 0.0:
+                found.append(_root(lambda now, j=j: smooth_coordinates(now)[j], way, sooner, later))
+            inside = (way.before.marks - a) * (b - way.before.marks) > near**2
+            for mark in way.before.marks[inside]:
+                found.append(
+                    _root(lambda now, j=j, m=mark: now.stick.ravel()[j] - m, way, sooner, later)
+                )
+    return found
+
+
+def _root(value: Callable[[Equations], float], way: Way, sooner: float, later: float) -> float:
+    """The share at which a value of the zones changes its sign.
+
+    A slip zone that is too short for Newton's method is as good as vanished.
+    """
+    for share in sorted(way.known):
+        if sooner < share < later:
+            same = (value(way.known[share]) < 0.0) == (value(way.known[sooner]) < 0.0)
+            sooner, later = (share, later) if same else (sooner, share)
+    ends = value(way.equations(sooner)), value(way.equations(later))
+    close = CUT * (way.span[1] - way.span[0])
+
+    def here(share: float) -> float:
+        try:
+            return value(way.equations(share))
+        except ContactError:
+            return 0.0
+
+    def settled(lo: float, hi: float, at: float) -> bool:
+        return hi - lo < close or abs(at) < CUT * abs(ends[1] - ends[0])
+
+    return false_position(here, sooner, later, ends, settled)
