@@ -18,7 +18,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
 
@@ -26,7 +26,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie.errors import ContactError
-from sie.numerics.graded_panels import OF_SERIES, Pieces, Rule, gauss_shares, principal_value
+from sie.numerics.graded_panels import (
+    OF_RULES,
+    OF_SERIES,
+    Pieces,
+    Rule,
+    breaks_for,
+    gauss_shares,
+    principal_value,
+)
 
 from .state import SAME, Contact, Ends, State, between, intervals, united
 
@@ -39,6 +47,7 @@ SETTLED = 2e-14  # of the contact: a step so short is the last
 GOOD = 1e-9  # and one so short is good enough if later ones do not shorten
 INSIDE = 1e-9  # of what is between the bounds of an end: a guess is as far from them
 CLOSEST = 0.9  # of the distance to its neighbour: an end moves so far at most in a step
+NEAREST = 5  # places next to an end, from which what is there follows
 FEW = 3  # nodes a panel of the places where |q| <= f p is tested on the way
 EXCEEDED = 1e-8  # of the largest f p: by so much |q| may exceed f p
 KNOWN = 1e-10  # of the contact: next to marks q is known from there on
@@ -87,8 +96,8 @@ class Zones:
 class Gap:
     """The half-circle above a gap between two stick zones."""
 
-    def __init__(self, lo: float, hi: float) -> None:
-        shares = gauss_shares()
+    def __init__(self, lo: float, hi: float, breaks: tuple[float, ...] = OF_RULES) -> None:
+        shares = gauss_shares(breaks)
         half = 0.5 * np.pi * shares.lo  # half the angle from lo
         other = 0.5 * np.pi * shares.hi
         length = hi - lo
@@ -115,6 +124,16 @@ class Gap:
         )
 
 
+def _at_end(near: Array, h: Array, side: float) -> float:
+    """What h is at distance 0, by a polynomial through the nearest places; they are in order."""
+    x, values = (part[:NEAREST] if side > 0.0 else part[::-1][:NEAREST] for part in (near, h))
+    total = 0.0
+    for k, value in enumerate(values):
+        others = np.delete(x, k)
+        total += value * float(np.prod(others / (others - x[k])))
+    return total
+
+
 @dataclass(frozen=True, eq=False)
 class Equations:
     """The 2N equations for given zones, and the potential.
@@ -122,11 +141,13 @@ class Equations:
     before   the state at the start
     after    the contact at the end
     zones    stick zones and directions of slip
+    rough    whether rules do for the residual alone, and not for q next to an end
     """
 
     before: State
     after: Contact
     zones: Zones
+    rough: bool = field(default=False, kw_only=True)
 
     @property
     def chord(self) -> Chord:
@@ -157,7 +178,16 @@ class Equations:
         edges = np.array((*old.patches, *new.patches)).ravel()
         marks = np.unique(np.concatenate((self.before.marks, new.limit.marks, edges)))
         beside = between(self.touched, self.zones.stick)
-        return Rule.graded(intervals(beside, marks, SAME * new.width))
+        ends = intervals(beside, marks, SAME * new.width)
+        return Rule.graded(ends, self.breaks(ends) if self.rough else OF_RULES)
+
+    def breaks(self, ends: Array) -> tuple[float, ...]:
+        """Those of a rule on intervals: as fine as the nearest place beyond an end asks for."""
+        points = np.unique(np.append(ends, self.stick))
+        k = np.searchsorted(points, ends)
+        steps = np.concatenate(([np.inf], np.diff(points), [np.inf]))
+        beyond = np.stack((steps[k[:, 0]], steps[k[:, 1] + 1]), axis=1)
+        return breaks_for(float((beyond / np.diff(ends, axis=1)).min(initial=np.inf)))
 
     @cached_property
     def slip(self) -> tuple[tuple[float, float, float], ...]:
@@ -204,7 +234,11 @@ class Equations:
 
     @cached_property
     def gaps(self) -> list[Gap]:
-        return [Gap(b, a) for (_, b), (a, _) in zip(self.stick, self.stick[1:], strict=False)]
+        found = []
+        for (_, b), (a, _) in zip(self.stick, self.stick[1:], strict=False):
+            breaks = self.breaks(np.array([[b, a]])) if self.rough else OF_RULES
+            found.append(Gap(b, a, breaks))
+        return found
 
     def root(self, k: int, gap: Gap) -> Complex:
         """T_k on a half-circle."""
@@ -267,7 +301,7 @@ class Equations:
                     at = anchors == e
                     if at.any():
                         h = nu[at] * np.sqrt(near[at]) / r.weight[at]
-                        h0 = h[0] if side > 0.0 else h[-1]
+                        h0 = _at_end(near[at], h, side)
                         pole = h0 * r.weight[at] / near[at] ** 1.5
                         total[at] = total[at] - side * pole
                         terms -= side * h0 * 2.0 / math.sqrt(abs(other[at][0] - e))
@@ -361,7 +395,7 @@ def _within_bounds(before: State, after: Contact, guess: Zones, bounds: Array) -
     if not (np.diff(ends) > 0.0).all():
         return None
     stick = tuple((float(a), float(b)) for a, b in ends.reshape(-1, 2))
-    now = Equations(before, after, Zones(stick, guess.signs))
+    now = Equations(before, after, Zones(stick, guess.signs), rough=True)
     found, settled = _iterated(now, bounds)
     for outward in (False, True):
         if settled:
@@ -369,7 +403,7 @@ def _within_bounds(before: State, after: Contact, guess: Zones, bounds: Array) -
         now = _beyond_flat(found, outward)
         if now is not found:
             found, settled = _iterated(now, bounds)
-    return on_marks(found, ON_MARK) if settled else None
+    return replace(on_marks(found, ON_MARK), rough=False) if settled else None
 
 
 def _iterated(now: Equations, bounds: Array) -> tuple[Equations, bool]:
@@ -490,7 +524,7 @@ def on_marks(found: Equations, missed: float) -> Equations:
 
 def _with_ends(found: Equations, ends: Array) -> Equations:
     stick = tuple((float(a), float(b)) for a, b in ends.reshape(-1, 2))
-    return Equations(found.before, found.after, Zones(stick, found.zones.signs))
+    return replace(found, zones=Zones(stick, found.zones.signs))
 
 
 def balanced(found: Equations, missed: float) -> bool:

@@ -48,7 +48,8 @@ LOOKED = np.array([1e-4, 0.01, 0.05, 0.15, 0.3, 0.5, 0.7, 0.9])  # shares where 
 GOES_ON = -1e-5  # of the largest K, and of the largest rate of slip
 CUT = 3e-5  # of a part: so well a time is known at which the integrand has a kink
 APART = 1e-4  # of a part: cuts that are closer are one
-ACCURATE = 1e-9  # of the energy: pieces of time are halved until it is known to so much
+CLOSE = 1e-2  # of a part: between times so close to each other values may be interpolated
+ACCURATE = 1e-8  # of the energy: pieces of time are halved until it is known to so much
 REFUSED = 1e-7  # of the energy: it is refused if it is known to less
 MOST_PIECES = 40
 
@@ -122,11 +123,11 @@ def _of_finite_part(part: Part, step: LoadStep, whole: float) -> tuple[float, fl
     for cut in sorted(_cuts(way, [until, *(begun + (until - begun) * LOOKED[::-1]).tolist()])):
         if cut - cuts[-1] > APART * (until - begun) < until - cut:
             cuts.append(cut)
+    way.allowed = ACCURATE * whole / (until - begun)
     pieces = [(*span, *way.integral(*span)) for span in pairwise([*cuts, until])]
     while len(pieces) < MOST_PIECES:
         worst = max(pieces, key=lambda piece: piece[3])
-        moved = abs(sum(piece[2] for piece in pieces))
-        if worst[3] <= ACCURATE * (whole + moved):
+        if worst[3] <= ACCURATE * (whole - sum(piece[2] for piece in pieces)):
             break
         pieces.remove(worst)
         a, b = worst[:2]
@@ -144,6 +145,7 @@ class Way:
     span: tuple[float, float]
     known: dict[float, Equations]
     values: dict[float, float] = field(default_factory=dict)
+    allowed: float = 0.0  # error of a value
 
     @classmethod
     def back(cls, part: Part, step: LoadStep) -> Way:
@@ -167,17 +169,28 @@ class Way:
 
         They are not found next to where they leap, and the integrand is continuous there.
         """
-        try:
-            now = self.equations(share)
-        except ContactError:
-            a = max((k for k in self.known if k < share), default=self.span[0])
-            b = min(k for k in self.known if k > share)
-            first = self.value(a)[0] if a in self.known else 0.0  # before any slip
-            last = self.value(b)[0]
-            return first + (last - first) * (share - a) / (b - a), abs(last - first)
+        if share not in self.known:
+            between, doubt, close = self._between(share)
+            if close and doubt <= self.allowed:
+                return between, doubt
+            try:
+                self.equations(share)
+            except ContactError:
+                return between, doubt
         if share not in self.values:
+            now = self.known[share]
             self.values[share] = _by_pressure(now, rates_of(now, self.step))
         return self.values[share], 0.0
+
+    def _between(self, share: float) -> tuple[float, float, bool]:
+        """The value between those at known shares, its error, and whether these are close."""
+        begun, until = self.span
+        a = max((k for k in self.known if k < share), default=begun)
+        b = min(k for k in self.known if k > share)
+        first = self.value(a)[0] if a in self.known else 0.0  # before any slip
+        last = self.value(b)[0]
+        found = first + (last - first) * (share - a) / (b - a)
+        return found, abs(last - first), b - a < CLOSE * (until - begun)
 
     def equations(self, share: float) -> Equations:
         """The equations at a share, whose zones go on as they have to."""

@@ -11,6 +11,7 @@ and differences of places are formed from them, never by subtraction of places.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
@@ -29,6 +30,7 @@ Ints = NDArray[np.int64]
 OF_SERIES = (0.0, 2e-4, 1.5e-3, 0.01, 0.06, 0.2, 0.5)
 OF_RULES = (0.0, 3e-8, 4e-7, 4e-6, 4e-5, 3e-4, 2e-3, 0.012, 0.06, 0.2, 0.5)
 DEGREE = 16  # terms of a series on a panel
+NEAREST = 0.4  # of the v of a singularity: so far reaches the first panel at most
 NODES = 14  # of Gauss-Legendre on a panel
 
 
@@ -51,10 +53,16 @@ def _shares(breaks: Sequence[float], s: Array, weight: Array) -> Shares:
     return Shares(np.append(near, far[::-1]), np.append(far, near[::-1]), np.append(w, w[::-1]))
 
 
-@lru_cache(maxsize=8)
+@lru_cache(maxsize=16)
 def gauss_shares(breaks: Sequence[float] = OF_RULES, nodes: int = NODES) -> Shares:
     """Nodes and weights of the rule between two marks at the distance 1."""
     return _shares(breaks, *np.polynomial.legendre.leggauss(nodes))
+
+
+def breaks_for(beyond: float) -> tuple[float, ...]:
+    """Breaks of a rule for what has its next singularity so far beyond a mark, in lengths."""
+    near = NEAREST * math.sqrt(beyond)
+    return 0.0, *(b for b, c in zip(OF_RULES[1:], (*OF_RULES[2:], np.inf), strict=True) if c > near)
 
 
 @lru_cache(maxsize=8)
