@@ -45,8 +45,8 @@ Array = NDArray[np.float64]
 INTERVALS = 16  # of the rule of Clenshaw and Curtis on a piece of time
 LOOKED = np.array([1e-4, 0.01, 0.05, 0.15, 0.3, 0.5, 0.7, 0.9])  # shares where marks are passed
 GOES_ON = -1e-5  # of the largest K, and of the largest rate of slip
-CUT = 1e-6  # of a part: so well a time is known at which the integrand has a kink
-APART = 1e-5  # of a part: cuts that are closer are one
+CUT = 3e-5  # of a part: so well a time is known at which the integrand has a kink
+APART = 1e-4  # of a part: cuts that are closer are one
 ACCURATE = 1e-9  # of the energy: pieces of time are halved until it is known to so much
 REFUSED = 1e-7  # of the energy: it is refused if it is known to less
 MOST_PIECES = 40
@@ -124,7 +124,8 @@ def _of_finite_part(part: Part, step: LoadStep, whole: float) -> tuple[float, fl
     pieces = [(*span, *way.integral(*span)) for span in pairwise([*cuts, until])]
     while len(pieces) < MOST_PIECES:
         worst = max(pieces, key=lambda piece: piece[3])
-        if worst[3] <= ACCURATE * whole:
+        moved = abs(sum(piece[2] for piece in pieces))
+        if worst[3] <= ACCURATE * (whole + moved):
             break
         pieces.remove(worst)
         a, b = worst[:2]
@@ -281,15 +282,24 @@ def _cuts(way: Way, shares: list[float]) -> list[float]:
         if len(first.zones.stick) != len(last.zones.stick):
             continue
         ends = smooth_coordinates(first), smooth_coordinates(last)
-        for j, (a, b) in enumerate(zip(first.stick.ravel(), last.stick.ravel(), strict=True)):
-            if first.zones.signs != last.zones.signs and ends[0][j] * ends[1][j] < 0.0:
+        for j, (a, b) in enumerate(zip(_places(first), _places(last), strict=True)):
+            if (
+                j < len(ends[0])
+                and first.zones.signs != last.zones.signs
+                and ends[0][j] * ends[1][j] < 0.0
+            ):
                 found.append(_root(lambda now, j=j: smooth_coordinates(now)[j], way, sooner, later))
             inside = (way.before.marks - a) * (b - way.before.marks) > near**2
             for mark in way.before.marks[inside]:
                 found.append(
-                    _root(lambda now, j=j, m=mark: now.stick.ravel()[j] - m, way, sooner, later)
+                    _root(lambda now, j=j, m=mark: _places(now)[j] - m, way, sooner, later)
                 )
     return found
+
+
+def _places(now: Equations) -> Array:
+    """The ends of stick zones, and the edges."""
+    return np.append(now.stick, now.after.patches)
 
 
 def _root(value: Callable[[Equations], float], way: Way, sooner: float, later: float) -> float:
