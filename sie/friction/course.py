@@ -30,6 +30,7 @@ Array = NDArray[np.float64]
 ADVANCES, TURNED = "an end of a stick zone advances", "slip turns"
 SHARES = (np.arange(1, 9) / 8.0) ** 1.5  # of a part at which it is tested
 EARLIER = (0.2, 0.02, 2e-3, 1e-4)  # of the first one, where that fails
+FARTHER = 10.0 ** np.arange(1, 7)  # times a step so small that no cell shows what it does
 STOPS = -1e-7  # of the largest K: an end that recedes so little goes on
 TURNS = -1e-7  # of the largest rate of slip
 MOST_PARTS = 200
@@ -128,7 +129,7 @@ def finite_part(state: State, step: LoadStep, begun: float) -> Part:
         return Part(state, State.untouched(after), begun, 1.0)
     shares = begun + (1.0 - begun) * SHARES
     shares[-1] = 1.0
-    verdicts = _tested(state, step, shares)
+    verdicts = _tested(state, step, begun, shares)
     good = _leading(verdicts)
     why = ""
     if good == len(shares):
@@ -142,7 +143,7 @@ def finite_part(state: State, step: LoadStep, begun: float) -> Part:
         first = shares[0] - begun
         for earlier in EARLIER:
             shares = begun + first * earlier * SHARES
-            verdicts = _tested(state, step, shares)
+            verdicts = _tested(state, step, begun, shares)
             good = _leading(verdicts)
             if good:
                 break
@@ -205,7 +206,7 @@ def _within(now: Verdict, last: Verdict) -> bool:
     )
 
 
-def _tested(state: State, step: LoadStep, shares: Array) -> list[Verdict]:
+def _tested(state: State, step: LoadStep, begun: float, shares: Array) -> list[Verdict]:
     """The verdicts on zones at some shares, found from the last to the first."""
     found: list[Verdict] = []
     zones: Zones | None = None
@@ -213,9 +214,32 @@ def _tested(state: State, step: LoadStep, shares: Array) -> list[Verdict]:
         verdict = _verdict(state, step, float(share), zones)
         if verdict.why and zones is not None:
             verdict = _verdict(state, step, float(share), None)
+        if verdict.equations is None and not found:
+            verdict = _scaled_down(state, step, begun, float(share)) or verdict
         zones = verdict.equations.zones if verdict.equations is not None else None
         found.append(verdict)
     return found[::-1]
+
+
+def _scaled_down(state: State, step: LoadStep, begun: float, share: float) -> Verdict | None:
+    """The verdict where ends have moved in proportion to the loads, less than cells show."""
+    start = np.array(onset(state, step.rates, step.friction).stick).ravel()
+    for times in FARTHER.tolist():
+        try:
+            farther = _verdict(state, step, begun + times * (share - begun), None)
+        except ContactError:  # no such loads
+            return None
+        if farther.equations is None or farther.equations.stick.size != start.size:
+            continue
+        ends = start + (farther.equations.stick.ravel() - start) / times
+        guess = Zones(
+            tuple((float(a), float(b)) for a, b in ends.reshape(-1, 2)),
+            farther.equations.zones.signs,
+        )
+        found = _verdict(state, step, share, guess)
+        if found.equations is not None:
+            return found
+    return None
 
 
 def _verdict(state: State, step: LoadStep, share: float, guess: Zones | None) -> Verdict:
