@@ -38,6 +38,8 @@ AT_THE_END = 1e-9  # of a part: an event so close to its end is there
 SMALL = 1e-2  # of the room: an end advances so far, at a guess
 AGAIN_SINCE = 0.7  # of τ: before it an event at the end of a part is not looked for again
 AGAIN = 12  # times a part is solved to end at its event
+FARTHER = 10.0 ** np.arange(7)  # times a part that is so short that no cell shows what it does
+SEEN = 0.02  # of the contact: so far an end has moved where cells show it
 UNRESOLVED = 1e-6  # of the largest coefficient of D: the last two
 TURNS = -1e-7  # of the largest rate of slip
 EXCEEDED = 1e-8  # of the largest f p: by so much |q| may exceed f p
@@ -152,12 +154,7 @@ def refuse_doubtful(panel: Panel) -> None:
 
 def _guess(span: Span) -> Array:
     """The places of the ends at the end of a part, about."""
-    final = span.start.copy()
-    for cells in zones_on_cells(span.before, span.contacts[-1]):
-        if len(cells.stick) == len(span.onset.zones):
-            for j in span.which(Motion.RECEDES):
-                final[j] = np.array(cells.stick).ravel()[j]
-            break
+    final = _receded(span)
     zones = span.onset.placed(span.with_edges(np.tile(final, (MOMENTS, 1)))[-1])
     zones = zones.on(span.contacts[-1].patches)
 
@@ -170,6 +167,24 @@ def _guess(span: Span) -> Array:
             place = final[j] + SMALL * (zones.outer(j) - final[j])
         zones = zones.moved(j, replace(zones.ends[j], place=place))
         final[j] = place
+    return final
+
+
+def _receded(span: Span) -> Array:
+    """The places of the ends if none advances; where cells do not show how, in proportion."""
+    final, which, width = span.start.copy(), span.which(Motion.RECEDES), span.before.contact.width
+    for times in FARTHER.tolist() if which else []:
+        after = span.step.at(span.begun + times * span.length)
+        if len(after.patches) != len(span.onset.patches):
+            break
+        stick = (cells.stick for cells in zones_on_cells(span.before, after))
+        same = next((np.ravel(s) for s in stick if len(s) == len(span.onset.zones)), None)
+        if same is None:
+            break
+        moved = same[which] - span.start[which]
+        final[which] = span.start[which] + moved / times
+        if np.abs(moved).min() > SEEN * width:
+            break
     return final
 
 
