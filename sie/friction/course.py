@@ -18,7 +18,7 @@ from sie.errors import ContactError
 from sie.numerics.root_finding import false_position
 
 from .cells import zones_on_cells
-from .finite_step import EXCEEDED, Equations, Zones, newton, solved, without_idle
+from .finite_step import EXCEEDED, Equations, Zones, balanced, newton, solved, without_idle
 from .loading import LoadStep
 from .onset import End, Motion, onset
 from .rates import Rates
@@ -28,6 +28,8 @@ from .strip_part import StripPart, strip_part
 Array = NDArray[np.float64]
 
 ADVANCES, TURNED = "an end of a stick zone advances", "slip turns"
+EXCESS = "|q| exceeds f p in stick"
+STUCK = 1e-11  # of the loads: by so much equations may be missed where all sticks
 SHARES = (np.arange(1, 9) / 8.0) ** 1.5  # of a part at which it is tested
 EARLIER = (0.2, 0.02, 2e-3, 1e-4)  # of the first one, where that fails
 FARTHER = 10.0 ** np.arange(1, 7)  # times a step so small that no cell shows what it does
@@ -245,6 +247,9 @@ def _scaled_down(state: State, step: LoadStep, begun: float, share: float) -> Ve
 def _verdict(state: State, step: LoadStep, share: float, guess: Zones | None) -> Verdict:
     """Zones at a share, and whether they go on as they have to."""
     after = step.at(share)
+    held = Equations(state, after, Zones(after.patches, ()))
+    if balanced(held, STUCK):
+        return Verdict(share, held, np.zeros(0), "" if held.excess <= EXCEEDED else EXCESS)
     try:
         guesses = (guess,) if guess is not None else zones_on_cells(state, after)
     except ContactError as problem:
@@ -284,7 +289,7 @@ def _judged(found: Equations, step: LoadStep, share: float) -> Verdict:
     elif rates.turning < TURNS:
         why = TURNED
     elif found.excess > EXCEEDED:
-        why = "|q| exceeds f p in stick"
+        why = EXCESS
     return Verdict(share, found, margins, why)
 
 

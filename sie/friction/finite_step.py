@@ -328,7 +328,8 @@ def solved(before: State, after: Contact, guess: Zones) -> State:
 
     Raises ContactError where it finds none, or one that is not admissible.
     """
-    found = newton(before, after, guess)
+    held = not guess.signs  # nothing slips
+    found = Equations(before, after, guess) if held else newton(before, after, guess)
     state = built(found)
     try:
         refuse_inadmissible(found, state)
@@ -343,22 +344,32 @@ def newton(before: State, after: Contact, guess: Zones) -> Equations:
     """The equations with the zones that solve them."""
     if not guess.stick:
         raise ContactError("the bodies slide as a whole")
-    bounds = _bounds(before, after, guess)
+    shrinking, anywhere = (_bounds(before, after, guess, on) for on in (True, False))
+    found = _within_bounds(before, after, guess, shrinking)
+    if found is None and (anywhere != shrinking).any():
+        found = _within_bounds(before, after, guess, anywhere)
+    if found is None:
+        raise ContactError("no stick zones inside the contact balance the loads")
+    return found
+
+
+def _within_bounds(before: State, after: Contact, guess: Zones, bounds: Array) -> Equations | None:
+    """The equations with the zones that solve them, each end between two bounds."""
     ends = np.array(guess.stick).ravel()
     room = INSIDE * (bounds[:, 1] - bounds[:, 0])
     ends = np.clip(ends, bounds[:, 0] + room, bounds[:, 1] - room)
+    if not (np.diff(ends) > 0.0).all():
+        return None
     stick = tuple((float(a), float(b)) for a, b in ends.reshape(-1, 2))
     now = Equations(before, after, Zones(stick, guess.signs))
     found, settled = _iterated(now, bounds)
     for outward in (False, True):
         if settled:
-            return on_marks(found, ON_MARK)
+            break
         now = _beyond_flat(found, outward)
         if now is not found:
             found, settled = _iterated(now, bounds)
-    if settled:
-        return on_marks(found, ON_MARK)
-    raise ContactError("no stick zones inside the contact balance the loads")
+    return on_marks(found, ON_MARK) if settled else None
 
 
 def _iterated(now: Equations, bounds: Array) -> tuple[Equations, bool]:
@@ -369,7 +380,7 @@ def _iterated(now: Equations, bounds: Array) -> tuple[Equations, bool]:
     last, width = math.inf, now.after.width
     for number in range(STEPS):
         if _flat(now).any():
-            return now, _balanced(now, ON_MARK)
+            return now, balanced(now, ON_MARK)
         with np.errstate(all="ignore"):
             scale = np.abs(now.derivatives).max(axis=1)
             matrix, right = now.derivatives / scale[:, None], -now.residual / scale
@@ -388,7 +399,7 @@ def _iterated(now: Equations, bounds: Array) -> tuple[Equations, bool]:
                 return now, False
             trial = _with_ends(now, moved)
             left = np.linalg.lstsq(matrix, -trial.residual / scale, rcond=1e-14)[0]
-            if _flat(trial).any() and not _balanced(trial, ON_MARK):
+            if _flat(trial).any() and not balanced(trial, ON_MARK):
                 continue
             if np.abs(left).max() <= (1.0 - 0.25 * share) * longest:
                 break
@@ -471,7 +482,7 @@ def on_marks(found: Equations, missed: float) -> Equations:
             ends = found.stick.ravel().copy()
             ends[j] = mark
             moved = _with_ends(found, ends) if (np.diff(ends) > 0.0).all() else None
-            if moved is None or not _balanced(moved, missed):
+            if moved is None or not balanced(moved, missed):
                 break
             found = moved
     return found
@@ -482,7 +493,7 @@ def _with_ends(found: Equations, ends: Array) -> Equations:
     return Equations(found.before, found.after, Zones(stick, found.zones.signs))
 
 
-def _balanced(found: Equations, missed: float) -> bool:
+def balanced(found: Equations, missed: float) -> bool:
     """Whether zones solve the equations."""
     try:
         size = np.abs(found.charges).sum(axis=1).max() + abs(found.after.Q) + found.after.peak
@@ -506,11 +517,12 @@ def _moved(now: Equations, step: Array, bounds: Array) -> Array:
     return out
 
 
-def _bounds(before: State, after: Contact, zones: Zones) -> Array:
+def _bounds(before: State, after: Contact, zones: Zones, goes_on: bool) -> Array:
     """The places between which each end lies.
 
     They lie in the patches at the start and at the end. Where slip goes on beside an earlier stick
-    zone, in the direction that it had there, that zone only shrinks.
+    zone, in the direction that it had there, that zone only shrinks; it may also have stopped at
+    once, and begun again at a retreating edge.
     """
     ends = np.array(zones.stick).ravel()
     out = np.empty((len(ends), 2))
@@ -521,7 +533,7 @@ def _bounds(before: State, after: Contact, zones: Zones) -> Array:
             inside.append(next((p for p in patches if p[0] <= e <= p[1]), (e, e)))
         lo, hi = max(a for a, _ in inside), min(b for _, b in inside)
         sign = {zone[j % 2 == 0]: s for zone, s in zip(beside, zones.signs, strict=False)}.get(e)
-        for a, b, s in before.slip:
+        for a, b, s in before.slip if goes_on else ():
             if (b if j % 2 == 0 else a) not in old:
                 continue
             if s == sign and a - after.width * SAME <= e <= b + after.width * SAME:

@@ -18,6 +18,7 @@ zones are continued from known moments to others, and the time is cut at t*.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import lru_cache
 from itertools import pairwise
@@ -169,11 +170,10 @@ class Way:
         try:
             now = self.equations(share)
         except ContactError:
-            beside = [k for k in self.known if k < share], [k for k in self.known if k > share]
-            if not beside[0]:
-                raise
-            a, b = max(beside[0]), min(beside[1])
-            first, last = self.value(a)[0], self.value(b)[0]
+            a = max((k for k in self.known if k < share), default=self.span[0])
+            b = min(k for k in self.known if k > share)
+            first = self.value(a)[0] if a in self.known else 0.0  # before any slip
+            last = self.value(b)[0]
             return first + (last - first) * (share - a) / (b - a), abs(last - first)
         if share not in self.values:
             self.values[share] = _by_pressure(now, rates_of(now, self.step))
@@ -277,8 +277,12 @@ def _cuts(way: Way, shares: list[float]) -> list[float]:
     """The shares at which ends pass marks, or slip at an edge turns; `shares` falls."""
     found = []
     near = 1e-9 * way.before.contact.width
+    for share in shares:
+        with suppress(ContactError):
+            way.equations(share)
+    shares = [share for share in shares if share in way.known]
     for later, sooner in pairwise(shares):
-        first, last = way.equations(sooner), way.equations(later)
+        first, last = way.known[sooner], way.known[later]
         if len(first.zones.stick) != len(last.zones.stick):
             continue
         ends = smooth_coordinates(first), smooth_coordinates(last)
