@@ -20,7 +20,7 @@ from sie.numerics.root_finding import false_position
 from .cells import zones_on_cells
 from .finite_step import EXCEEDED, Equations, Zones, balanced, newton, solved, without_idle
 from .loading import LoadStep
-from .onset import End, Motion, onset
+from .onset import End, Motion, onset, set_out
 from .rates import Rates
 from .state import Contact, Ends, State
 from .strip_part import StripPart, strip_part
@@ -32,7 +32,7 @@ EXCESS = "|q| exceeds f p in stick"
 STUCK = 1e-11  # of the loads: by so much equations may be missed where all sticks
 SHARES = (np.arange(1, 9) / 8.0) ** 1.5  # of a part at which it is tested
 EARLIER = (0.2, 0.02, 2e-3, 1e-4)  # of the first one, where that fails
-FARTHER = 10.0 ** np.arange(1, 7)  # times a step so small that no cell shows what it does
+SEEN = 1e-2  # of the contact: ends that move less are not seen well on cells
 STOPS = -1e-7  # of the largest K: an end that recedes so little goes on
 TURNS = -1e-7  # of the largest rate of slip
 MOST_PARTS = 200
@@ -211,37 +211,24 @@ def _within(now: Verdict, last: Verdict) -> bool:
 def _tested(state: State, step: LoadStep, begun: float, shares: Array) -> list[Verdict]:
     """The verdicts on zones at some shares, found from the last to the first."""
     found: list[Verdict] = []
-    zones: Zones | None = None
+    zones = _as_they_set_out(state, step, float(shares[-1] - begun))
     for share in shares[::-1]:
         verdict = _verdict(state, step, float(share), zones)
         if verdict.why and zones is not None:
             verdict = _verdict(state, step, float(share), None)
-        if verdict.equations is None and not found:
-            verdict = _scaled_down(state, step, begun, float(share)) or verdict
         zones = verdict.equations.zones if verdict.equations is not None else None
         found.append(verdict)
     return found[::-1]
 
 
-def _scaled_down(state: State, step: LoadStep, begun: float, share: float) -> Verdict | None:
-    """The verdict where ends have moved in proportion to the loads, less than cells show."""
-    start = np.array(onset(state, step.rates, step.friction).stick).ravel()
-    for times in FARTHER.tolist():
-        try:
-            farther = _verdict(state, step, begun + times * (share - begun), None)
-        except ContactError:  # no such loads
-            return None
-        if farther.equations is None or farther.equations.stick.size != start.size:
-            continue
-        ends = start + (farther.equations.stick.ravel() - start) / times
-        guess = Zones(
-            tuple((float(a), float(b)) for a, b in ends.reshape(-1, 2)),
-            farther.equations.zones.signs,
-        )
-        found = _verdict(state, step, share, guess)
-        if found.equations is not None:
-            return found
-    return None
+def _as_they_set_out(state: State, step: LoadStep, length: float) -> Zones | None:
+    """The zones after a part so short that no cell shows it; None after a longer one."""
+    zones = onset(state, step.rates, step.friction)
+    moved = length * set_out(state, zones, step.rates, step.friction)
+    ends = np.array(zones.stick).ravel() + moved
+    if zones.sticks_anew or not 0.0 < np.abs(moved).max() <= SEEN * state.contact.width:
+        return None
+    return Zones(tuple((float(a), float(b)) for a, b in ends.reshape(-1, 2)), zones.signs.signs)
 
 
 def _verdict(state: State, step: LoadStep, share: float, guess: Zones | None) -> Verdict:

@@ -20,7 +20,7 @@ from sie.errors import ContactError
 from .cells import zones_on_cells
 from .finite_step import built
 from .loading import LoadStep
-from .onset import End, Motion, Onset, onset, resting_place
+from .onset import End, Motion, Onset, onset, resting_place, set_out
 from .rates import Rates
 from .state import Ends, State, overlaps
 from .strips import MOMENTS, TAU, Panel, Span, StripEquations, solved_panel
@@ -38,8 +38,7 @@ AT_THE_END = 1e-9  # of a part: an event so close to its end is there
 SMALL = 1e-2  # of the room: an end advances so far, at a guess
 AGAIN_SINCE = 0.7  # of τ: before it an event at the end of a part is not looked for again
 AGAIN = 12  # times a part is solved to end at its event
-FARTHER = 10.0 ** np.arange(7)  # times a part that is so short that no cell shows what it does
-SEEN = 0.02  # of the contact: so far an end has moved where cells show it
+SEEN = 1e-3  # of the contact: an end that moves less is not seen on cells
 UNRESOLVED = 1e-6  # of the largest coefficient of D: the last two
 TURNS = -1e-7  # of the largest rate of slip
 EXCEEDED = 1e-8  # of the largest f p: by so much |q| may exceed f p
@@ -171,19 +170,17 @@ def _guess(span: Span) -> Array:
 
 
 def _receded(span: Span) -> Array:
-    """The places of the ends if none advances; where cells do not show how, in proportion."""
-    final, which, width = span.start.copy(), span.which(Motion.RECEDES), span.before.contact.width
-    for times in FARTHER.tolist() if which else []:
-        after = span.step.at(span.begun + times * span.length)
-        if len(after.patches) != len(span.onset.patches):
-            break
-        stick = (cells.stick for cells in zones_on_cells(span.before, after))
-        same = next((np.ravel(s) for s in stick if len(s) == len(span.onset.zones)), None)
-        if same is None:
-            break
-        moved = same[which] - span.start[which]
-        final[which] = span.start[which] + moved / times
-        if np.abs(moved).min() > SEEN * width:
+    """The places of the ends if none advances: where no cell shows them, as they set out."""
+    before, step, final = span.before, span.step, span.start.copy()
+    which = span.which(Motion.RECEDES)
+    if not which:
+        return final
+    moved = span.length * set_out(before, span.onset, step.rates, step.friction)
+    if np.abs(moved).max() <= SEEN * before.contact.width:
+        return final + moved
+    for cells in zones_on_cells(before, span.contacts[-1]):
+        if len(cells.stick) == len(span.onset.zones):
+            final[which] = np.ravel(cells.stick)[which]
             break
     return final
 
