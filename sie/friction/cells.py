@@ -43,7 +43,7 @@ def zones_on_cells(before: State, after: Contact) -> tuple[Zones, ...]:
     found = []
     for few in (3, 1):
         plain = _plain(at, new, share, patch, few)
-        zones = _zones(edges, plain, patch, before, after)
+        zones = _zones(edges, plain, patch, new, (before, after))
         if zones.stick and zones not in found:
             found.append(zones)
     if not found:
@@ -66,8 +66,11 @@ def _plain(at: Array, new: Array, share: Array, patch: Ints, few: int) -> Array:
     return out
 
 
-def _zones(edges: Array, at: Array, patch: Ints, before: State, after: Contact) -> Zones:
-    """The zones of cells, with slip at all edges."""
+def _zones(
+    edges: Array, at: Array, patch: Ints, new: Array, states: tuple[State, Contact]
+) -> Zones:
+    """The zones of cells, with slip at all edges; `new` is q, `states` are start and end."""
+    before, after = states
     h, x = np.diff(edges, axis=1)[:, 0], edges.mean(axis=1)
     stick, signs = [], []
     for k, (x1, x2) in enumerate(after.patches):
@@ -83,20 +86,22 @@ def _zones(edges: Array, at: Array, patch: Ints, before: State, after: Contact) 
             lo, hi = edges[run[0], 0], edges[run[-1], 1]
             if first:  # slip at an edge may be narrower than a cell
                 lo = x1 + 0.2 * h[run[0]]
-                signs.append(_towards(before, after, x[run[0]]))
+                signs.append(_towards(before, after, x[run[0]], new[run[0]]))
             if last:
                 hi = x2 - 0.2 * h[run[-1]]
             stick.append((float(lo), float(hi)))
             if last:
-                signs.append(_towards(before, after, x[run[-1]]))
+                signs.append(_towards(before, after, x[run[-1]], new[run[-1]]))
     return Zones(tuple(stick), tuple(signs))
 
 
-def _towards(before: State, after: Contact, x: float) -> float:
-    """The direction in which slip begins next to an edge, by the shear there or the change."""
-    old = float(before.shear(np.array([x]))[0])
-    change = after.Q - before.contact.Q
-    return float(np.sign(change or old) or 1.0)
+def _towards(before: State, after: Contact, x: float, new: float) -> float:
+    """The direction in which slip begins next to an edge: that in which q/(f p) changes there."""
+    at = np.array([x])
+    old, limit = float(before.shear(at)[0]), float(before.contact.limit(at)[0])
+    share = old / limit if limit > 0.0 else 0.0
+    change = new / max(float(after.limit(at)[0]), 1e-300) - share
+    return float(np.sign(change) or np.sign(old) or 1.0)
 
 
 def _cells(before: State, after: Contact) -> Array:

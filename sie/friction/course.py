@@ -20,7 +20,7 @@ from sie.numerics.root_finding import false_position
 from .cells import zones_on_cells
 from .finite_step import EXCEEDED, Equations, Zones, balanced, newton, solved, without_idle
 from .loading import LoadStep
-from .onset import End, Motion, onset
+from .onset import End, Motion, onset, set_out
 from .rates import Rates
 from .state import Contact, Ends, State
 from .strip_part import StripPart, strip_part
@@ -32,6 +32,7 @@ EXCESS = "|q| exceeds f p in stick"
 STUCK = 1e-11  # of the loads: by so much equations may be missed where all sticks
 SHARES = (np.arange(1, 9) / 8.0) ** 1.5  # of a part at which it is tested
 EARLIER = (0.2, 0.02, 2e-3, 1e-4)  # of the first one, where that fails
+SEEN = 1e-2  # of the contact: ends that move less are not seen well on cells
 STOPS = -1e-7  # of the largest K: an end that recedes so little goes on
 TURNS = -1e-7  # of the largest rate of slip
 MOST_PARTS = 200
@@ -130,7 +131,7 @@ def finite_part(state: State, step: LoadStep, begun: float) -> Part:
         return Part(state, State.untouched(after), begun, 1.0)
     shares = begun + (1.0 - begun) * SHARES
     shares[-1] = 1.0
-    verdicts = _tested(state, step, shares)
+    verdicts = _tested(state, step, begun, shares)
     good = _leading(verdicts)
     why = ""
     if good == len(shares):
@@ -144,7 +145,7 @@ def finite_part(state: State, step: LoadStep, begun: float) -> Part:
         first = shares[0] - begun
         for earlier in EARLIER:
             shares = begun + first * earlier * SHARES
-            verdicts = _tested(state, step, shares)
+            verdicts = _tested(state, step, begun, shares)
             good = _leading(verdicts)
             if good:
                 break
@@ -207,10 +208,10 @@ def _within(now: Verdict, last: Verdict) -> bool:
     )
 
 
-def _tested(state: State, step: LoadStep, shares: Array) -> list[Verdict]:
+def _tested(state: State, step: LoadStep, begun: float, shares: Array) -> list[Verdict]:
     """The verdicts on zones at some shares, found from the last to the first."""
     found: list[Verdict] = []
-    zones: Zones | None = None
+    zones = _as_they_set_out(state, step, float(shares[-1] - begun))
     for share in shares[::-1]:
         verdict = _verdict(state, step, float(share), zones)
         if verdict.why and zones is not None:
@@ -218,6 +219,16 @@ def _tested(state: State, step: LoadStep, shares: Array) -> list[Verdict]:
         zones = verdict.equations.zones if verdict.equations is not None else None
         found.append(verdict)
     return found[::-1]
+
+
+def _as_they_set_out(state: State, step: LoadStep, length: float) -> Zones | None:
+    """The zones after a part so short that no cell shows it; None after a longer one."""
+    zones = onset(state, step.rates, step.friction)
+    moved = length * set_out(state, zones, step.rates, step.friction)
+    ends = np.array(zones.stick).ravel() + moved
+    if zones.sticks_anew or not 0.0 < np.abs(moved).max() <= SEEN * state.contact.width:
+        return None
+    return Zones(tuple((float(a), float(b)) for a, b in ends.reshape(-1, 2)), zones.signs.signs)
 
 
 def _verdict(state: State, step: LoadStep, share: float, guess: Zones | None) -> Verdict:

@@ -65,7 +65,10 @@ class GainedSlip:
         now, found = self.equations, []
         for lo, hi, s in now.slip:
             ends = now.rule.ends
-            places = Pieces.places(ends[(ends[:, 0] >= lo) & (ends[:, 1] <= hi)])
+            ends = ends[(ends[:, 0] >= lo) & (ends[:, 1] <= hi)]
+            if not ends.size:  # as short as marks are known
+                continue
+            places = Pieces.places(ends)
             whole = Pieces.integral(places, self._strain(places, s))
             if lo in self.at_ends:
                 start = self.at_ends[lo]

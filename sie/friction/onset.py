@@ -28,6 +28,7 @@ Array = NDArray[np.float64]
 ROUNDS = 12
 SCANNED = np.sin(0.5 * np.pi * np.arange(1, 26) / 26.0) ** 2  # shares of a slip zone
 SETTLED = 1e-14  # of a slip zone
+NEAR = 1e-7  # of the contact: so near to an end f p - q goes like the root of the distance
 STILL = 1e-9  # of the largest K: less is zero
 
 
@@ -158,6 +159,23 @@ def onset(
             return now
         now = changed
     raise ContactError("which parts of the contact stick next is not decided by the rates")
+
+
+def set_out(state: State, now: Onset, loads: LoadRates, friction: float) -> Array:
+    """The speeds of ends that recede, as a step begins at constant pressure.
+
+    Where f p - s q is C √t at a distance t inside an end, the end recedes by t = 2 s K/C.
+    """
+    K, near = now.rates(loads, friction, state.contact.period).K.ravel(), NEAR * state.contact.width
+    speeds = np.zeros(len(now.ends))
+    for j, end in enumerate(now.ends):
+        if end.motion is Motion.RECEDES:
+            inward = -1.0 if j % 2 else 1.0
+            x = np.array([end.place + inward * near])
+            room = float(state.contact.limit(x)[0] - end.sense * state.shear(x)[0])
+            C = max(room, SETTLED) / np.sqrt(near)
+            speeds[j] = inward * 2.0 * max(end.sense * float(K[j]), 0.0) / C
+    return speeds
 
 
 def _changed(

@@ -20,7 +20,7 @@ from sie.errors import ContactError
 from .cells import zones_on_cells
 from .finite_step import built
 from .loading import LoadStep
-from .onset import End, Motion, Onset, onset, resting_place
+from .onset import End, Motion, Onset, onset, resting_place, set_out
 from .rates import Rates
 from .state import Ends, State, overlaps
 from .strips import MOMENTS, TAU, Panel, Span, StripEquations, solved_panel
@@ -38,6 +38,7 @@ AT_THE_END = 1e-9  # of a part: an event so close to its end is there
 SMALL = 1e-2  # of the room: an end advances so far, at a guess
 AGAIN_SINCE = 0.7  # of τ: before it an event at the end of a part is not looked for again
 AGAIN = 12  # times a part is solved to end at its event
+SEEN = 1e-3  # of the contact: an end that moves less is not seen on cells
 UNRESOLVED = 1e-6  # of the largest coefficient of D: the last two
 TURNS = -1e-7  # of the largest rate of slip
 EXCEEDED = 1e-8  # of the largest f p: by so much |q| may exceed f p
@@ -152,12 +153,7 @@ def refuse_doubtful(panel: Panel) -> None:
 
 def _guess(span: Span) -> Array:
     """The places of the ends at the end of a part, about."""
-    final = span.start.copy()
-    for cells in zones_on_cells(span.before, span.contacts[-1]):
-        if len(cells.stick) == len(span.onset.zones):
-            for j in span.which(Motion.RECEDES):
-                final[j] = np.array(cells.stick).ravel()[j]
-            break
+    final = _receded(span)
     zones = span.onset.placed(span.with_edges(np.tile(final, (MOMENTS, 1)))[-1])
     zones = zones.on(span.contacts[-1].patches)
 
@@ -170,6 +166,22 @@ def _guess(span: Span) -> Array:
             place = final[j] + SMALL * (zones.outer(j) - final[j])
         zones = zones.moved(j, replace(zones.ends[j], place=place))
         final[j] = place
+    return final
+
+
+def _receded(span: Span) -> Array:
+    """The places of the ends if none advances: where no cell shows them, as they set out."""
+    before, step, final = span.before, span.step, span.start.copy()
+    which = span.which(Motion.RECEDES)
+    if not which:
+        return final
+    moved = span.length * set_out(before, span.onset, step.rates, step.friction)
+    if np.abs(moved).max() <= SEEN * before.contact.width:
+        return final + moved
+    for cells in zones_on_cells(before, span.contacts[-1]):
+        if len(cells.stick) == len(span.onset.zones):
+            final[which] = np.ravel(cells.stick)[which]
+            break
     return final
 
 

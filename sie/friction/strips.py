@@ -9,7 +9,9 @@ come. At each moment of a part every end then has one unknown:
     it is a stuck edge   one coefficient of D
     it advances          its place and one coefficient of D, with one more equation: K = 0
 
-    D(x) = v Σ_{k<n} c_k T_k(2v - 1),    v = sqrt(|x - x0|/L)
+    D(x) = v w Σ_{k<n} c_k T_k(2v - 1),    v = sqrt(|x - x0|/L)
+
+w is about sqrt(|x - x0'|), x0' the other end of the stick zone as the part begins.
 
 The moments are t_i = t0 + T τ_i², τ_i = (1 - cos(π i/n))/2, i = 1...n: a part begins like a series
 in sqrt(t). Moving an end adds a charge to F as in a finite step, and D enters linearly, so that all
@@ -49,10 +51,16 @@ DIFFERENCE = 1e-6  # of the distance to its neighbour: the step of a difference
 
 @dataclass(frozen=True)
 class Strip:
-    """What end j of the stick zones gains: it begins at x0; `length` is about its final one."""
+    """What end j of the stick zones gains.
+
+    x0       where it begins
+    width    of the stick zone then, which a contact that grows from nothing soon exceeds
+    length   about its final one
+    """
 
     j: int
     x0: float
+    width: float
     length: float
 
     @property
@@ -64,8 +72,10 @@ class Strip:
 
     def basis(self, rule: Rule) -> Array:
         """The functions that c multiplies, (n, places)."""
-        v = np.sqrt((rule.from_lo if self.outward > 0.0 else rule.from_hi) / self.length)
-        found: Array = v * chebyshev.polynomials(MOMENTS, 2.0 * v - 1.0)
+        near = rule.from_lo if self.outward > 0.0 else rule.from_hi
+        v = np.sqrt(near / self.length)
+        far = np.sqrt((near + self.width) / (self.length + self.width))
+        found: Array = v * far * chebyshev.polynomials(MOMENTS, 2.0 * v - 1.0)
         return found
 
 
@@ -341,7 +351,12 @@ def solved_panel(span: Span, guess: Array) -> Panel:
     final = span.with_edges(np.tile(guess, (MOMENTS, 1)))[-1]
     places = span.start + np.outer(TAU[1:] ** 2, final - span.start)
     strips = tuple(
-        Strip(j, float(span.start[j]), abs(float(final[j] - span.start[j])))
+        Strip(
+            j,
+            float(span.start[j]),
+            float(abs(span.start[j] - span.start[j ^ 1])),
+            abs(float(final[j] - span.start[j])),
+        )
         for j in span.which(Motion.ADVANCES, Motion.GROWS)
     )
     now = Panel(span, strips, span.with_edges(places), np.zeros((len(strips), MOMENTS)))
