@@ -34,6 +34,21 @@ class GainedSlip:
             total[inside] = pieces(x[inside])
         return total
 
+    @property
+    def slipped(self) -> list[tuple[float, float, float, Pieces]]:
+        """Δg and the direction of slip where the surface slips, or did before it stuck.
+
+        A strip behind an edge that grows and sticks never slipped.
+        """
+        slip = self.equations.slip
+        senses = {e: s for lo, hi, s in slip for e in (lo, hi)}
+        found = [(lo, hi, senses[lo], pieces) for lo, hi, pieces in self.beside]
+        for lo, hi, pieces in self.strips:
+            sense = senses.get(lo) or senses.get(hi)
+            if sense:
+                found.append((lo, hi, sense, pieces))
+        return found
+
     @cached_property
     def at_ends(self) -> dict[float, float]:
         """Δg at the ends of the stick zones."""

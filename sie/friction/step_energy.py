@@ -2,9 +2,10 @@
 
 Each place slips in one direction, so that by parts, with Δg since the start of the part,
 
-    W = ∫ f p₁ |Δg₁| dx - ∫ dt ∫ f dp/dt |Δg| dx,
+    W = ∫ f p₁ s Δg₁ dx - ∫ dt ∫ f dp/dt s Δg dx,
 
-where p = 0 at a place that comes into contact or leaves it. The second integral is 0 under constant
+s the direction of slip. It does not matter from when on Δg counts at a place that comes into
+contact: p = 0 there, and where a place leaves. The second integral is 0 under constant
 pressure. Its integrand is continuous in time even where zones leap, as they do where the loads come
 back to what they were. On a strip part the zones are known at its moments, where Clenshaw and
 Curtis integrate 2 T τ dτ. In a finite part each moment is a finite step from the start of it. Time
@@ -73,17 +74,17 @@ def work(part: Part | StripPart, step: LoadStep) -> float:
 
 
 def _paired(contact: Contact, now: Equations, density: Callable[[Rule], Array]) -> float:
-    """∫ d |Δg| dx of a density d."""
-    total, slipped = 0.0, GainedSlip(now)
-    for lo, hi, pieces in [*slipped.beside, *slipped.strips]:
+    """∫ d s Δg dx of a density d, s the direction of slip."""
+    total = 0.0
+    for lo, hi, sense, pieces in GainedSlip(now).slipped:
         marks = np.unique(np.concatenate((pieces.marks, contact.limit.marks)))
         rule = Rule.graded(intervals([(lo, hi)], marks, SAME * contact.width), OF_SERIES)
-        total += float(rule.weight @ (density(rule) * np.abs(pieces.on(rule))))
+        total += sense * float(rule.weight @ (density(rule) * pieces.on(rule)))
     return total
 
 
 def _by_pressure(now: Equations, rates: Rates) -> float:
-    """∫ f dp/dt |Δg| dx."""
+    """∫ f dp/dt s Δg dx."""
     return rates.friction * _paired(now.after, now, rates.pressure.density)
 
 
@@ -109,7 +110,7 @@ def _integral(values: Array) -> tuple[float, float]:
 
 
 def _of_panel(part: StripPart, step: LoadStep, whole: float) -> tuple[float, float]:
-    """∫ dt ∫ f dp/dt |Δg| dx of a part on which something comes to stick, and its error."""
+    """∫ dt ∫ f dp/dt s Δg dx of a part on which something comes to stick, and its error."""
     panel = part.panel
     values = [_by_pressure(*one) for one in zip(panel.equations, panel.rates, strict=True)]
     return _integral(np.append(0.0, 2.0 * panel.span.length * TAU[1:] * np.array(values)))
@@ -153,7 +154,7 @@ class Way:
         return cls(part.before, step, (part.begun, part.until), {part.until: part.equations})
 
     def integral(self, a: float, b: float) -> tuple[float, float]:
-        """∫ dt ∫ f dp/dt |Δg| dx between two shares, and its error."""
+        """∫ dt ∫ f dp/dt s Δg dx between two shares, and its error."""
         v = _clenshaw_curtis(INTERVALS)[0][1:-1]
         turn, pace = np.sin(0.5 * np.pi * v) ** 2, 0.5 * np.pi * np.sin(np.pi * v)
         values, doubt = np.zeros(INTERVALS + 1), 0.0
@@ -165,7 +166,7 @@ class Way:
         return whole, error + doubt
 
     def value(self, share: float) -> tuple[float, float]:
-        """∫ f dp/dt |Δg| dx at a share; between known ones where no zones are found, and its error.
+        """∫ f dp/dt s Δg dx at a share; between known ones where no zones are found, and its error.
 
         They are not found next to where they leap, and the integrand is continuous there.
         """
