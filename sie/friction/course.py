@@ -35,7 +35,7 @@ EARLIER = (0.2, 0.02, 2e-3, 1e-4)  # of the first one, where that fails
 SEEN = 1e-2  # of the contact: ends that move less are not seen well on cells
 STOPS = -1e-7  # of the largest K: an end that recedes so little goes on
 TURNS = -1e-7  # of the largest rate of slip
-MOST_PARTS = 200
+MOST_PARTS, SHORT, MOST_SHORT = 60, 1e-4, 6  # of a step; of them so short ones of it
 FINE = 1e-4  # of a part: so well it is known where it ends, if by no event
 STILL, STOPPED = 1e-13, 1e-8  # of the largest K
 
@@ -75,8 +75,9 @@ def course(before: State, step: LoadStep) -> tuple[Part | StripPart, ...]:
             part = _next_part(state, step, done, parts[-1] if parts else None)
         parts.append(part)
         state, done = part.state, part.until
-        if len(parts) > MOST_PARTS:
-            raise ContactError(f"slip starts and stops more than {MOST_PARTS} times")
+        short = sum(part.until - part.begun < SHORT for part in parts)
+        if len(parts) > MOST_PARTS or short > MOST_SHORT:
+            raise _lost(done, f"{len(parts)} parts, {short} of them short")
     return tuple(parts)
 
 
@@ -99,7 +100,18 @@ def _next_part(
                 return part
         except ContactError as problem:
             problems.append(str(problem))
-    raise ContactError("; ".join(problems), share=begun)
+    raise _lost(begun, "; ".join(problems))
+
+
+def _lost(share: float, reason: str) -> ContactError:
+    """The refusal of a step that is followed up to a share of it only."""
+    return ContactError(
+        f"stick and slip are followed for {100.0 * share:.4g} % of the step only: there slip starts "
+        "or stops next to where it has before; move this point of the path a little, or end the "
+        "path before it",
+        share=share,
+        reason=reason,
+    )
 
 
 def _grows(state: State, step: LoadStep) -> bool:

@@ -153,7 +153,7 @@ def _aimed(aims: list[tuple[float, float, object]]) -> float:
         before, seen_before, _ = aims[-2]
         change = (seen - length) - (seen_before - before)
         step = -(seen - length) * (length - before) / change if change else 0.0
-        if 0.0 < step * (seen - length) <= LEAP * (seen - length) ** 2:
+        if 0.0 < step * (seen - length) <= LEAP * (seen - length) ** 2 and length + step > 0.0:
             return length + step
     return seen
 
