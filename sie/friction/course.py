@@ -95,7 +95,8 @@ def _next_part(
             if finite:
                 return finite_part(state, step, begun)
             known, opened = (last.known, last.opened) if last else ({}, None)
-            part = strip_part(state, step, begun, known, opened)
+            longest = last.longest if isinstance(last, StripPart) else 1.0
+            part = strip_part(state, step, begun, known, opened, longest)
             if part is not None:
                 return part
         except ContactError as problem:

@@ -28,6 +28,7 @@ from .strips import MOMENTS, TAU, Panel, Span, StripEquations, solved_panel
 Array = NDArray[np.float64]
 
 SHORTER = 1.0 / 3.0  # of a part that is not solved
+LONGER = 4.0  # times a part that was cut: the next one is no longer
 SHORTEST = 1e-11  # of a step: a part
 FINE = np.linspace(0.02, 1.0, 197)  # shares of τ at which events are looked for
 BEYOND = 1.3  # times τ: so far ahead an arrival is seen
@@ -40,6 +41,7 @@ AGAIN_SINCE = 0.7  # of τ: before it an event at the end of a part is not looke
 LEAP = 10.0  # times as far as the event is seen: so far the length of a part is corrected
 AGAIN = 12  # times a part is solved to end at its event
 SEEN = 1e-3  # of the contact: an end that moves less is not seen on cells
+SENSELESS = 1e-2  # the same, of a part of which nothing is believed
 UNRESOLVED = 1e-6  # of the largest coefficient of D: the last two
 TURNS = -1e-7  # of the largest rate of slip
 EXCEEDED = 1e-8  # of the largest f p: by so much |q| may exceed f p
@@ -72,6 +74,7 @@ class StripPart:
     until: float
     known: Mapping[float, End] = field(default_factory=dict)
     opened: tuple[float, float] | None = None  # place and direction of slip that begins in stick
+    longest: float = 1.0  # share of the step that the next part is tried with: this one was cut
 
     @property
     def before(self) -> State:
@@ -100,6 +103,7 @@ def strip_part(
     begun: float,
     known: Mapping[float, End] | None = None,
     opened: tuple[float, float] | None = None,
+    longest: float = 1.0,
 ) -> StripPart | None:
     """The part from a share of a step on; None where nothing sticks anew.
 
@@ -110,7 +114,7 @@ def strip_part(
         zones = zones.split(*opened)
     if not zones.sticks_anew:
         return None
-    length = 1.0 - begun
+    length = min(1.0 - begun, longest)
     failed, guess = 2.0, None
     aims: list[tuple[float, float, object]] = []
     event: Event | None = None
@@ -119,12 +123,15 @@ def strip_part(
         span = Span(state, step, zones, begun, length)
         try:
             panel = solved_panel(span, _guess(span) if guess is None else guess)
+            if panel.unresolved > SENSELESS:
+                raise ContactError("what sticks anew is not resolved")
             event = first_event(panel, event, beyond=length < failed)
             if event is None or event.share > NEARLY:  # else what is doubtful may come after it
                 refuse_doubtful(panel)
         except ContactError:
             if shorter is not None:
-                return _ended(shorter, None, begun + shorter.span.length)
+                cut = shorter.span.length
+                return replace(_ended(shorter, None, begun + cut), longest=LONGER * cut)
             failed, guess, event = length, None, None
             length *= SHORTER
             if length < SHORTEST:
@@ -140,7 +147,8 @@ def strip_part(
         guess = _places(panel, (length / last) ** 0.5)
     else:
         raise ContactError("what sticks anew is not found in a part however short")
-    return _ended(panel, event, begun + length)
+    longest = 1.0 if event else LONGER * length
+    return replace(_ended(panel, event, begun + length), longest=longest)
 
 
 def _aimed(aims: list[tuple[float, float, object]]) -> float:
