@@ -31,7 +31,9 @@ def slip(part: Part | StripPart, step: LoadStep, x: Array) -> Array:
     old, new = (part.before.contact.patches, part.state.contact.patches)
     touches, touched = _within(x, new), _within(x, old)
     gained = touches & ~touched
-    if gained.any() and part.state.slip:
+    sticks = gained & _within(x, part.state.stick)  # since it touched
+    found[sticks], gained = 0.0, gained & ~sticks
+    if gained.any():
         found[gained] -= _slip_at_touch(part, step, x[gained])
     return np.where(touches, found, 0.0) * (2.0 / step.contacts.scene.Estar)
 

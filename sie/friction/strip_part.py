@@ -32,11 +32,12 @@ SHORTEST = 1e-11  # of a step: a part
 FINE = np.linspace(0.02, 1.0, 197)  # shares of τ at which events are looked for
 BEYOND = 1.3  # times τ: so far ahead an arrival is seen
 ARRIVED = 1e-7  # of the contact: room that is none
-NEARLY = 0.97  # of τ: an event before it shortens the part
+NEARLY = 0.9999  # of τ: an event before it shortens the part
 ON_MARK = 3e-9  # of the contact: an end that recedes and is so close to a mark is on it
 AT_THE_END = 1e-9  # of a part: an event so close to its end is there
 SMALL = 1e-2  # of the room: an end advances so far, at a guess
 AGAIN_SINCE = 0.7  # of τ: before it an event at the end of a part is not looked for again
+LEAP = 10.0  # times as far as the event is seen: so far the length of a part is corrected
 AGAIN = 12  # times a part is solved to end at its event
 SEEN = 1e-3  # of the contact: an end that moves less is not seen on cells
 UNRESOLVED = 1e-6  # of the largest coefficient of D: the last two
@@ -71,6 +72,7 @@ class StripPart:
     until: float
     known: Mapping[float, End] = field(default_factory=dict)
     opened: tuple[float, float] | None = None  # place and direction of slip that begins in stick
+    solved: bool = True  # whether no longer part was tried in vain
 
     @property
     def before(self) -> State:
@@ -97,20 +99,14 @@ def strip_part(
     state: State,
     step: LoadStep,
     begun: float,
-    known: Mapping[float, End] | None = None,
-    opened: tuple[float, float] | None = None,
-) -> StripPart | None:
-    """The part from a share of a step on; None where nothing sticks anew.
-
-    Raises ContactError where it is not found.
-    """
-    zones = onset(state, step.rates, step.friction, known)
-    if opened:
-        zones = zones.split(*opened)
-    if not zones.sticks_anew:
-        return None
-    length = 1.0 - begun
+    zones: Onset,
+    longest: float = 1.0,
+) -> StripPart:
+    """The part from a share of a step on, at most so long. Raises ContactError if none is found."""
+    rest = 1.0 - begun
+    length = min(rest, longest)
     failed, guess = 2.0, None
+    aims: list[tuple[float, float, object]] = []
     event: Event | None = None
     shorter: Panel | None = None  # one that is solved, before an event that was seen ahead of it
     for _ in range(AGAIN):
@@ -128,16 +124,32 @@ def strip_part(
             if length < SHORTEST:
                 raise
             continue
-        if event is not None and event.share > 1.0 and length >= 1.0 - begun:
+        if event is not None and event.share > 1.0 and length >= min(rest, longest):
             event = None  # it comes after the step
         if event is None or abs(event.share - 1.0) < AT_THE_END:
             break
         shorter = panel if event.share > 1.0 else shorter
-        length = min(length * event.share**2, 1.0 - begun)
-        guess = _places(panel, event.share)
+        aims.append((length, length * event.share**2, (event.j, event.place)))
+        last, length = length, min(_aimed(aims), rest)
+        guess = _places(panel, (length / last) ** 0.5)
     else:
         raise ContactError("what sticks anew is not found in a part however short")
-    return _ended(panel, event, begun + length)
+    return replace(_ended(panel, event, begun + length), solved=failed > 1.0)
+
+
+def _aimed(aims: list[tuple[float, float, object]]) -> float:
+    """The length of a part that ends at its event, from lengths and where events were seen.
+
+    A length that is too long shows the event a little late, in proportion: by the secant.
+    """
+    length, seen, event = aims[-1]
+    if len(aims) > 1 and aims[-2][2] == event:
+        before, seen_before, _ = aims[-2]
+        change = (seen - length) - (seen_before - before)
+        step = -(seen - length) * (length - before) / change if change else 0.0
+        if 0.0 < step * (seen - length) <= LEAP * (seen - length) ** 2 and length + step > 0.0:
+            return length + step
+    return seen
 
 
 def refuse_doubtful(panel: Panel) -> None:

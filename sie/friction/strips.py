@@ -364,6 +364,7 @@ def solved_panel(span: Span, guess: Array) -> Panel:
     )
     now = Panel(span, strips, span.with_edges(places), np.zeros((len(strips), MOMENTS)), rough=True)
     last, width = math.inf, span.before.contact.width
+    peak = max(contact.peak for contact in (span.before.contact, span.contacts[-1]))
     for _ in range(STEPS):
         if last > NEAR * width:
             slopes = now.slopes()
@@ -381,7 +382,7 @@ def solved_panel(span: Span, guess: Array) -> Panel:
         settled = longest <= SETTLED * width and change <= 1e-11 * size
         if settled or (longest <= GOOD * width and longest >= 0.5 * last):
             return replace(now, rough=False)
-        if size > ABSURD * span.before.contact.peak or longest > last > FAR * width:
+        if size > ABSURD * peak or longest > last > FAR * width:
             break
         last = longest
     raise ContactError("no places of what sticks anew balance the loads")

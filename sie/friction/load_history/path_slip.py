@@ -30,7 +30,7 @@ from .turning_point import TurningPoint
 
 Array = NDArray[np.float64]
 
-NODES, EARLY = 24, 3  # of a step: nodes in a root of its share
+NODES, EARLY = 24, 6  # of a step: nodes in a root of its share
 
 
 class Followed(changing_contact.Followed, Protocol):
