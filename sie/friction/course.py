@@ -20,7 +20,7 @@ from sie.numerics.root_finding import false_position
 from .cells import zones_on_cells
 from .finite_step import EXCEEDED, Equations, Zones, balanced, newton, solved, without_idle
 from .loading import LoadStep
-from .onset import End, Motion, onset, set_out
+from .onset import End, Motion, Onset, onset, set_out
 from .rates import Rates
 from .state import Contact, Ends, State
 from .strip_part import StripPart, strip_part
@@ -36,6 +36,7 @@ SEEN = 1e-2  # of the contact: ends that move less are not seen well on cells
 STOPS = -1e-7  # of the largest K: an end that recedes so little goes on
 TURNS = -1e-7  # of the largest rate of slip
 MOST_PARTS, SHORT, MOST_SHORT = 60, 1e-4, 6  # of a step; of them so short ones of it
+LONGER = 5.0  # times the last part, where a longer one was not solved
 FINE = 1e-4  # of a part: so well it is known where it ends, if by no event
 STILL, STOPPED = 1e-13, 1e-8  # of the largest K
 
@@ -53,6 +54,7 @@ class Part:
     until: float
     known: Mapping[float, End] = field(default_factory=dict)
     opened: tuple[float, float] | None = None
+    solved: bool = True
 
     @property
     def stuck(self) -> Ends:
@@ -88,20 +90,36 @@ def _next_part(
 
     A finite step is tried first at the start of a step, unless new contact sticks there.
     """
-    problems = []
-    first = begun == 0.0 and not _grows(state, step)
+    known, opened = (last.known, last.opened) if last else ({}, None)
+    zones = onset(state, step.rates, step.friction, known)
+    if opened:
+        zones = zones.split(*opened)
+    grows = any(end.motion is Motion.GROWS for end in zones.ends)
+    longest = 1.0 if last is None or last.solved else LONGER * (last.until - last.begun)
+    problems, first = [], begun == 0.0 and not grows
     for finite in (first, not first):
         try:
             if finite:
-                return finite_part(state, step, begun)
-            known, opened = (last.known, last.opened) if last else ({}, None)
-            longest = last.longest if isinstance(last, StripPart) else 1.0
-            part = strip_part(state, step, begun, known, opened, longest)
-            if part is not None:
-                return part
+                return _without_what_slipped(finite_part(state, step, begun), zones)
+            if zones.sticks_anew:
+                return strip_part(state, step, begun, zones, longest)
         except ContactError as problem:
             problems.append(str(problem))
     raise _lost(begun, "; ".join(problems))
+
+
+def _without_what_slipped(part: Part, zones: Onset) -> Part:
+    """A finite part, if nothing sticks at its end that an advancing end passes.
+
+    That slips until it sticks: in a finite part what sticks has stuck all along.
+    """
+    room = 1e-9 * part.state.contact.width
+    for end in zones.ends:
+        if end.motion is Motion.ADVANCES and any(
+            a < end.place - room and end.place + room < b for a, b in part.state.stick
+        ):
+            raise ContactError(ADVANCES)
+    return part
 
 
 def _lost(share: float, reason: str) -> ContactError:
@@ -113,13 +131,6 @@ def _lost(share: float, reason: str) -> ContactError:
         share=share,
         reason=reason,
     )
-
-
-def _grows(state: State, step: LoadStep) -> bool:
-    """Whether an edge of the contact grows and sticks."""
-    if not (step.rates.P or step.rates.eta or step.rates.moment):
-        return False
-    return any(end.motion is Motion.GROWS for end in onset(state, step.rates, step.friction).ends)
 
 
 @dataclass(frozen=True)

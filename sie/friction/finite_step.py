@@ -167,19 +167,23 @@ class Equations:
         return united(self.before.contact.patches, self.after.patches)
 
     @cached_property
-    def rule(self) -> Rule:
-        """Places where Δq, or on strips D, is given."""
-        return self.beside
-
-    @cached_property
-    def beside(self) -> Rule:
-        """Places beside the stick zones."""
+    def beside(self) -> Array:
+        """The intervals between marks beside the stick zones, (n, 2)."""
         old, new = self.before.contact, self.after
         edges = np.array((*old.patches, *new.patches)).ravel()
         marks = np.unique(np.concatenate((self.before.marks, new.limit.marks, edges)))
-        beside = between(self.touched, self.zones.stick)
-        ends = intervals(beside, marks, SAME * new.width)
-        return Rule.graded(ends, self.breaks(ends) if self.rough else OF_RULES)
+        return intervals(between(self.touched, self.zones.stick), marks, SAME * new.width)
+
+    @property
+    def sources(self) -> Array:
+        """The intervals where Δq, or on strips D, is given; those beside the stick zones first."""
+        return self.beside
+
+    @cached_property
+    def rule(self) -> Rule:
+        """Places on them."""
+        rough = self.rough and len(self.stick) == 1  # the circle above a gap comes near its ends
+        return Rule.graded(self.sources, self.breaks(self.sources) if rough else OF_RULES)
 
     def breaks(self, ends: Array) -> tuple[float, ...]:
         """Those of a rule on intervals: as fine as the nearest place beyond an end asks for."""
@@ -187,7 +191,8 @@ class Equations:
         k = np.searchsorted(points, ends)
         steps = np.concatenate(([np.inf], np.diff(points), [np.inf]))
         beyond = np.stack((steps[k[:, 0]], steps[k[:, 1] + 1]), axis=1)
-        return breaks_for(float((beyond / np.diff(ends, axis=1)).min(initial=np.inf)))
+        nearest = float((beyond / np.diff(ends, axis=1)).min(initial=np.inf))
+        return breaks_for(math.sqrt(nearest))
 
     @cached_property
     def slip(self) -> tuple[tuple[float, float, float], ...]:
@@ -209,7 +214,8 @@ class Equations:
     @cached_property
     def slipped(self) -> Array:
         """Δq beside the stick zones."""
-        rule = self.beside
+        count = len(self.rule.lo) // max(len(self.sources), 1) * len(self.beside)
+        rule = self.rule.among(slice(0, count), self.beside)
         middle, signs = 0.5 * (rule.lo + rule.hi), np.zeros(len(rule.lo))
         for lo, hi, s in self.slip:
             signs[(middle > lo) & (middle < hi)] = s
@@ -236,8 +242,10 @@ class Equations:
     def gaps(self) -> list[Gap]:
         found = []
         for (_, b), (a, _) in zip(self.stick, self.stick[1:], strict=False):
-            breaks = self.breaks(np.array([[b, a]])) if self.rough else OF_RULES
-            found.append(Gap(b, a, breaks))
+            points = np.append(self.sources, self.stick)
+            apart = np.abs(points - np.array([[b], [a]]))
+            near = float(apart[apart > 0.0].min()) / (a - b)
+            found.append(Gap(b, a, breaks_for(near) if self.rough else OF_RULES))
         return found
 
     def root(self, k: int, gap: Gap) -> Complex:

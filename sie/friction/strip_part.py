@@ -28,7 +28,6 @@ from .strips import MOMENTS, TAU, Panel, Span, StripEquations, solved_panel
 Array = NDArray[np.float64]
 
 SHORTER = 1.0 / 3.0  # of a part that is not solved
-LONGER = 4.0  # times a part that was cut: the next one is no longer
 SHORTEST = 1e-11  # of a step: a part
 FINE = np.linspace(0.02, 1.0, 197)  # shares of τ at which events are looked for
 BEYOND = 1.3  # times τ: so far ahead an arrival is seen
@@ -74,7 +73,7 @@ class StripPart:
     until: float
     known: Mapping[float, End] = field(default_factory=dict)
     opened: tuple[float, float] | None = None  # place and direction of slip that begins in stick
-    longest: float = 1.0  # share of the step that the next part is tried with: this one was cut
+    solved: bool = True  # whether no longer part was tried in vain
 
     @property
     def before(self) -> State:
@@ -101,20 +100,12 @@ def strip_part(
     state: State,
     step: LoadStep,
     begun: float,
-    known: Mapping[float, End] | None = None,
-    opened: tuple[float, float] | None = None,
+    zones: Onset,
     longest: float = 1.0,
-) -> StripPart | None:
-    """The part from a share of a step on; None where nothing sticks anew.
-
-    Raises ContactError where it is not found.
-    """
-    zones = onset(state, step.rates, step.friction, known)
-    if opened:
-        zones = zones.split(*opened)
-    if not zones.sticks_anew:
-        return None
-    length = min(1.0 - begun, longest)
+) -> StripPart:
+    """The part from a share of a step on, at most so long. Raises ContactError if none is found."""
+    rest = 1.0 - begun
+    length = min(rest, longest)
     failed, guess = 2.0, None
     aims: list[tuple[float, float, object]] = []
     event: Event | None = None
@@ -130,25 +121,23 @@ def strip_part(
                 refuse_doubtful(panel)
         except ContactError:
             if shorter is not None:
-                cut = shorter.span.length
-                return replace(_ended(shorter, None, begun + cut), longest=LONGER * cut)
+                return replace(_ended(shorter, None, begun + shorter.span.length), solved=False)
             failed, guess, event = length, None, None
             length *= SHORTER
             if length < SHORTEST:
                 raise
             continue
-        if event is not None and event.share > 1.0 and length >= 1.0 - begun:
+        if event is not None and event.share > 1.0 and length >= min(rest, longest):
             event = None  # it comes after the step
         if event is None or abs(event.share - 1.0) < AT_THE_END:
             break
         shorter = panel if event.share > 1.0 else shorter
         aims.append((length, length * event.share**2, (event.j, event.place)))
-        last, length = length, min(_aimed(aims), 1.0 - begun)
+        last, length = length, min(_aimed(aims), rest)
         guess = _places(panel, (length / last) ** 0.5)
     else:
         raise ContactError("what sticks anew is not found in a part however short")
-    longest = 1.0 if event else LONGER * length
-    return replace(_ended(panel, event, begun + length), longest=longest)
+    return replace(_ended(panel, event, begun + length), solved=failed > 1.0)
 
 
 def _aimed(aims: list[tuple[float, float, object]]) -> float:

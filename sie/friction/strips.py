@@ -87,10 +87,10 @@ class StripEquations(Equations):
     series: Array  # c of each strip, (strips, n)
 
     @cached_property
-    def rule(self) -> Rule:
-        """Places beside the stick zones, then on the strips."""
+    def sources(self) -> Array:  # type: ignore[override]
+        """The intervals beside the stick zones, then the strips."""
         ends = [strip.reaches(self.stick.ravel()[strip.j]) for strip in self.strips]
-        return Rule.graded(np.concatenate((self.beside.ends, np.array(ends).reshape(-1, 2))))
+        return np.concatenate((self.beside, np.array(ends).reshape(-1, 2)))
 
     @property
     def begins(self) -> Array:
@@ -99,7 +99,8 @@ class StripEquations(Equations):
 
     @cached_property
     def on_strips(self) -> list[slice]:
-        first, each = len(self.beside.lo), len(self.rule.lo) // len(self.rule.ends)
+        each = len(self.rule.lo) // len(self.sources)
+        first = each * len(self.beside)
         return [slice(first + k * each, first + (k + 1) * each) for k in range(len(self.strips))]
 
     @cached_property
@@ -252,6 +253,7 @@ class Panel:
     strips: tuple[Strip, ...]
     places: Array
     series: Array
+    rough: bool = False  # as of equations
 
     @cached_property
     def equations(self) -> list[StripEquations]:
@@ -263,6 +265,7 @@ class Panel:
                 Zones(tuple((float(a), float(b)) for a, b in ends.reshape(-1, 2)), signs),
                 self.strips,
                 self.series,
+                rough=self.rough,
             )
             for contact, ends in zip(span.contacts, self.places, strict=True)
         ]
@@ -359,7 +362,7 @@ def solved_panel(span: Span, guess: Array) -> Panel:
         )
         for j in span.which(Motion.ADVANCES, Motion.GROWS)
     )
-    now = Panel(span, strips, span.with_edges(places), np.zeros((len(strips), MOMENTS)))
+    now = Panel(span, strips, span.with_edges(places), np.zeros((len(strips), MOMENTS)), rough=True)
     last, width = math.inf, span.before.contact.width
     peak = max(contact.peak for contact in (span.before.contact, span.contacts[-1]))
     for _ in range(STEPS):
@@ -378,7 +381,7 @@ def solved_panel(span: Span, guess: Array) -> Panel:
         size = np.abs(now.series).max(initial=0.0)
         settled = longest <= SETTLED * width and change <= 1e-11 * size
         if settled or (longest <= GOOD * width and longest >= 0.5 * last):
-            return now
+            return replace(now, rough=False)
         if size > ABSURD * peak or longest > last > FAR * width:
             break
         last = longest

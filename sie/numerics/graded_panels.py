@@ -30,7 +30,7 @@ Ints = NDArray[np.int64]
 OF_SERIES = (0.0, 2e-4, 1.5e-3, 0.01, 0.06, 0.2, 0.5)
 OF_RULES = (0.0, 3e-8, 4e-7, 4e-6, 4e-5, 3e-4, 2e-3, 0.012, 0.06, 0.2, 0.5)
 DEGREE = 16  # terms of a series on a panel
-NEAREST = 0.4  # of the v of a singularity: so far reaches the first panel at most
+NEAREST = 0.4  # of the distance of a singularity: so far reaches the first panel at most
 NODES = 14  # of Gauss-Legendre on a panel
 
 
@@ -60,9 +60,10 @@ def gauss_shares(breaks: Sequence[float] = OF_RULES, nodes: int = NODES) -> Shar
 
 
 def breaks_for(beyond: float) -> tuple[float, ...]:
-    """Breaks of a rule for what has its next singularity so far beyond a mark, in lengths."""
-    near = NEAREST * math.sqrt(beyond)
-    return 0.0, *(b for b, c in zip(OF_RULES[1:], (*OF_RULES[2:], np.inf), strict=True) if c > near)
+    """Breaks of a rule for what has its next singularity so far beyond an end, in v."""
+    following = (*OF_RULES[2:], math.inf)
+    kept = (b for b, c in zip(OF_RULES[1:], following, strict=True) if c > NEAREST * beyond)
+    return 0.0, *kept
 
 
 @lru_cache(maxsize=8)
