@@ -17,11 +17,15 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from sie.friction.load_history.marched_step import MarchedStep
+from sie.friction.course import Part
+from sie.friction.finite_step import change_of_shear, excess_in_stick, opposing_slip
 from sie.friction.slip_state import Slip
+from sie.friction.state import SAME, intervals
+from sie.friction.strip_part import StripPart
+from sie.numerics.chord import Chord, Points
+from sie.numerics.graded_panels import Rule as GradedRule
 from sie.numerics.interval import EPS, Interval
 from sie.numerics.zones import within
-from sie.patches.chord import Chord, Points
 from sie.patches.panels import Patches
 from sie.patches.result import PatchCertificate
 from sie.patches.rule import Rule, principal_value
@@ -268,48 +272,36 @@ def finite(values: Array) -> Array:
     return np.where(np.isfinite(values), values, 0.0)
 
 
-# -- after steps that were marched -----------------------------------------------------------------
+# -- after steps that were followed part by part ---------------------------------------------------
 
-MARCHED = 1e-8  # of the largest shear, and of a half-width: what is promised of them
+FOLLOWED = 1e-8  # of the largest shear, and of a half-width: what is promised of them
 FAINT = 1e-4  # of the largest f p, a shear: of a smaller one that is promised of so large a one
 
 
-def marched_certificate(
-    state: Slip, parts: tuple[MarchedStep, ...], error: float, slope: Slope, tol: float
+def certificate_of_parts(
+    state: Slip, parts: Sequence[Part | StripPart], tol: float
 ) -> ShearCertificate:
     """The certificate from the changes of the shear in the parts of the last step.
 
-    The residual is at least the error of the ends of the stick zone over its half-width.
+    It is measured from the states at the ends of parts: 1/π PV∫ Δq/(x - t) dt - Δτ where the
+    surface stuck all along.
     """
-    terms = [on_own_rule(part.shear, part.pressure.contact, part.marks, slope) for part in parts]
-    residual = of_change = 0.0
-    for part, term in zip(parts, terms, strict=True):
-        begun = part.latest()
-        old = begun.pressure.contact
-        before = on_own_rule(begun.shear, old, begun.marks, slope)
-        pair = [term, before._replace(factor=-1.0)]
-        at = np.concatenate([points(zone, pair) for zone in part.kept_in(old)])
-        _, change, _, rounding = integrals(pair, at)
-        missed = np.abs(change - (part.tau - begun.tau)).max(initial=0.0)
-        residual, of_change = max(residual, float(missed)), max(of_change, float(rounding.max()))
-    contact, (x, weight) = (
-        parts[-1].pressure.contact,
-        (terms[-1].rule.points.x, terms[-1].rule.weight),
-    )
-    p, q = state.friction * parts[-1].pressure(x), parts[-1].shear(x)
-    size = max(float(weight @ np.abs(q)), FAINT * float(weight @ p))
+    last = parts[-1].state
+    contact = last.contact
+    missed = max(change_of_shear(part.before, part.state, part.stuck) for part in parts)
+    ends = intervals(contact.patches, last.marks, SAME * contact.width)
+    rule = GradedRule.graded(ends)
+    q, p = last.shear.on(rule), contact.limit.on(rule)
+    size = max(float(rule.weight @ np.abs(q)), FAINT * float(rule.weight @ p))
     peak = max(float(np.abs(q).max()), FAINT * float(p.max()))
-    # An end is known to so much, and q falls from f p there like a root.
-    known = np.abs(np.subtract.outer(parts[-1].marks, x)).min(axis=0) > MARCHED * contact.r
-    force, _, of_force, _ = integrals(terms[-1:], np.zeros(0))
     return ShearCertificate(
-        residual=max(residual / peak, error),
-        equilibrium=abs(force - parts[-1].Q) / size,
-        excess=excess(state.slipped, contact, x[known], p[known], q[known]) / float(p.max()),
-        opposing=opposing(state, parts[-1].slip(x), x),
-        abscissae=max(of_force / size, of_change / peak),
+        residual=missed / peak,
+        equilibrium=abs(float(rule.weight @ q) - contact.Q) / size,
+        excess=excess_in_stick(last),
+        opposing=-max(opposing_slip(part.before, part.state, part.stuck) for part in parts),
+        abscissae=0.0,
         condition=1.0,
         advancing=True,
-        kind=f"{state.kind}; the ends of the stick zone within {error:.0e} of its half-width",
-        tol=max(tol, MARCHED),
+        kind=state.kind,
+        tol=max(tol, FOLLOWED),
     )

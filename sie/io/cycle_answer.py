@@ -74,8 +74,8 @@ def cycle_of(solution: Solution, file: SceneFile) -> dict[str, Any]:
 
 
 def _states(history: History, start: int, parts: int) -> Sequence[Solution]:
-    """The solutions over the cycle; steps that are marched are not divided."""
-    if parts == 1 or any(point.marched for point in history.turning_points):
+    """The solutions over the cycle; steps that are followed part by part are not divided."""
+    if parts == 1 or any(point.parts for point in history.turning_points):
         return history[start:]
     divided = follow(history.scene, history.path.subdivided(parts), history.tol, history.economy)
     return divided[start * parts :]

@@ -38,11 +38,12 @@ def false_position(
 ) -> float:
     """The place between a and b where the function changes sign, given its values there.
 
-    The weight of the end that is kept is halved (Illinois), and the bracket is halved whenever two
-    steps have not done so. It ends at `settled(a, b, value)`, or where the bracket is rounding.
+    The weight of an end that is kept twice is halved (Illinois), and the bracket is halved whenever
+    two steps have not done so. It ends at `settled(a, b, value)`, or where the bracket is rounding.
     """
     at_a, at_b = ends
     u, widths = 0.5 * (a + b), [math.inf, math.inf]
+    kept = 0  # how often b was kept in a row, or a if it is negative
     for _ in range(MAX_BISECTIONS):
         step_done(0)
         widths.append(b - a)
@@ -55,9 +56,11 @@ def false_position(
         if value == 0.0 or settled(a, b, value):
             break
         if (value < 0.0) == (ends[0] < 0.0):
-            a, at_a, at_b = u, value, 0.5 * at_b
+            a, at_a, kept = u, value, kept + 1 if kept > 0 else 1
+            at_b = 0.5 * at_b if kept > 1 else at_b
         else:
-            b, at_b, at_a = u, value, 0.5 * at_a
+            b, at_b, kept = u, value, kept - 1 if kept < 0 else -1
+            at_a = 0.5 * at_a if kept < -1 else at_a
     return u
 
 

@@ -17,10 +17,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from sie import arguments
+from sie.numerics.chord import Points
 from sie.progress_bar import reported
 from sie.traction.base import Density, in_order, on_surface, reflected, zero_or_nan
 
-from .chord import Points
 from .measure import Targets
 from .operator import Operator, at_edges, blocks, on_patches
 from .rule import Rule, rule_of

@@ -26,13 +26,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie.friction.memory import SlippedLayer
+from sie.numerics.chord import Points
 from sie.numerics.graded_rule import graded, on_panels
 from sie.numerics.interval import EPS
 from sie.numerics.zones import Zones, left_over
 from sie.profiles.base import Profile
 from sie.traction.base import ZERO, Density
-
-from .chord import Points
 
 Array = NDArray[np.float64]
 

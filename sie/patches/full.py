@@ -23,13 +23,13 @@ from numpy.typing import ArrayLike, NDArray
 from sie import arguments
 from sie.contact.known_contact import Edges
 from sie.numerics import chebyshev
+from sie.numerics.chord import Chord, Points
 from sie.numerics.graded_rule import graded, on_panels
 from sie.numerics.interval import EPS, Interval
 from sie.profiles.pieces import Pieces
 from sie.traction.base import Density, refuse_side
 
 from .bounds import DEEPEST, NODES, TENSION, halves, lower_bound
-from .chord import Chord, Points
 from .density import PatchPressure
 from .operator import Operator
 from .panels import Patches

@@ -25,9 +25,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie.numerics import chebyshev
+from sie.numerics.chord import Points
 from sie.profiles.pieces import Pieces
 
-from .chord import Points
 from .panels import Patches, PatchPanels, patch_panels
 from .sums import Groups, far_sums, multiply, parts
 from .tree import Level, Tree

@@ -8,13 +8,13 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from sie.numerics.chord import Chord
 from sie.problem.scene import Scene
 from sie.profiles.base import Profile
 from sie.profiles.pieces import Pieces
 from sie.profiles.profile_pieces import of_profile
 from sie.profiles.slope import Slope
 
-from .chord import Chord
 from .state import Effort, Given
 
 Array = NDArray[np.float64]

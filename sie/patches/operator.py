@@ -22,9 +22,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from sie.numerics.chord import Points
 from sie.profiles.pieces import Pieces
 
-from .chord import Points
 from .measure import Measure, Targets, close, integrals
 from .panels import GapPanels, gap_panels
 from .state import Findings, Given, State

@@ -16,10 +16,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie.numerics import chebyshev
+from sie.numerics.chord import Chord, Points
 from sie.numerics.zones import Zones
 from sie.profiles.pieces import Pieces
-
-from .chord import Chord, Points
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]

@@ -8,7 +8,6 @@ and an integral over time where the pressure changes (`friction.moving_work`).
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from itertools import accumulate
 from typing import Protocol
 
@@ -17,14 +16,10 @@ import numpy as np
 from sie.errors import ContactError
 from sie.friction.dissipation import Dissipation, dissipated
 from sie.friction.load_history import changing_contact
-from sie.friction.load_history.changing_contact import ChangingContact
-from sie.friction.load_history.moving_work import work
 from sie.friction.load_history.turning_point import TurningPoint
-from sie.friction.loads import Loads
 from sie.friction.memory import SlippedLayer
 from sie.friction.slip_state import Slip
-from sie.friction.step_conditions import TESTED
-from sie.numerics.interval import Interval
+from sie.friction.step_energy import work
 from sie.progress_bar import reported, step_done
 
 from .dissipation import PatchDissipation
@@ -36,13 +31,13 @@ class Followed(changing_contact.Followed, Protocol):
     first_loading    the state of a contact that was never sheared before S rose to a depth
     dissipation      the energy of layers at one tilt, in one patch
     work_in_patches  the same in several patches
-    march            the turning point after a step that no layers answer
+    by_parts         a turning point, with the parts of the step to it
     """
 
     def first_loading(self, normal: tuple[float, float], depth: complex, turned: bool) -> Slip: ...
     def dissipation(self, turn: float) -> Dissipation: ...
     def work_in_patches(self, turn: float) -> PatchDissipation: ...
-    def march(self, before: TurningPoint, loads: Loads) -> TurningPoint: ...
+    def by_parts(self, index: int) -> TurningPoint: ...
 
 
 class PathEnergy:
@@ -68,14 +63,18 @@ class PathEnergy:
         for k in steps:
             step_done()
             state = path.turning_points[k]
-            if state.marched or _untimed(state):
-                lost[k] += self._of_march(k)
+            tilted = any(
+                depth.imag for o in _layers(state) for depth in (o.upper, o.lower, *o.surface)
+            )
+            tilted = tilted or state.turned or path.curved
+            moving = any(any(o.surface) for o in _layers(state))
+            if state.parts or _untimed(state) or (tilted and moving):
+                lost[k] += self._of_parts(k)
                 continue
             for event in state.slips:
                 for o in event.layers:
-                    depths = o.upper, o.lower, *o.surface
-                    if state.turned or path.curved or any(depth.imag for depth in depths):
-                        lost[k] += o.jump * self._of_states(k, o, event.sign)
+                    if tilted:
+                        lost[k] += o.jump * self._of_states(k, o)
                         continue
                     upright.setdefault(state.loads.turn, []).append((k, o))
         for turn, fronts in upright.items():
@@ -87,51 +86,30 @@ class PathEnergy:
                 lost[k] += o.jump * done
         return list(lost.values())
 
-    def _of_march(self, index: int) -> float:
-        """The energy that a step dissipated, by marching.
+    def _of_parts(self, index: int) -> float:
+        """The energy that a step dissipated, part by part.
 
         Layers may answer it at its end, but not on the way.
         """
-        before, state = self.path.turning_points[max(index - 1, 0)], self.path.turning_points[index]
         try:
-            if not (state.marched or self.path.in_one_patch):
-                raise ContactError(
-                    "one end of a stick zone is held up; that is followed only in a "
-                    "contact that is one patch under every load"
-                )
-            parts = state.marched or self.path.march(before, state.loads).marched
-            return sum(part.work for part in parts)
+            point = self.path.by_parts(index)
+            assert point.step is not None
+            return sum(work(part, point.step) for part in point.parts)
         except ContactError as problem:
             raise ContactError(
-                f"step {index} of the path, to {state.loads}: the energy lost depends on the way, "
-                f"which the state at its end does not; on it, {problem}",
+                f"step {index} of the path, to {self.path.turning_points[index].loads}: the energy "
+                "lost depends on the way, which the state at its end does not; on it, "
+                f"{problem}",
                 step=index,
             ) from None
 
-    def _of_states(self, index: int, o: SlippedLayer, sign: float) -> float:
-        """The energy that an overwritten layer dissipated, per jump.
+    def _of_states(self, index: int, o: SlippedLayer) -> float:
+        """The energy that a layer overwritten at constant P and tilt dissipated, per jump.
 
         The path has bulk stress or tilt.
         """
-        path, state = self.path, self.path.turning_points[index]
-        if not any(o.surface):
-            return self._of_depth(state, o.lower) - self._of_depth(state, o.upper)
-        step = ChangingContact(path, index)
-        if path.in_one_patch or path.curved:
-            step.refuse("the energy lost meanwhile depends on the way, not so the state at its end")
-        first, last = step.shares(o)
-        load = (last - first) * (state.loads.P - path.turning_points[index - 1].loads.P)
-
-        def on_the_way(time: float) -> Slip:
-            return step.state_at(o, sign, first + time * (last - first))
-
-        if not path.in_one_patch:
-            _refuse_births(step, on_the_way)
-
-        def strain(contact: Interval) -> float:
-            return (last - first) * step.strain(contact)
-
-        return work(on_the_way, load, strain)
+        state = self.path.turning_points[index]
+        return self._of_depth(state, o.lower) - self._of_depth(state, o.upper)
 
     def _of_depth(self, state: TurningPoint, depth: complex) -> float:
         """The energy of a first loading to a depth at constant P and tilt."""
@@ -141,19 +119,9 @@ class PathEnergy:
         return dissipated(found)
 
 
-def _refuse_births(step: ChangingContact, on_the_way: Callable[[float], Slip]) -> None:
-    """Refuse a front on the way of which stick zones appear, merge or vanish.
-
-    The power of friction has a kink there, next to which it is found in halves of the time only.
-    """
-    numbers = [len(on_the_way(time).stick) for time in TESTED]
-    if len(set(numbers)) > 1:
-        raise ContactError(
-            f"step {step.index} of the path, to {step.end}: the number of stick zones changes on "
-            f"the way, from {numbers[0]} to {numbers[-1]}, and of it the state at the end "
-            "is solved, not the energy; change bulk stress and tilt at another time than P",
-            step=step.index,
-        )
+def _layers(state: TurningPoint) -> list[SlippedLayer]:
+    """The layers overwritten in the step to a turning point."""
+    return [o for event in state.slips for o in event.layers]
 
 
 def _untimed(state: TurningPoint) -> bool:

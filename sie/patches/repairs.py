@@ -6,9 +6,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie.errors import LoadError
+from sie.numerics.chord import Chord
 from sie.profiles.pieces import Pieces
 
-from .chord import Chord
 from .panels import Patches
 from .state import Event, Findings, Overlap, State
 

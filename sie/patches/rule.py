@@ -11,9 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie.numerics import chebyshev
+from sie.numerics.chord import Points
 from sie.progress_bar import step_done
 
-from .chord import Points
 from .measure import Measure
 from .panels import LONG, Patches, PatchPanels
 

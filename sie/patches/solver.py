@@ -14,12 +14,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie.errors import ContactError, LoadError, ResolutionError
+from sie.numerics.chord import Chord
 from sie.profiles.look import beside, narrow_parts
 from sie.profiles.pieces import Pieces
 from sie.progress_bar import reported
 
 from . import newton
-from .chord import Chord
 from .gap import overlaps
 from .newton import FINAL, MOST_STEPS
 from .of_scene import Problem

@@ -18,10 +18,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie.friction.step_conditions import SLACK, Zones
+from sie.numerics.chord import Points
 from sie.numerics.graded_rule import graded, on_panels
 
 from .answer import SeveralPatches
-from .chord import Points
 from .dissipation import Untouched
 from .measure import edge_ratio
 from .newton import edge_charges, loaded

@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie.numerics import chebyshev
+from sie.numerics.chord import Chord, Points
 from sie.progress_bar import step_done
 
-from .chord import Chord, Points
 from .tree import CHARGES, CHUNK, FAR, POINTS, Level, Separation
 
 Array = NDArray[np.float64]

@@ -14,9 +14,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie.numerics import chebyshev
+from sie.numerics.chord import Points
 
 from .bounds import CLOSED, DEEPEST, NODES, TENSION, halves, lower_bound
-from .chord import Points
 from .operator import Operator, intensities, on_patches
 from .state import Tension
 

@@ -15,8 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie.numerics import chebyshev
-
-from .chord import Chord, Points
+from sie.numerics.chord import Chord, Points
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]

@@ -38,14 +38,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie.certificate.result import ShearCertificate
-from sie.certificate.shear_check import marched_certificate
+from sie.certificate.shear_check import certificate_of_parts
 from sie.contact.known_contact import Normal
 from sie.errors import ContactError
+from sie.friction.course import course
 from sie.friction.load_history.load_steps import Followable, points_of_loads, turning_points
-from sie.friction.load_history.marching import march
-from sie.friction.load_history.path_slip import MarchedSlip, PathSlip, held, step_shift, touched
+from sie.friction.load_history.path_slip import CourseSlip, PathSlip, state_of, step_shift, touched
 from sie.friction.load_history.turning_point import TurningPoint
+from sie.friction.loading import LoadStep
 from sie.friction.loads import Loads
+from sie.friction.memory import LoadMemory
 from sie.friction.slip_state import Slip
 from sie.patches.answer import SeveralPatches
 from sie.patches.full import FullContact
@@ -149,6 +151,7 @@ class History(PathContacts, Sequence[Solution]):
         self._points: dict[int, PathSolution] = {}
         self._energy = PathEnergy(self)
         self._shifts: dict[int, float] = {}
+        self._by_parts: dict[int, TurningPoint] = {}
         self._kind, self.scene_states = PathSolution, list[Solution]()
         if steps is turning_points and one_after_the_other(scene, path):
             self._kind, self.scene_states = SceneSolution, self._solved_by_scenes()
@@ -177,7 +180,7 @@ class History(PathContacts, Sequence[Solution]):
 
     @property
     def plan(self) -> Plan:
-        """For each step whether layers answer it or it is marched, and why.
+        """For each step whether layers answer it or it is followed part by part, and why.
 
         Returns
         -------
@@ -185,7 +188,7 @@ class History(PathContacts, Sequence[Solution]):
             A step of the plan for each step of the path, printed as a table.
         """
         route, points = self._kind.route, self.turning_points
-        how = (f"marched: {point.why}" if point.marched else route for point in points)
+        how = (f"part by part: {point.why}" if point.parts else route for point in points)
         return Plan(tuple(Step(f"step {k}", True, reason) for k, reason in enumerate(how)))
 
     def plot(self, ax: Any = None, units: Any = None) -> Any:
@@ -247,17 +250,27 @@ class History(PathContacts, Sequence[Solution]):
         """The solution of a scene, as of `solve`."""
         return Solution(scene, self.tol, self.economy)
 
-    def march(self, before: TurningPoint, loads: Loads) -> TurningPoint:
-        """The turning point after a step that no layers answer."""
+    def in_parts(self, before: TurningPoint, loads: Loads) -> TurningPoint:
+        """The turning point after a step, followed part by part."""
         first = before.loads.touching(loads)
         if any(any(self.plain(*at.normal).sharp) for at in (first, loads)):
             raise ContactError(
                 "no layers of the contact answer this step, and a contact with sharp edges is not "
-                "marched: the shear is infinite there; round its corners (sie.RoundedFlat)"
+                "followed part by part: the shear is infinite there; round its corners "
+                "(sie.RoundedFlat)"
             )
-        begun = first is before.loads
-        start = held(self, before, self.sheared_by(first)) if begun else touched(self, first, loads)
-        return march(self, start, first, loads)
+        start = state_of(self, before) if first is before.loads else touched(self, first)
+        step = LoadStep(self, first, loads, {0.0: start.contact})
+        parts, level = course(start, step), LoadMemory(self.level(loads))
+        return TurningPoint(loads, level, straight=False, parts=parts, step=step)
+
+    def by_parts(self, index: int) -> TurningPoint:
+        """A turning point with the parts of the step to it, also where layers answer it."""
+        point = self.turning_points[index]
+        if not point.parts and index not in self._by_parts:
+            before = self.turning_points[max(index - 1, 0)]
+            self._by_parts[index] = self.in_parts(before, point.loads)
+        return self._by_parts.get(index, point)
 
     def energy(self, index: int) -> float:
         """The energy lost from the beginning of the path to a turning point."""
@@ -328,15 +341,15 @@ class PathSolution(Solution):
     @cached_property
     def tangential(self) -> Slip:
         """The state of slip at this point of the path."""
-        marched = self.history.turning_points[self.index].marched
-        return (MarchedSlip if marched else PathSlip)(self.history, self.index)
+        parts = self.history.turning_points[self.index].parts
+        return (CourseSlip if parts else PathSlip)(self.history, self.index)
 
     def _shear_certificate(
         self, of_pressures: Sequence[PatchCertificate] = ()
     ) -> ShearCertificate | None:
-        if isinstance(self.tangential, MarchedSlip):
-            state = self.tangential
-            return marched_certificate(state, state.marched, state.error, self._slope, self.tol)
+        if isinstance(self.tangential, CourseSlip):
+            point = self.history.turning_points[self.index]
+            return certificate_of_parts(self.tangential, point.parts, self.tol)
         return super()._shear_certificate(of_pressures)
 
     @property

@@ -13,6 +13,9 @@ from dataclasses import replace
 from functools import cached_property
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from sie.contact.known_contact import Normal
 from sie.errors import LoadError
 from sie.friction.dissipation import Dissipation
@@ -31,6 +34,8 @@ from sie.problem.load_path import Path
 from sie.problem.path_scene import unsheared
 from sie.problem.scene import Scene
 from sie.traction.of_slope import SlopeDensity
+
+FEW = 8  # breaks of a profile: of more, a trace, each one is faint
 
 # P, and what is added to the scene's tilt or moment.
 Under = tuple[float, float]
@@ -148,6 +153,20 @@ class PathContacts(ABC):
         found = self._plain.get(loads.normal) or self._frictionless(*loads.normal)
         _ = found.as_one_patch
         return found.slope_density
+
+    def pressed(self, loads: Loads) -> tuple[tuple[tuple[float, float], ...], Any]:
+        """The patches and the pressure under loads; they are kept at turning points."""
+        found = self._plain.get(loads.normal) or self._frictionless(*loads.normal)
+        if self.in_one_patch:
+            pressure = found.slope_density
+            return (pressure.interval,), pressure
+        return found.patches, found.in_patches.pressure
+
+    @cached_property
+    def corners(self) -> NDArray[np.float64]:
+        """Where the pressure is not smooth: the breaks of a profile of few pieces."""
+        breaks = np.array(self.scene.profile.pieces.break_points)
+        return breaks if len(breaks) <= FEW else breaks[:0]
 
     def sheared_by(self, loads: Loads) -> tuple[float, float]:
         """Q and τ of loads."""

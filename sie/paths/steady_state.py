@@ -27,7 +27,7 @@ from sie import arguments
 from sie.errors import ContactError
 from sie.friction.load_history.changing_contact import ChangingContact
 from sie.friction.load_history.load_steps import steady_points
-from sie.friction.load_history.path_slip import step_slip
+from sie.friction.load_history.path_slip import CourseSlip, step_slip
 from sie.friction.load_history.turning_point import TurningPoint
 from sie.friction.loads import Loads
 from sie.friction.memory import LoadMemory
@@ -274,7 +274,8 @@ class SteadyCycle(Sequence["SteadyState"]):
         start = small._replace(Q=0.0, sigma=0.0)
         end = large._replace(Q=large.Q - small.Q, sigma=large.sigma - small.sigma)
         level = self.history.level(start)
-        grown = self.history.march(TurningPoint(start, LoadMemory(level)), end).marched[-1].shear
+        point = self.history.in_parts(TurningPoint(start, LoadMemory(level)), end)
+        grown = CourseSlip(self.history, state=point).shear
         return superposed((1.0 if large is self._ends[0].loads else -1.0, grown))
 
     @property

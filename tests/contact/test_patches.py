@@ -8,8 +8,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import sie
+from sie.numerics.chord import Chord, Points
 from sie.patches import certificate
-from sie.patches.chord import Chord, Points
 from sie.patches.of_scene import problem_of
 from sie.patches.operator import Operator
 from sie.patches.panels import Patches

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 import sie
+from sie.numerics.chord import Chord, Points
 from sie.patches import edge_charges, full, newton, start, state, tension
-from sie.patches.chord import Chord, Points
 from sie.patches.edge_moves import Damping
 from sie.patches.operator import Operator
 from sie.patches.panels import Patches

@@ -218,7 +218,7 @@ def test_where_the_way_to_the_first_point_is_not_covered_it_is_answered_like_a_s
     def refused(*_):
         raise sie.ContactError("the stick zone would meet another one")
 
-    monkeypatch.setattr(sie.History, "march", refused)
+    monkeypatch.setattr(sie.History, "in_parts", refused)
     scene = sie.solve(replace(HERTZ, tangential_load=RETREAT[1], bulk_stress=RETREAT[2]))
     (point,) = sie.follow(HERTZ, sie.Path([RETREAT]))
     x = np.linspace(*scene.edges, 21)

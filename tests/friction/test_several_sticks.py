@@ -8,9 +8,6 @@ import pytest
 import sie
 from oracles.kalker import Mesh
 from oracles.load_history import history as on_a_mesh
-from sie.friction.load_history import several_sticks
-from sie.friction.load_history.grid_zones import Guess
-from sie.friction.load_history.several_sticks import stuck_in_several
 
 P0, f = np.pi / 4.0, 0.3
 F, S = f * P0, 4.0 * f * P0 / np.pi
@@ -98,16 +95,6 @@ def test_a_gap_opens_inside_the_stick_zone_and_joins_the_slip_beside_it():
         on_the_way = tuple(a + share * (b - a) for a, b in zip(start, turned))
         numbers.append(len(followed([(0.4, 0.0), start, on_the_way])[-1].stick))
     assert numbers == [1, 2, 1]
-
-
-def test_a_short_stick_zone_that_a_guess_lacks_is_found_where_slip_would_oppose(monkeypatch):
-    """The second one of two zones is about to vanish; the guess has the first one alone."""
-    start = followed([(0.4, 0.0), (0.4, 0.25)])[-1]
-    held, sigma = start.history.turning_points[-1].marched[-1].held, (0.25 - 0.5 * 0.462) * S
-    poor = Guess(np.array([[-0.943, 0.7737]]), (-held.signs[0], -held.signs[1]))
-    monkeypatch.setattr(several_sticks, "guess", lambda *_: iter([poor]))
-    found = stuck_in_several(held, held.pressure, f, (held.Q, 0.25 * sigma))
-    assert len(found.sticks) == 2 and found.opposing <= 1e-10
 
 
 @pytest.mark.slow

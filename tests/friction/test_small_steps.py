@@ -8,8 +8,6 @@ import pytest
 
 import sie
 from sie.errors import ContactError
-from sie.friction.load_history import grid_zones, receding_step
-from sie.numerics.interval import Interval
 
 HERTZ = sie.Scene(profile=sie.Parabola(1.0), modulus=1.0, friction=0.3, normal_load=1.0)
 BEFORE = [(1, 0, 0), (1, 0.1, 0.05)]
@@ -58,47 +56,10 @@ def test_unloading_by_a_ten_millionth_moves_an_end_by_as_little():
     assert small.stick[0][0] == pytest.approx(after(BEFORE).stick[0][0], abs=1e-7)
 
 
-def test_slip_of_a_small_step_costs_few_evaluations_of_it(monkeypatch):
-    counted = []
-    panels = receding_step.resolved_panels
-    monkeypatch.setattr(
-        receding_step,
-        "resolved_panels",
-        lambda *given: counted.append(panels(*given)) or counted[-1],
-    )
-    assert after([*BEFORE, (1, 0.1, 0.05 + 1e-9)]).check().ok
-    assert max(len(found[0].lo) for found in counted) < 300
-
-
-def test_a_shear_that_returns_to_none_is_found_from_few_places(monkeypatch):
-    """All sticks on a way and back: rounding is left of q, which no halving of panels resolves."""
-    seen = []
-    values = receding_step.Receded._values
-    monkeypatch.setattr(
-        receding_step.Receded, "_values", lambda self, x: seen.append(len(x)) or values(self, x)
-    )
-    point = after([(1, 0, 0), (1.5, 0.05, 0.01), (1, 0, 0)])
-    assert abs(point.shear(0.1)) <= 1e-13
-    assert sum(seen) <= 2000
-    assert point.check().ok
-
-
 def test_a_flat_punch_whose_tilt_returns_with_its_shear_sticks_all_over():
     flat = sie.Scene(profile=sie.Flat(1.0), modulus=1.0, friction=0.3, normal_load=1.0)
     point = after([*BEFORE, (1, -0.1, -0.05)], (0, 0.1, -0.1), flat)
     assert point.stick == ((-1.0, 1.0),)
-
-
-def test_an_energy_that_is_refused_names_its_step_and_loads(monkeypatch):
-    def refused(part):
-        raise ContactError("no stick zone")
-
-    monkeypatch.setattr(receding_step.Receded, "work", property(refused))
-    point = after([*BEFORE, (1, 0.1, 0.06)])
-    with pytest.raises(
-        ContactError, match=r"step 2 of the path, to \(P, Q, σ\) = \(1, 0\.1, 0\.06"
-    ):
-        _ = point.energy_lost
 
 
 @pytest.mark.parametrize(("sign", "size"), [(-1, 3e-13), (1, 3e-11)])
@@ -108,20 +69,3 @@ def test_a_step_near_the_rounding_of_its_loads_is_answered_or_refused_without_wa
         warnings.simplefilter("error")
         with suppress(ContactError):
             _ = after([*BEFORE, step]).stick
-
-
-def test_cells_that_close_in_on_a_place_stay_wider_than_the_rounding_of_their_ends(monkeypatch):
-    """Their matrix is singular otherwise, with some builds of BLAS."""
-    seen, stepped = [], grid_zones.stepped
-    monkeypatch.setattr(
-        grid_zones, "stepped", lambda edges, *rest: seen.append(edges) or stepped(edges, *rest)
-    )
-
-    def bound(x):
-        return np.sqrt(np.maximum(1.0 - x * x, 0.0))
-
-    marks = 0.3 + 2.0**-53 * np.arange(5.0)
-    loads = 0.3, 1e-13  # ΔQ and Δτ
-    for _ in grid_zones.guess(Interval(-1.0, 1.0), np.zeros_like, bound, loads, marks):
-        pass
-    assert min(np.diff(edges).min() for edges in seen) > 1e-13

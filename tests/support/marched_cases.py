@@ -47,7 +47,7 @@ def all_marched(scene: sie.Scene, points: Points) -> History:
     def steps(scene: sie.Scene, path: sie.Path, contacts: Any) -> tuple[Any, ...]:
         found = [turning_points(scene, path, contacts)[0]]
         for loads in loads_of(path)[1:]:
-            found.append(contacts.march(found[-1], loads))
+            found.append(contacts.in_parts(found[-1], loads))
         return tuple(found)
 
     return History(scene, path_of(points), 1e-13, ECONOMY, steps)

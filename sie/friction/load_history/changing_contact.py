@@ -16,13 +16,13 @@ from numpy.typing import NDArray
 from sie.contact.edges import Search
 from sie.errors import ContactError
 from sie.friction.contact_growth import near_contact
+from sie.friction.loading import Contacts, LoadStep
 from sie.friction.loads import Loads
 from sie.friction.memory import SlippedLayer
 from sie.friction.slip_state import Slip
 from sie.numerics.interval import EPS, Interval
 from sie.numerics.root_finding import false_position
 
-from .growing_contact import Contacts, LoadChange
 from .known_zones import KnownZones
 from .turning_point import TurningPoint
 
@@ -69,7 +69,7 @@ class ChangingContact:
         self.state = path.turning_points[index]
         self.end = self.state.loads
         self.start = path.turning_points[index - 1].loads.touching(self.end)
-        self.change = LoadChange(path, self.start, self.end)
+        self.change = LoadStep(path, self.start, self.end)
         self.rise = path.level(self.end) - path.level(self.start)
         self._states: dict[tuple[Loads, complex], Slip] = {}
         self._edges = KnownZones()
@@ -98,16 +98,6 @@ class ChangingContact:
             upper, lower = (self._beside(*place, x, begin == 0.0) for place in depths)
             total += o.jump * event.sign * (lower - upper)
         return total
-
-    def strain(self, contact: Interval) -> float:
-        """E*/2 times the rate of the tilt."""
-        return float(self.change.rates.strain(np.array(contact.m), np.array(contact.r)))
-
-    def state_at(self, o: SlippedLayer, sign: float, share: float) -> Slip:
-        """The first loading to the depth of a front in a layer, at a share of the step."""
-        loads = self.change.loads(share)
-        depth = self._below(loads, self._front(o, sign, share))
-        return self.path.on_the_way(loads.normal, depth, self.state.turned)
 
     # -- contacts and states on the way ------------------------------------------------------------
 

@@ -9,43 +9,33 @@ from functools import partial
 from typing import Protocol, TypeVar
 
 from sie.errors import ContactError
+from sie.friction import loading
 from sie.friction.load_step import Contacts, NotLayered, Step
+from sie.friction.loading import LoadStep
 from sie.friction.loads import Loads
 from sie.friction.memory import Layer, LoadMemory, in_proportion, simple
-from sie.numerics.interval import EPS, Interval
+from sie.friction.rates import Rates
+from sie.numerics.interval import EPS
 from sie.problem.load_limit import refuse_sliding
 from sie.problem.load_path import Path
 from sie.problem.scene import Scene
 from sie.progress_bar import counted
-from sie.traction.of_slope import SlopeDensity
 
-from .growing_contact import LoadChange
-from .slip_rates import SlipRates
 from .turning_point import TurningPoint
 
 Result = TypeVar("Result")
 
 
-class Followable(Contacts, Protocol):
+class Followable(Contacts, loading.Contacts, Protocol):
     """The contacts of a path that is followed.
 
-    scene           profile, bodies and friction
-    sheared_by      Q and τ of loads
-    pressure_at     the pressure under loads, in one patch
-    by_moment       whether moments are added along the path, not tilts
     in_one_patch    whether the contact is one patch under every load
-    march           the turning point after a step that no layers answer
+    in_parts        the turning point after a step that no layers answer
     """
 
-    scene: Scene
-
-    def sheared_by(self, loads: Loads) -> tuple[float, float]: ...
-    def pressure_at(self, loads: Loads) -> SlopeDensity: ...
-    @property
-    def by_moment(self) -> bool: ...
     @property
     def in_one_patch(self) -> bool: ...
-    def march(self, before: TurningPoint, loads: Loads) -> TurningPoint: ...
+    def in_parts(self, before: TurningPoint, loads: Loads) -> TurningPoint: ...
 
 
 def turning_points(scene: Scene, path: Path, contacts: Followable) -> tuple[TurningPoint, ...]:
@@ -142,31 +132,25 @@ def steady_points(scene: Scene, path: Path, contacts: Followable) -> tuple[Turni
 
 
 def stepped(contacts: Followable, before: TurningPoint, loads: Loads) -> TurningPoint:
-    """The turning point after a step: by layers, and where these do not answer by marching.
+    """The turning point after a step: by layers, and where these do not answer part by part.
 
     Raises ContactError where the step is not covered.
     """
-    if before.marched:
-        last = before.marched[-1].held
+    if before.parts:
+        last = before.state.contact
         if before.loads.normal == loads.normal and contacts.sheared_by(loads) == (last.Q, last.tau):
             return replace(before, loads=loads)
-        return replace(contacts.march(before, loads), why="a step before was marched")
+        return replace(contacts.in_parts(before, loads), why="a step before was")
     try:
         found = _layered(contacts, before, loads)
     except NotLayered as problem:
-        if not contacts.in_one_patch:
-            raise ContactError(
-                f"{problem}: what is locked in then depends on the way, which is followed only in "
-                "a contact that is one patch under every load; change P, Q, σ and tilt in one "
-                "proportion, or bulk stress and tilt less"
-            ) from None
-        return replace(contacts.march(before, loads), why=str(problem))
+        return replace(contacts.in_parts(before, loads), why=str(problem))
     if found.turned and found.straight and contacts.in_one_patch:
         known = before.memory.top is None or _advancing(contacts, before)
         if known and not _advancing(contacts, found):
-            return replace(contacts.march(before, loads), why="zones of slip retreat on the way")
+            return replace(contacts.in_parts(before, loads), why="zones of slip retreat on the way")
     if found.turned and contacts.in_one_patch and _stops(contacts, before, found):
-        return replace(contacts.march(before, loads), why="a zone of slip retreats on the way")
+        return replace(contacts.in_parts(before, loads), why="a zone of slip retreats on the way")
     return found
 
 
@@ -176,12 +160,12 @@ def _stops(contacts: Followable, before: TurningPoint, point: TurningPoint) -> b
     if last is None or top is None or before.loads.normal == point.loads.normal:
         return False
     state = contacts.first_loading(point.loads.normal, top.thickness, True)
-    zones = [sign * last.sign for *_, sign in state.slipped]
-    if len(zones) != 2 or zones[0] == zones[1]:
+    zones = [(lo, hi, sign * last.sign) for lo, hi, sign in state.slipped]
+    if len(zones) != 2 or zones[0][2] == zones[1][2]:
         return False
-    change = LoadChange(contacts, before.loads, point.loads)
-    rates = SlipRates(change.rates, contacts.scene.friction, (zones[0], zones[1]))
-    return bool(rates.onwards(state.contact, Interval(*state.stick[0])).min() < 0.0)
+    step, f = LoadStep(contacts, before.loads, point.loads), contacts.scene.friction
+    rates = Rates.solved((state.contact[:2],), state.stick, zones, step.rates, friction=f)
+    return bool((rates.signed_K < 0.0).any())
 
 
 def _advancing(contacts: Followable, point: TurningPoint) -> bool:

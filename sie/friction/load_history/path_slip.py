@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 from functools import cached_property
 from itertools import pairwise
 from typing import Any, Protocol
@@ -12,9 +11,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie.errors import ContactError
+from sie.friction.loading import contact_under
 from sie.friction.loads import Loads
+from sie.friction.panel_shear import PanelShear
+from sie.friction.part_answers import drag, slip
 from sie.friction.slip_state import Slip
-from sie.numerics.halving import integral
+from sie.friction.state import SAME, State, between, intervals
+from sie.numerics import chebyshev
+from sie.numerics.graded_panels import Pieces, Rule
 from sie.numerics.interval import Interval
 from sie.numerics.zones import left_over, within
 from sie.traction.base import ZERO, Density
@@ -22,13 +26,11 @@ from sie.traction.combination import superposed
 
 from . import changing_contact
 from .changing_contact import ChangingContact
-from .growing_contact import LoadChange, Span
-from .marched_step import Held, MarchedStep, drag
-from .panel_shear import PanelShear
-from .slip_onset import onsets
 from .turning_point import TurningPoint
 
 Array = NDArray[np.float64]
+
+NODES, EARLY = 24, 6  # of a step: nodes in a root of its share
 
 
 class Followed(changing_contact.Followed, Protocol):
@@ -40,6 +42,7 @@ class Followed(changing_contact.Followed, Protocol):
     patches          the patches of contact under P and a tilt
     shift_of_step    the shift that slip adds in one step
     contact          the contact under loads, in one patch
+    by_parts         a turning point, with the parts of the step to it
     """
 
     @property
@@ -49,6 +52,7 @@ class Followed(changing_contact.Followed, Protocol):
     def patches(self, P: float, turn: float) -> tuple[tuple[float, float], ...]: ...
     def shift_of_step(self, index: int) -> float: ...
     def contact(self, loads: Loads) -> Interval: ...
+    def by_parts(self, index: int) -> TurningPoint: ...
 
 
 class PathSlip(Slip):
@@ -185,7 +189,7 @@ class PathSlip(Slip):
     def slip(self, x: Array) -> Array:
         """Relative slip since x came into contact."""
         past = self.history.turning_points[: self.index + 1]
-        if not self.state.marched and all(state.loads.normal == self.normal for state in past):
+        if not self.state.parts and all(state.loads.normal == self.normal for state in past):
             return sum(
                 (weight * loading.slip(x) for weight, loading in self._terms), np.zeros(x.shape)
             )
@@ -194,13 +198,13 @@ class PathSlip(Slip):
             if state.loads.P == 0.0:
                 continue
             touches = self._touches(x, state.loads)
-            start = before.loads.touching(state.loads) if state.marched else before.loads
+            start = before.loads.touching(state.loads) if state.parts else before.loads
             stayed = self._touches(x, start) & touches
             total = np.where(stayed, total, 0.0) + step_slip(self.history, index, x)
             new = touches & ~stayed
-            if state.marched and new.any():
-                total[new] = _marched_slip_of_new(self.history, index, x[new])
-            if state.slips and index and new.any():
+            if state.parts:
+                total[new] = step_slip(self.history, index, x[new])
+            elif state.slips and index and new.any():
                 total[new] = ChangingContact(self.history, index).slip_of_new(x[new])
         return total
 
@@ -216,98 +220,75 @@ class PathSlip(Slip):
     def shift(self) -> float:
         past = self.history.turning_points[: self.index + 1]
         same = all(state.loads.normal == self.normal for state in past)
-        if same and not self.state.marched:
+        if same and not self.state.parts:
             return sum(weight * loading.shift for weight, loading in self._terms)
         return sum(self.history.shift_of_step(index) for index in range(self.index + 1))
 
 
-class MarchedSlip(PathSlip):
-    """Stick, slip and shear at a point of a path that was marched to."""
+class CourseSlip(PathSlip):
+    """Stick, slip and shear at a point of a path, the step to which was followed part by part."""
 
     @property
     def kind(self) -> str:  # type: ignore[override]
-        return f"marched, as {self.state.why}"
-
-    @property
-    def marched(self) -> tuple[MarchedStep, ...]:
-        """The parts of the last step."""
-        return self.state.marched
-
-    @property
-    def error(self) -> float:
-        """The error of the ends of the stick zone over its half-width, of all steps together."""
-        past = self.history.turning_points[: self.index + 1]
-        return sum(part.error for point in past for part in point.marched)
+        return f"followed part by part, as {self.state.why}"
 
     @cached_property
     def shear(self) -> Density:
-        return self.marched[-1].shear
+        state = self.state.state
+        contact = state.contact
+        room = SAME * contact.width
+
+        def of_patch(x1: float, x2: float) -> Density:
+            zone, marks = Interval(x1, x2), state.marks
+            inside = marks[(marks > x1 + room) & (marks < x2 - room)]
+            rule = Rule.graded(intervals([(x1, x2)], inside, room))
+            load = float(rule.weight @ state.shear.on(rule))
+            return PanelShear(zone, state.shear, inside.tolist(), load, contact.limit)
+
+        found = [of_patch(*patch) for patch in contact.patches]
+        return found[0] if len(found) == 1 else superposed(*((1.0, q) for q in found))
 
     @property
     def stick(self) -> tuple[tuple[float, float], ...]:  # type: ignore[override]
-        return self.marched[-1].sticks
+        return self.state.state.stick
 
     @property
     def slipped(self) -> tuple[tuple[float, float, float], ...]:
-        return self.marched[-1].slipped
+        return self.state.state.slip
 
     @property
     def levels(self) -> tuple[float, ...]:
-        return self.marched[-1].marks
+        return tuple(self.state.state.marks.tolist())
 
     @property
     def contacts(self) -> tuple[()]:
         return ()
 
 
-def touched(history: Followed, loads: Loads, end: Loads) -> Held:
-    """What a step to `end` starts from that has just brought the bodies into contact.
-
-    Q and P grow in one proportion, and the bulk stress and the tilt do not matter yet; but a flat
-    has its width at once. Where slip begins with it at one edge alone, the state is that of the
-    same loads in proportion on a flat.
-    """
-    p, (Q, tau) = history.pressure_at(loads), history.sheared_by(loads)
-    stick = Interval(p.contact.x1, p.contact.x2)
-    found = Held(Q, tau, p, superposed((Q / loads.P, p)), stick, (0.0, 0.0), tuple(p.breaks))
-    change, f = LoadChange(history, loads, end), history.scene.friction
-    signs = next((way.signs for way in onsets(found, change, f)), found.signs)
-    if all(signs) or not any(signs):
-        return found
-    state = history.on_the_way(loads.normal, history.shear(loads), True)
-    c1, c2 = state.stick[0]
-    stick = Interval(c1 if signs[0] else stick.x1, c2 if signs[1] else stick.x2)
-    marks = (*state.levels, *state.shear.breaks)
-    return replace(found, shear=state.shear, stick=stick, signs=signs, marks=marks)
+def state_of(history: Followed, point: TurningPoint) -> State:
+    """What a step from a turning point starts from."""
+    if point.parts:
+        return point.state
+    contact, slip = contact_under(history, point.loads), PathSlip(history, state=point)
+    shear = slip.shear
+    if shear is ZERO:
+        return State.untouched(contact)
+    room = SAME * contact.width
+    marks = np.unique(np.concatenate((slip.levels, contact.limit.marks)))
+    q = Pieces.fitted(intervals(contact.patches, marks, room), lambda rule: shear(rule.x))
+    stick = tuple((lo, hi) for lo, hi in slip.stick if hi > lo)
+    zones = between(contact.patches, stick)
+    signs = np.sign(q(np.array([0.5 * (lo + hi) for lo, hi in zones])))
+    slips = tuple((*zone, float(s)) for zone, s in zip(zones, signs, strict=True))
+    return State(contact, stick, slips, q)
 
 
-def held(history: Followed, point: TurningPoint, loads: tuple[float, float]) -> Held:
-    """What a step from a turning point under Q and τ starts from."""
-    if point.marched:
-        return point.marched[-1].held
-    found, contact = _layered(history, point, loads), history.contact(point.loads)
-    if found.shear is ZERO:
-        return found
-    # on panels, as a step evaluates it often
-
-    def limit(x: Array) -> Array:
-        return history.scene.friction * found.pressure(x)
-
-    shear = PanelShear(contact, found.shear, found.marks, loads[0], limit)
-    return replace(found, shear=shear)
-
-
-def _layered(history: Followed, point: TurningPoint, loads: tuple[float, float]) -> Held:
-    """The same after a step that layers answer, with the shear as it is."""
-    state = PathSlip(history, state=point)
-    contact, zones = state.contact, state.slipped
-    stick = Interval(*state.stick[0]) if state.stick else Interval(contact.m, contact.m)
-    left = [sign for _, hi, sign in zones if hi == stick.x1]
-    right = [sign for lo, _, sign in zones if lo == stick.x2]
-    signs = (left or [0.0])[-1], (right or [0.0])[-1]
-    pressure = history.plain(*point.loads.normal).slope_density
-    marks = (*state.levels, *state.shear.breaks)
-    return Held(*loads, pressure, state.shear, stick, signs, marks)
+def touched(history: Followed, loads: Loads) -> State:
+    """The same where the bodies have just come into contact: q is in proportion to p."""
+    contact = contact_under(history, loads)
+    share = loads.Q / (history.scene.friction * loads.P)
+    q = Pieces(contact.limit.ends, share * contact.limit.series)
+    return State(contact, contact.patches, (), q)
 
 
 def step_shift(history: Followed, index: int) -> float:
@@ -315,11 +296,8 @@ def step_shift(history: Followed, index: int) -> float:
     state = history.turning_points[index]
     if any(any(o.surface) for event in state.slips for o in event.layers):
         return _shift_of_change(history, index)
-    if state.marched:
-        before = history.turning_points[max(index - 1, 0)]
-        if before.loads.normal != state.loads.normal:
-            return _shift_of_change(history, index)
-        return sum(part.integrals.shift for part in state.marched)
+    if state.parts:
+        return _shift_of_change(history, index)
 
     def until(depth: complex) -> float:
         return (
@@ -337,8 +315,8 @@ def step_slip(history: Followed, index: int, x: Array) -> Array:
     """The slip in one step, where x was in contact all along it."""
     state = history.turning_points[index]
     normal, out = state.loads.normal, np.zeros(x.shape)
-    for part in state.marched:
-        out += part.slip(x)
+    for part in state.parts:
+        out += slip(part, state.step, x)
     if state.last is not None:  # zones that slipped before have left the contact
         for o in state.last.layers:
             for depth, sign in ((o.lower, 1.0), (o.upper, -1.0)):
@@ -358,38 +336,22 @@ def step_slip(history: Followed, index: int, x: Array) -> Array:
 
 
 def _shift_of_change(history: Followed, index: int) -> float:
-    """The shift that slip adds while the contact changes: all of it, less that without slip.
+    """The shift that slip adds in a step: all of it, less that without slip.
 
     A contact [M - R, M + R] that does not slip shifts by -2 ln R/(π E*) dQ + 2/E* M dτ.
     """
-    before, point = history.turning_points[index - 1 : index + 1]
-    start = before.loads.touching(point.loads)
     if not history.in_one_patch:
         ChangingContact(history, index).refuse("how far slip shifts the indenter is not covered")
-    change = LoadChange(history, start, point.loads)
-    span = Span.of(change, 0.0, 1.0)
-
-    def without_slip(part: float) -> float:
-        share = span.share(np.array(part))
-        contact = change.pressure(float(share)).contact
-        dQ, dtau = change.rates.Q, change.rates.tau
-        moved = math.pi * dtau * contact.m - dQ * math.log(contact.r)
-        return moved * span.length / float(span.pace(share, share))
-
-    if point.marched:
-        whole = sum(part.drag for part in point.marched)
-    else:
-        first, end = (_layered(history, o, history.sheared_by(o.loads)) for o in (before, point))
-        old = first.pressure.contact
-        stuck = Interval(max(old.x1, end.stick.x1), min(old.x2, end.stick.x2))
-        whole = drag(first, end, stuck)
-    stuck_shift = integral(without_slip, abs(change.rates.Q) + abs(without_slip(1.0)))
-    half_modulus = 0.5 * history.scene.Estar
-    return (whole - stuck_shift) / (math.pi * half_modulus)
-
-
-def _marched_slip_of_new(history: Followed, index: int, x: Array) -> Array:
-    """The slip at places (1-d) that came into contact in a marched step, since then."""
-    parts, step = history.turning_points[index].marched, ChangingContact(history, index)
-    places = [(step.crossed(float(at)), np.array([at])) for at in x]
-    return np.array([sum(part.slip_since(*place)[0] for part in parts) for place in places])
+    point = history.by_parts(index)
+    step = point.step
+    assert step is not None
+    u, weight = chebyshev.gauss_legendre(NODES)
+    shares = u**EARLY  # beside the place of first contact R is like a power of the share
+    stuck_shift = 0.0
+    for share, w in zip(shares, weight * EARLY * shares / u, strict=True):
+        ((x1, x2),) = step.at(float(share)).patches
+        rates = step.rates
+        moved = 0.5 * math.pi * rates.tau * (x1 + x2) - rates.Q * math.log(0.25 * (x2 - x1))
+        stuck_shift += float(w) * moved
+    whole = sum(drag(part) for part in point.parts)
+    return (whole - stuck_shift) / (0.5 * math.pi * history.scene.Estar)

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from sie.friction.course import Part
+from sie.friction.loading import LoadStep
 from sie.friction.loads import Loads
 from sie.friction.memory import LoadMemory, SlipEvent
-
-from .marched_step import MarchedStep
+from sie.friction.state import State
+from sie.friction.strip_part import StripPart
 
 
 @dataclass(frozen=True)
@@ -19,7 +21,8 @@ class TurningPoint:
     slips       the slip since the last turning point, in the order of time
     turned      whether slip has opposite signs at the two edges
     straight    whether S changed in one proportion, at constant P and tilt, since it was 0
-    marched     the parts of the last step in the order of time, where no layers answer it
+    parts       the parts of the last step in the order of time, where no layers answer it
+    step        that step
     why         why they do not
     """
 
@@ -28,8 +31,14 @@ class TurningPoint:
     slips: tuple[SlipEvent, ...] = ()
     turned: bool = False
     straight: bool = True
-    marched: tuple[MarchedStep, ...] = ()
+    parts: tuple[Part | StripPart, ...] = ()
+    step: LoadStep | None = None
     why: str = ""
+
+    @property
+    def state(self) -> State:
+        """The state after the last part."""
+        return self.parts[-1].state
 
     @property
     def last(self) -> SlipEvent | None:

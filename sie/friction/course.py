@@ -1,0 +1,348 @@
+"""A step of a load path, part by part: which states it passes through.
+
+A part is a finite step where stick zones only shrink (`finite_step`): on the way every place slips
+in one direction only. That is tested at some shares of it, by the rates, which depend on the zones
+alone. An end that recedes no longer, and slip that turns, end a part.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sie.errors import ContactError
+from sie.numerics.root_finding import false_position
+
+from .cells import zones_on_cells
+from .finite_step import EXCEEDED, Equations, Zones, balanced, newton, solved, without_idle
+from .loading import LoadStep
+from .onset import End, Motion, Onset, onset, set_out
+from .rates import Rates
+from .state import Contact, Ends, State
+from .strip_part import StripPart, strip_part
+
+Array = NDArray[np.float64]
+
+ADVANCES, TURNED = "an end of a stick zone advances", "slip turns"
+EXCESS = "|q| exceeds f p in stick"
+STUCK = 1e-11  # of the loads: by so much equations may be missed where all sticks
+SHARES = (np.arange(1, 9) / 8.0) ** 1.5  # of a part at which it is tested
+EARLIER = (0.2, 0.02, 2e-3, 1e-4)  # of the first one, where that fails
+SEEN = 1e-2  # of the contact: ends that move less are not seen well on cells
+STOPS = -1e-7  # of the largest K: an end that recedes so little goes on
+TURNS = -1e-7  # of the largest rate of slip
+MOST_PARTS, SHORT, MOST_SHORT = 60, 1e-4, 6  # of a step; of them so short ones of it
+LONGER = 5.0  # times the last part, where a longer one was not solved
+FINE = 1e-4  # of a part: so well it is known where it ends, if by no event
+STILL, STOPPED = 1e-13, 1e-8  # of the largest K
+
+
+@dataclass(frozen=True, eq=False)
+class Part:
+    """A finite part of a step: the states at its ends, and its shares of the step.
+
+    known   what ends of stick zones do next, by their places, where an event decided it
+    """
+
+    before: State
+    state: State
+    begun: float
+    until: float
+    known: Mapping[float, End] = field(default_factory=dict)
+    opened: tuple[float, float] | None = None
+    solved: bool = True
+
+    @property
+    def stuck(self) -> Ends:
+        """What stuck all along."""
+        return self.state.stick
+
+    @cached_property
+    def equations(self) -> Equations:
+        """Those that the state solves."""
+        signs = tuple(s for *_, s in self.state.slip)
+        return Equations(self.before, self.state.contact, Zones(self.state.stick, signs))
+
+
+def course(before: State, step: LoadStep) -> tuple[Part | StripPart, ...]:
+    """The parts of a step from a state. Raises ContactError where one is not found."""
+    parts: list[Part | StripPart] = []
+    done, state = 0.0, before
+    while done < 1.0:
+        with np.errstate(all="ignore"):  # what that leaves is not admissible
+            part = _next_part(state, step, done, parts[-1] if parts else None)
+        parts.append(part)
+        state, done = part.state, part.until
+        short = sum(part.until - part.begun < SHORT for part in parts)
+        if len(parts) > MOST_PARTS or short > MOST_SHORT:
+            raise _lost(done, f"{len(parts)} parts, {short} of them short")
+    return tuple(parts)
+
+
+def _next_part(
+    state: State, step: LoadStep, begun: float, last: Part | StripPart | None
+) -> Part | StripPart:
+    """The part from a share on.
+
+    A finite step is tried first at the start of a step, unless new contact sticks there.
+    """
+    known, opened = (last.known, last.opened) if last else ({}, None)
+    zones = onset(state, step.rates, step.friction, known)
+    if opened:
+        zones = zones.split(*opened)
+    grows = any(end.motion is Motion.GROWS for end in zones.ends)
+    longest = 1.0 if last is None or last.solved else LONGER * (last.until - last.begun)
+    problems, first = [], begun == 0.0 and not grows
+    for finite in (first, not first):
+        try:
+            if finite:
+                return _without_what_slipped(finite_part(state, step, begun), zones)
+            if zones.sticks_anew:
+                return strip_part(state, step, begun, zones, longest)
+        except ContactError as problem:
+            problems.append(str(problem))
+    raise _lost(begun, "; ".join(problems))
+
+
+def _without_what_slipped(part: Part, zones: Onset) -> Part:
+    """A finite part, if nothing sticks at its end that an advancing end passes.
+
+    That slips until it sticks: in a finite part what sticks has stuck all along.
+    """
+    room = 1e-9 * part.state.contact.width
+    for end in zones.ends:
+        if end.motion is Motion.ADVANCES and any(
+            a < end.place - room and end.place + room < b for a, b in part.state.stick
+        ):
+            raise ContactError(ADVANCES)
+    return part
+
+
+def _lost(share: float, reason: str) -> ContactError:
+    """The refusal of a step that is followed up to a share of it only."""
+    return ContactError(
+        f"stick and slip are followed for {100.0 * share:.4g} % of the step only: there slip starts "
+        "or stops next to where it has before; move this point of the path a little, or end the "
+        "path before it",
+        share=share,
+        reason=reason,
+    )
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """Whether zones at a share of a step pass; the equations, s K at their ends, and why not."""
+
+    share: float
+    equations: Equations | None
+    margins: Array
+    why: str = ""
+
+    @property
+    def decisive(self) -> bool:
+        """Whether the rates say that a finite step does not go on."""
+        return self.why in (ADVANCES, TURNED)
+
+
+def finite_part(state: State, step: LoadStep, begun: float) -> Part:
+    """A finite step from a share on, as long as it passes the tests."""
+    if _unsheared(state, step):
+        after = step.at(1.0)
+        return Part(state, State.untouched(after), begun, 1.0)
+    shares = begun + (1.0 - begun) * SHARES
+    shares[-1] = 1.0
+    verdicts = _tested(state, step, begun, shares)
+    good = _leading(verdicts)
+    why = ""
+    if good == len(shares):
+        try:
+            return Part(
+                state, solved(state, step.at(1.0), verdicts[-1].equations.zones), begun, 1.0
+            )
+        except ContactError as problem:
+            why, good = str(problem), good - 1
+    if good == 0:
+        first = shares[0] - begun
+        for earlier in EARLIER:
+            shares = begun + first * earlier * SHARES
+            verdicts = _tested(state, step, begun, shares)
+            good = _leading(verdicts)
+            if good:
+                break
+        else:
+            raise ContactError(why or verdicts[0].why)
+    until = shares[-1]
+    if good < len(shares):
+        until = _end_of_part(state, step, verdicts[good - 1], verdicts[good])
+    last = verdicts[good - 1]
+    while True:
+        found = _verdict(state, step, until, last.equations.zones)
+        if found.equations is not None:
+            break
+        if until == last.share:
+            raise ContactError(found.why)
+        until = last.share
+    ended = solved(state, step.at(until), found.equations.zones)
+    return Part(state, ended, begun, until, _stopped(found))
+
+
+def _stopped(verdict: Verdict) -> dict[float, End]:
+    """The ends with K = 0, which advance next."""
+    equations = verdict.equations
+    assert equations is not None
+    left = {lo: s for lo, _, s in equations.slip}
+    right = {hi: s for _, hi, s in equations.slip}
+    found = {}
+    for j, (e, margin) in enumerate(zip(equations.stick.ravel(), verdict.margins, strict=True)):
+        place = float(e)
+        sense = left.get(place) if j % 2 else right.get(place)
+        if sense is not None and abs(margin) <= STOPPED:
+            found[place] = End(place, sense, Motion.ADVANCES)
+    return found
+
+
+def _unsheared(state: State, step: LoadStep) -> bool:
+    return not (step.rates.Q or step.rates.tau or np.any(state.shear.series))
+
+
+def _leading(verdicts: list[Verdict]) -> int:
+    """How many pass, one after the other, with zones that shrink.
+
+    One where no zones are found counts if later ones pass: zones open and join on the way.
+    """
+    passed, last = 0, None
+    for k, now in enumerate(verdicts):
+        if not now.why and (last is None or _within(now, last)):
+            passed, last = k + 1, now
+        elif now.decisive or not now.why:
+            break
+    return passed
+
+
+def _within(now: Verdict, last: Verdict) -> bool:
+    """Whether zones lie in those before."""
+    room = 1e-9 * now.equations.after.width
+    return all(
+        any(lo - room <= a and b <= hi + room for lo, hi in last.equations.zones.stick)
+        for a, b in now.equations.zones.stick
+    )
+
+
+def _tested(state: State, step: LoadStep, begun: float, shares: Array) -> list[Verdict]:
+    """The verdicts on zones at some shares, found from the last to the first."""
+    found: list[Verdict] = []
+    zones = _as_they_set_out(state, step, float(shares[-1] - begun))
+    for share in shares[::-1]:
+        verdict = _verdict(state, step, float(share), zones)
+        if verdict.why and zones is not None:
+            verdict = _verdict(state, step, float(share), None)
+        zones = verdict.equations.zones if verdict.equations is not None else None
+        found.append(verdict)
+    return found[::-1]
+
+
+def _as_they_set_out(state: State, step: LoadStep, length: float) -> Zones | None:
+    """The zones after a part so short that no cell shows it; None after a longer one."""
+    zones = onset(state, step.rates, step.friction)
+    moved = length * set_out(state, zones, step.rates, step.friction)
+    ends = np.array(zones.stick).ravel() + moved
+    if zones.sticks_anew or not 0.0 < np.abs(moved).max() <= SEEN * state.contact.width:
+        return None
+    return Zones(tuple((float(a), float(b)) for a, b in ends.reshape(-1, 2)), zones.signs.signs)
+
+
+def _verdict(state: State, step: LoadStep, share: float, guess: Zones | None) -> Verdict:
+    """Zones at a share, and whether they go on as they have to."""
+    after = step.at(share)
+    held = Equations(state, after, Zones(after.patches, ()))
+    if balanced(held, STUCK):
+        return Verdict(share, held, np.zeros(0), "" if held.excess <= EXCEEDED else EXCESS)
+    try:
+        guesses = (guess,) if guess is not None else zones_on_cells(state, after)
+    except ContactError as problem:
+        return Verdict(share, None, np.zeros(0), str(problem))
+    first = None
+    for zones in guesses:
+        try:
+            found = newton(state, after, clipped(zones, state.contact, after))
+            busy = without_idle(found) if len(zones.stick) > 1 else found.zones
+            if busy != found.zones:
+                found = newton(state, after, busy)
+        except ContactError as problem:
+            now = Verdict(share, None, np.zeros(0), str(problem))
+        else:
+            now = _judged(found, step, share)
+        if not now.why:
+            return now
+        first = first or now
+    assert first is not None
+    return first
+
+
+def _judged(found: Equations, step: LoadStep, share: float) -> Verdict:
+    """The verdict on zones by the rates."""
+    rates = Rates.solved(
+        found.after.patches,
+        found.zones.stick,
+        found.slip,
+        step.rates,
+        friction=step.friction,
+        period=found.after.period,
+    )
+    margins = rates.signed_K.ravel() / max(np.abs(rates.K).max(), 1e-300)
+    why = ""
+    if not (margins >= STOPS).all():
+        why = ADVANCES
+    elif rates.turning < TURNS:
+        why = TURNED
+    elif found.excess > EXCEEDED:
+        why = EXCESS
+    return Verdict(share, found, margins, why)
+
+
+def clipped(zones: Zones, old: Contact, new: Contact) -> Zones:
+    """Zones inside the patches, at the start and at the end."""
+    out = []
+    for a, b in zones.stick:
+        lo, hi = a, b
+        for patches in (old.patches, new.patches):
+            x1, x2 = max(patches, key=lambda p: min(p[1], b) - max(p[0], a))
+            room = 1e-4 * (x2 - x1)
+            lo, hi = max(lo, x1 + room), min(hi, x2 - room)
+        if lo >= hi:
+            raise ContactError("a stick zone lies outside the contact")
+        out.append((lo, hi))
+    return Zones(tuple(out), zones.signs)
+
+
+def _end_of_part(state: State, step: LoadStep, good: Verdict, bad: Verdict) -> float:
+    """The share at which a part ends that passes at one share and fails at another."""
+    same = bad.equations is not None and bad.equations.zones.signs == good.equations.zones.signs
+    if same and len(bad.margins) == len(good.margins):
+        k = int(bad.margins.argmin())
+        if bad.margins[k] < 0.0 < good.margins[k]:
+
+            def rate(share: float) -> float:
+                found = _verdict(state, step, share, good.equations.zones)
+                return found.margins[k] if len(found.margins) else np.nan
+
+            def settled(lo: float, hi: float, value: float) -> bool:
+                return hi - lo < 1e-13 or abs(value) < STILL
+
+            ends = float(good.margins[k]), float(bad.margins[k])
+            share = false_position(rate, good.share, bad.share, ends, settled)
+            if np.isfinite(share):
+                return float(share)
+    lo, hi, zones = good.share, bad.share, good
+    while hi - lo > FINE * (hi - lo + good.share):
+        middle = 0.5 * (lo + hi)
+        now = _verdict(state, step, middle, zones.equations.zones)
+        if now.why or not _within(now, zones):
+            hi = middle
+        else:
+            lo, zones = middle, now
+    return lo

@@ -1,0 +1,98 @@
+"""The contact on the way from one point of a load path to the next, and the rates of its loads."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sie.numerics.graded_panels import Pieces
+from sie.problem.scene import Scene
+
+from .loads import Loads
+from .rates import LoadRates
+from .state import SAME, Contact, intervals
+
+Array = NDArray[np.float64]
+
+
+class Contacts(Protocol):
+    """The contacts of a path.
+
+    scene           profile, bodies and friction
+    pressed         the patches and the pressure under loads
+    sheared_by      Q and τ of loads
+    corners         where the pressure is not smooth
+    curved          whether the tilt follows from a moment, and not in proportion to time
+    by_moment       whether moments are added along the path, not tilts
+    """
+
+    scene: Scene
+
+    def pressed(self, loads: Loads) -> tuple[tuple[tuple[float, float], ...], Any]: ...
+    def sheared_by(self, loads: Loads) -> tuple[float, float]: ...
+    @property
+    def corners(self) -> Array: ...
+    @property
+    def curved(self) -> bool: ...
+    @property
+    def by_moment(self) -> bool: ...
+
+
+def contact_under(contacts: Contacts, loads: Loads) -> Contact:
+    """The contact under loads."""
+    scene = contacts.scene
+    patches, pressure = contacts.pressed(loads)
+    ends = intervals(patches, contacts.corners, SAME * (patches[-1][1] - patches[0][0]))
+    limit = Pieces.fitted(ends, lambda rule: scene.friction * pressure(rule.x))
+    return Contact(patches, limit, *contacts.sheared_by(loads), scene.profile.period)
+
+
+@dataclass(frozen=True, eq=False)
+class LoadStep:
+    """A step between two loads, which change in proportion to its share t."""
+
+    contacts: Contacts
+    start: Loads
+    end: Loads
+    known: dict[float, Contact] = field(default_factory=dict)
+
+    @property
+    def friction(self) -> float:
+        return self.contacts.scene.friction
+
+    @property
+    def constant(self) -> bool:
+        """Whether the pressure does not change."""
+        return self.start.normal == self.end.normal
+
+    def loads(self, share: float) -> Loads:
+        """The loads after a share of the step."""
+        return self.start.towards(self.end, share)
+
+    def at(self, share: float) -> Contact:
+        """The contact after a share of the step."""
+        if share not in self.known:
+            loads = self.loads(share)
+            if self.constant and self.known:
+                one = next(iter(self.known.values()))
+                Q, tau = self.contacts.sheared_by(loads)
+                self.known[share] = Contact(one.patches, one.limit, Q, tau, one.period)
+            else:
+                self.known[share] = contact_under(self.contacts, loads)
+        return self.known[share]
+
+    @cached_property
+    def rates(self) -> LoadRates:
+        """The changes of the loads in the whole step."""
+        contacts = self.contacts
+        (Q0, tau0), (Q, tau) = (contacts.sheared_by(at) for at in (self.start, self.end))
+        turn = self.end.turn - self.start.turn
+        moment = turn if contacts.curved else None
+        if contacts.by_moment or contacts.curved:
+            turn = 0.0  # a moment at constant P and tilt, or a tilt that the scene's moment causes
+        turn *= 0.5 * contacts.scene.Estar
+        return LoadRates(self.end.P - self.start.P, turn, Q - Q0, tau - tau0, moment)

@@ -1,0 +1,267 @@
+"""How the zones of a state go on when the loads begin to change, by the rates alone.
+
+The rates do not depend on the history, so that the zones and their directions of slip decide it:
+an end at which the shear beside it grows beyond f p recedes; where it falls instead, slip stops at
+once up to the place where K = 0, or everywhere. A stuck edge goes on to stick while the contact
+grows there and |K| <= f K_p; else slip begins at it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from enum import Enum
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sie.errors import ContactError
+from sie.numerics.root_finding import false_position
+
+from .finite_step import Zones
+from .rates import LoadRates, Rates
+from .state import State
+
+Array = NDArray[np.float64]
+
+ROUNDS = 12
+SCANNED = np.sin(0.5 * np.pi * np.arange(1, 26) / 26.0) ** 2  # shares of a slip zone
+SETTLED = 1e-14  # of a slip zone
+NEAR = 1e-7  # of the contact: so near to an end f p - q goes like the root of the distance
+STILL = 1e-9  # of the largest K: less is zero
+
+
+class Motion(Enum):
+    """What an end of a stick zone does."""
+
+    RECEDES = "recedes"
+    ADVANCES = "advances"
+    GROWS = "grows"  # it is an edge of a contact that grows, and sticks
+
+
+@dataclass(frozen=True)
+class End:
+    """An end of a stick zone: its place, the direction of slip beside it, and its motion.
+
+    `sense` is 0 at an edge of the contact where nothing slips.
+    """
+
+    place: float
+    sense: float
+    motion: Motion = Motion.RECEDES
+
+
+@dataclass(frozen=True)
+class Onset:
+    """Stick zones (left end, right end), and the patches that slide as a whole (lo, hi, s)."""
+
+    zones: tuple[tuple[End, End], ...]
+    patches: tuple[tuple[float, float], ...]
+    sliding: tuple[tuple[float, float, float], ...]
+
+    @property
+    def ends(self) -> tuple[End, ...]:
+        return tuple(end for zone in self.zones for end in zone)
+
+    @property
+    def stick(self) -> tuple[tuple[float, float], ...]:
+        return tuple((a.place, b.place) for a, b in self.zones)
+
+    @property
+    def sticks_anew(self) -> bool:
+        """Whether something comes to stick as time goes on."""
+        return any(end.motion is not Motion.RECEDES for end in self.ends)
+
+    @property
+    def slip(self) -> tuple[tuple[float, float, float], ...]:
+        """The slip zones, ascending; those of zero length too, but not those at stuck edges."""
+        found = list(self.sliding)
+        for lo, hi in self.patches:
+            inside = [zone for zone in self.zones if lo <= zone[0].place and zone[1].place <= hi]
+            if inside:
+                found.append((lo, inside[0][0].place, inside[0][0].sense))
+                found += [
+                    (left[1].place, right[0].place, left[1].sense)
+                    for left, right in pairwise(inside)
+                ]
+                found.append((inside[-1][1].place, hi, inside[-1][1].sense))
+        return tuple(sorted(zone for zone in found if zone[2]))
+
+    @property
+    def signs(self) -> Zones:
+        return Zones(self.stick, tuple(s for *_, s in self.slip))
+
+    def rates(self, loads: LoadRates, friction: float, period: float) -> Rates:
+        slip = tuple(zone for zone in self.slip if zone[1] > zone[0])
+        return Rates.solved(self.patches, self.stick, slip, loads, friction=friction, period=period)
+
+    def placed(self, places: Array) -> Onset:
+        """The same with its ends at other places."""
+        ends = [replace(end, place=float(x)) for end, x in zip(self.ends, places, strict=True)]
+        return replace(self, zones=tuple(zip(ends[::2], ends[1::2], strict=True)))
+
+    def on(self, patches: tuple[tuple[float, float], ...]) -> Onset:
+        """The same on other patches."""
+        return replace(self, patches=patches)
+
+    def split(self, place: float, sense: float) -> Onset:
+        """The same with slip that begins inside a stick zone."""
+        opened = (End(place, sense), End(place, sense))
+        ends = [e for zone in self.zones for e in zone]
+        k = sum(e.place < place for e in ends)
+        ends[k:k] = opened
+        return replace(self, zones=tuple(zip(ends[::2], ends[1::2], strict=True)))
+
+    def moved(self, j: int, end: End) -> Onset:
+        """The same with another end j."""
+        ends = [*self.ends[:j], end, *self.ends[j + 1 :]]
+        return replace(self, zones=tuple(zip(ends[::2], ends[1::2], strict=True)))
+
+    def outer(self, j: int) -> float:
+        """Where the slip zone beside end j ends: at an edge, or at another stick zone."""
+        x, step = self.ends[j].place, 1 if j % 2 else -1
+        lo, hi = next(((lo, hi) for lo, hi in self.patches if lo <= x <= hi), (np.nan, np.nan))
+        if np.isnan(lo):
+            raise ContactError("an end of a stick zone is outside the contact")
+        edge = hi if step > 0 else lo
+        if 0 <= j + step < len(self.ends):
+            other = self.ends[j + step].place
+            return other if lo <= other <= hi else edge
+        return edge
+
+    def joined(self, j: int) -> Onset:
+        """The slip zone beside end j stuck: two zones become one, or an edge sticks."""
+        outer, step = self.outer(j), 1 if j % 2 else -1
+        if any(outer in patch for patch in self.patches):
+            return self.moved(j, End(outer, 0.0))
+        first = min(j, j + step)
+        ends = [*self.ends[:first], *self.ends[first + 2 :]]
+        return replace(self, zones=tuple(zip(ends[::2], ends[1::2], strict=True)))
+
+
+def onset(
+    state: State, loads: LoadRates, friction: float, known: Mapping[float, End] | None = None
+) -> Onset:
+    """The zones and the motions of their ends as loads begin to change at these rates.
+
+    known: what the ends at some places do, where an event just decided it
+    """
+    known = known or {}
+
+    def rates(zones: Onset) -> Rates:
+        return zones.rates(loads, friction, state.contact.period)
+
+    now = _as_it_is(state, known)
+    for _ in range(ROUNDS * len(now.ends)):
+        changed = _changed(state, now, rates, known)
+        if changed is None:
+            return now
+        now = changed
+    raise ContactError("which parts of the contact stick next is not decided by the rates")
+
+
+def set_out(state: State, now: Onset, loads: LoadRates, friction: float) -> Array:
+    """The speeds of ends that recede, as a step begins at constant pressure.
+
+    Where f p - s q is C √t at a distance t inside an end, the end recedes by t = 2 s K/C.
+    """
+    K, near = now.rates(loads, friction, state.contact.period).K.ravel(), NEAR * state.contact.width
+    speeds = np.zeros(len(now.ends))
+    for j, end in enumerate(now.ends):
+        if end.motion is Motion.RECEDES:
+            inward = -1.0 if j % 2 else 1.0
+            x = np.array([end.place + inward * near])
+            room = float(state.contact.limit(x)[0] - end.sense * state.shear(x)[0])
+            C = max(room, SETTLED) / np.sqrt(near)
+            speeds[j] = inward * 2.0 * max(end.sense * float(K[j]), 0.0) / C
+    return speeds
+
+
+def _changed(
+    state: State, now: Onset, rates: Callable[[Onset], Rates], known: Mapping[float, End]
+) -> Onset | None:
+    """The zones with the first end that does something else mended; None if there is none."""
+    here = rates(now)
+    for j, end in enumerate(now.ends):
+        if end.place in known:
+            continue
+        at_edge = any(end.place in patch for patch in now.patches)
+        found = _edge(state, now, here, j) if at_edge else _inner(state, now, rates, j)
+        if found is None:
+            return now.joined(j)
+        if found != end:
+            return now.moved(j, found)
+    return None
+
+
+def _as_it_is(state: State, known: Mapping[float, End]) -> Onset:
+    """The zones of a state, with its directions of slip; the whole contact where nothing sticks."""
+    right = {lo: s for lo, _, s in state.slip}
+    left = {hi: s for _, hi, s in state.slip}
+    zones = tuple(
+        (
+            known.get(a, End(a, left.get(a, 0.0))),
+            known.get(b, End(b, right.get(b, 0.0))),
+        )
+        for a, b in state.stick or state.contact.patches
+    )
+    sliding = tuple(zone for zone in state.slip if zone[:2] in state.contact.patches)
+    return Onset(zones, state.contact.patches, sliding if state.stick else ())
+
+
+def _edge(state: State, now: Onset, rates: Rates, j: int) -> End:
+    """What a stuck edge does."""
+    end, K = now.ends[j], float(rates.K.ravel()[j])
+    edges = np.array(now.patches).ravel()
+    Kp = rates.friction * float(rates.Kp.ravel()[np.abs(edges - end.place).argmin()])
+    if Kp > 0.0 and abs(K) <= Kp:
+        return End(end.place, 0.0, Motion.GROWS)
+    if Kp <= 0.0:
+        K -= _share_of_limit(state, end.place) * Kp
+    return End(end.place, float(np.sign(K)) or 1.0)
+
+
+def _share_of_limit(state: State, edge: float) -> float:
+    """q/(f p) next to an edge."""
+    lo, hi = next(patch for patch in state.contact.patches if edge in patch)
+    x = edge + (1e-9 if edge == lo else -1e-9) * (hi - lo)
+    return float(np.clip(state.shear(x) / state.contact.limit(x), -1.0, 1.0))
+
+
+def _inner(state: State, now: Onset, rates: Callable[[Onset], Rates], j: int) -> End | None:
+    """What an end beside slip does; None: the slip zone beside it sticks."""
+    end = now.ends[j]
+    here = _margin(now, rates, j)
+    if here >= -STILL if end.motion is Motion.RECEDES else abs(here) <= STILL:
+        return end
+    old = np.array(state.stick).ravel()  # from where it is in the state
+    start = old[old <= end.place].max() if j % 2 else old[old >= end.place].min()
+    place = resting_place(now.moved(j, replace(end, place=float(start))), rates, j)
+    return None if place is None else End(place, end.sense, Motion.ADVANCES)
+
+
+def _margin(now: Onset, rates: Callable[[Onset], Rates], j: int) -> float:
+    """S K of an end over the largest K."""
+    found = rates(now).K.ravel()
+    return now.ends[j].sense * float(found[j]) / float(np.abs(found).max())
+
+
+def resting_place(now: Onset, rates: Callable[[Onset], Rates], j: int) -> float | None:
+    """Where outside of its place, and inside the slip zone beside it, an end has K = 0."""
+    end, outer = now.ends[j], now.outer(j)
+
+    def margin(place: float) -> float:
+        return _margin(now.moved(j, replace(end, place=place)), rates, j)
+
+    places = end.place + (outer - end.place) * np.append(0.0, SCANNED)
+    last, small = margin(places[0]), SETTLED * abs(outer - end.place)
+    for a, b in pairwise(places):
+        value = margin(b)
+        if last < 0.0 <= value:
+            ends = (last, value) if a < b else (value, last)
+            return false_position(
+                margin, min(a, b), max(a, b), ends, lambda lo, hi, _: hi - lo < small
+            )
+        last = value
+    return None

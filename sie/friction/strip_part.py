@@ -1,0 +1,377 @@
+"""A part of a step on which something comes to stick, up to its first event.
+
+Events are roots over the part: an end recedes no longer (s K = 0), turns, or comes to a mark of the
+shear; a stuck edge begins to slip (|K| = f K_p); an advancing end meets an edge or another stick
+zone; slip begins inside a stick zone (|q| = f p). The part is solved again until the event is at
+its end.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field, replace
+from functools import cached_property, lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sie.errors import ContactError
+
+from .cells import zones_on_cells
+from .finite_step import built
+from .loading import LoadStep
+from .onset import End, Motion, Onset, resting_place, set_out
+from .rates import Rates
+from .state import Ends, State, overlaps
+from .strips import MOMENTS, TAU, Panel, Span, StripEquations, solved_panel
+
+Array = NDArray[np.float64]
+
+SHORTER = 1.0 / 3.0  # of a part that is not solved
+SHORTEST = 1e-11  # of a step: a part
+FINE = np.linspace(0.02, 1.0, 197)  # shares of τ at which events are looked for
+BEYOND = 1.3  # times τ: so far ahead an arrival is seen
+ARRIVED = 1e-7  # of the contact: room that is none
+NEARLY = 0.9999  # of τ: an event before it shortens the part
+ON_MARK = 3e-9  # of the contact: an end that recedes and is so close to a mark is on it
+AT_THE_END = 1e-9  # of a part: an event so close to its end is there
+SMALL = 1e-2  # of the room: an end advances so far, at a guess
+AGAIN_SINCE = 0.7  # of τ: before it an event at the end of a part is not looked for again
+LEAP = 10.0  # times as far as the event is seen: so far the length of a part is corrected
+AGAIN = 12  # times a part is solved to end at its event
+SEEN = 1e-3  # of the contact: an end that moves less is not seen on cells
+SENSELESS = 1e-2  # the same, of a part of which nothing is believed
+UNRESOLVED = 1e-6  # of the largest coefficient of D: the last two
+TURNS = -1e-7  # of the largest rate of slip
+EXCEEDED = 1e-8  # of the largest f p: by so much |q| may exceed f p
+
+
+@dataclass(frozen=True)
+class Event:
+    """What ends a part: the share of τ, end j of the stick zones, and what it does next.
+
+    place   where the end is then, if that is known: at a mark, an edge, another zone
+    """
+
+    share: float
+    j: int
+    then: End | None = None
+    place: float | None = None
+    opened: tuple[float, float] | None = None  # where slip begins in stick, and its direction
+
+
+@dataclass(frozen=True, eq=False)
+class StripPart:
+    """The state at the end of a part, its share of the step, and what ends do next.
+
+    equations   those that the state solves
+    """
+
+    panel: Panel
+    equations: StripEquations
+    state: State
+    until: float
+    known: Mapping[float, End] = field(default_factory=dict)
+    opened: tuple[float, float] | None = None  # place and direction of slip that begins in stick
+    solved: bool = True  # whether no longer part was tried in vain
+
+    @property
+    def before(self) -> State:
+        """The state at the start."""
+        return self.panel.span.before
+
+    @property
+    def begun(self) -> float:
+        """The share of the step at the start."""
+        return self.panel.span.begun
+
+    @property
+    def stuck(self) -> Ends:
+        """What stuck all along."""
+        return overlaps(self.before.stick, self.state.stick)
+
+    @cached_property
+    def states(self) -> tuple[State, ...]:
+        """The states at its moments."""
+        return (*(built(found) for found in self.panel.equations[:-1]), self.state)
+
+
+def strip_part(
+    state: State,
+    step: LoadStep,
+    begun: float,
+    zones: Onset,
+    longest: float = 1.0,
+) -> StripPart:
+    """The part from a share of a step on, at most so long. Raises ContactError if none is found."""
+    rest = 1.0 - begun
+    length = min(rest, longest)
+    failed, guess = 2.0, None
+    aims: list[tuple[float, float, object]] = []
+    event: Event | None = None
+    shorter: Panel | None = None  # one that is solved, before an event that was seen ahead of it
+    for _ in range(AGAIN):
+        span = Span(state, step, zones, begun, length)
+        try:
+            panel = solved_panel(span, _guess(span) if guess is None else guess)
+            if panel.unresolved > SENSELESS:
+                raise ContactError("what sticks anew is not resolved")
+            event = first_event(panel, event, beyond=length < failed)
+            if event is None or event.share > NEARLY:  # else what is doubtful may come after it
+                refuse_doubtful(panel)
+        except ContactError:
+            if shorter is not None:
+                return replace(_ended(shorter, None, begun + shorter.span.length), solved=False)
+            failed, guess, event = length, None, None
+            length *= SHORTER
+            if length < SHORTEST:
+                raise
+            continue
+        if event is not None and event.share > 1.0 and length >= min(rest, longest):
+            event = None  # it comes after the step
+        if event is None or abs(event.share - 1.0) < AT_THE_END:
+            break
+        shorter = panel if event.share > 1.0 else shorter
+        aims.append((length, length * event.share**2, (event.j, event.place)))
+        last, length = length, min(_aimed(aims), rest)
+        guess = _places(panel, (length / last) ** 0.5)
+    else:
+        raise ContactError("what sticks anew is not found in a part however short")
+    return replace(_ended(panel, event, begun + length), solved=failed > 1.0)
+
+
+def _aimed(aims: list[tuple[float, float, object]]) -> float:
+    """The length of a part that ends at its event, from lengths and where events were seen.
+
+    A length that is too long shows the event a little late, in proportion: by the secant.
+    """
+    length, seen, event = aims[-1]
+    if len(aims) > 1 and aims[-2][2] == event:
+        before, seen_before, _ = aims[-2]
+        change = (seen - length) - (seen_before - before)
+        step = -(seen - length) * (length - before) / change if change else 0.0
+        if 0.0 < step * (seen - length) <= LEAP * (seen - length) ** 2 and length + step > 0.0:
+            return length + step
+    return seen
+
+
+def refuse_doubtful(panel: Panel) -> None:
+    """Raise ContactError where D is not resolved, or slip opposes its direction at a moment."""
+    if panel.unresolved > UNRESOLVED:
+        raise ContactError("what sticks anew is not resolved")
+    if min(rates.turning for rates in panel.rates) < TURNS:
+        raise ContactError("slip turns where something sticks anew")
+
+
+# -- guesses and interpolation -------------------------------------------------------------------
+
+
+def _guess(span: Span) -> Array:
+    """The places of the ends at the end of a part, about."""
+    final = _receded(span)
+    zones = span.onset.placed(span.with_edges(np.tile(final, (MOMENTS, 1)))[-1])
+    zones = zones.on(span.contacts[-1].patches)
+
+    def rates(now: Onset) -> Rates:
+        return now.rates(span.step.rates, span.step.friction, span.before.contact.period)
+
+    for j in span.which(Motion.ADVANCES):
+        place = resting_place(zones, rates, j)
+        if place is None:
+            place = final[j] + SMALL * (zones.outer(j) - final[j])
+        zones = zones.moved(j, replace(zones.ends[j], place=place))
+        final[j] = place
+    return final
+
+
+def _receded(span: Span) -> Array:
+    """The places of the ends if none advances: where no cell shows them, as they set out."""
+    before, step, final = span.before, span.step, span.start.copy()
+    which = span.which(Motion.RECEDES)
+    if not which:
+        return final
+    moved = span.length * set_out(before, span.onset, step.rates, step.friction)
+    if np.abs(moved).max() <= SEEN * before.contact.width:
+        return final + moved
+    for cells in zones_on_cells(before, span.contacts[-1]):
+        if len(cells.stick) == len(span.onset.zones):
+            final[which] = np.ravel(cells.stick)[which]
+            break
+    return final
+
+
+@lru_cache(maxsize=2)
+def _transform(first: int) -> Array:
+    """Coefficients in T_k(2τ - 1) from values at the moments, from `first` on."""
+    matrix: Array = np.linalg.inv(
+        np.polynomial.chebyshev.chebvander(2.0 * TAU[first:] - 1.0, MOMENTS - first)
+    )
+    return matrix
+
+
+def _series(values: Array) -> Array:
+    """The series of values at the moments, with the one at the start or without."""
+    return _transform(MOMENTS + 1 - len(values)) @ values
+
+
+def _at(series: Array, share: float | Array) -> Array:
+    return np.polynomial.chebyshev.chebval(2.0 * np.asarray(share) - 1.0, series)
+
+
+def _places(panel: Panel, share: float) -> Array:
+    """The places of the ends at a share of τ."""
+    return _at(_series(np.concatenate(([panel.span.start], panel.places))), share)
+
+
+# -- events --------------------------------------------------------------------------------------
+
+
+def first_event(panel: Panel, last: Event | None, beyond: bool) -> Event | None:
+    """The first event of a part.
+
+    last     that by which the part was shortened
+    beyond   an arrival a little later counts too
+    """
+    upto = BEYOND if beyond else 1.0
+    found = [*_of_ends(panel, last, upto), *_of_edges(panel), *_arrivals(panel, upto)]
+    sooner = min((event.share for event in found), default=np.inf)
+    found += _openings(panel, last.opened if last else None, sooner)
+    return min(found, key=lambda event: event.share, default=None)
+
+
+def _root(series: Array, upto: float = 1.0, since: float = 0.0) -> float | None:
+    """The first τ at which a series falls below zero, a little beyond 1 too."""
+    shares = np.append(FINE, np.arange(1.0005, max(upto, 1.002), 5e-4))
+    shares = shares[shares >= since]
+    values = _at(series, shares)
+    negative = np.flatnonzero(values < 0.0)
+    if not negative.size:
+        return None
+    k = negative[0]
+    if k == 0:
+        return float(shares[0])
+    lo, hi = shares[k - 1], shares[k]
+    for _ in range(60):
+        middle = 0.5 * (lo + hi)
+        lo, hi = (lo, middle) if _at(series, middle) < 0.0 else (middle, hi)
+    return float(0.5 * (lo + hi))
+
+
+def _of_ends(panel: Panel, last: Event | None, upto: float) -> Iterator[Event]:
+    """Ends that stop, turn, or come to a mark; to that sought, later too."""
+    span, K = panel.span, np.array([r.K.ravel() for r in panel.rates])
+    marks = np.unique(np.concatenate((span.before.marks, span.contacts[-1].limit.marks)))
+    edges = np.array([c.patches for c in (span.before.contact, span.contacts[-1])]).ravel()
+    for j, end in enumerate(span.onset.ends):
+        path = np.append(span.start[j], panel.places[:, j])
+        series = _series(path)
+        if end.motion is Motion.RECEDES:
+            share = _root(_series(end.sense * K[:, j]))
+            if share is not None:
+                yield Event(share, j, End(0.0, end.sense, Motion.ADVANCES))
+        outward = 1.0 if j % 2 else -1.0
+        if end.motion is Motion.ADVANCES:
+            speed = np.polynomial.chebyshev.chebder(outward * series)
+            share = _root(speed)
+            if share is not None:
+                yield Event(share, j, End(0.0, end.sense, Motion.RECEDES))
+        way = np.sign(path[-1] - path[0])
+        near = 1e-9 * span.before.contact.width
+        sought = marks == (last.place if last is not None and last.j == j else np.nan)
+        passed = way * (path[-1] - marks) > -(upto - 0.999) * abs(path[-1] - path[0])
+        for mark in marks[(way * (marks - path[0]) > near) & (passed | sought)]:
+            if (
+                np.abs(edges - mark).min() < near
+                and mark not in span.contacts[-1].limit.marks[1:-1]
+            ):
+                continue
+            shifted = -way * series
+            shifted[0] += way * mark
+            share = _root(shifted, BEYOND if last is not None and last.place == mark else upto)
+            if share is not None:
+                then = end.motion if end.motion is Motion.ADVANCES else None
+                yield Event(share, j, End(0.0, end.sense, then) if then else None, float(mark))
+
+
+def _of_edges(panel: Panel) -> Iterator[Event]:
+    """Stuck edges that begin to slip."""
+    old = np.array(panel.span.onset.patches).ravel()
+    for j in panel.span.which(Motion.GROWS):
+        k = int(np.abs(old - panel.span.start[j]).argmin())
+        K = np.array([r.K.ravel()[j] for r in panel.rates])
+        Kp = np.array([r.friction * r.Kp.ravel()[k] for r in panel.rates])
+        for sense in (1.0, -1.0):
+            share = _root(_series(Kp - sense * K))
+            if share is not None:
+                yield Event(share, j, End(0.0, sense))
+
+
+def _arrivals(panel: Panel, upto: float) -> Iterator[Event]:
+    """Advancing ends that meet an edge, or another stick zone."""
+    span = panel.span
+    width = span.before.contact.width
+    for j in span.which(Motion.ADVANCES):
+        outer = [
+            span.onset.placed(ends).on(c.patches).outer(j)
+            for ends, c in zip(panel.places, span.contacts, strict=True)
+        ]
+        first = span.onset.outer(j)
+        room = np.abs(np.append(first, outer) - np.append(span.start[j], panel.places[:, j]))
+        series = _series(room - ARRIVED * width)
+        share = _root(series, upto)
+        if share is not None:
+            yield Event(share, j, End(0.0, -span.onset.ends[j].sense), np.nan)
+
+
+def _openings(panel: Panel, known: tuple[float, float] | None, sooner: float) -> Iterator[Event]:
+    """Slip that begins inside a stick zone, before a share of τ at which another event is.
+
+    known: the place, and the direction of slip, if a longer part told them
+    """
+    peak, since = panel.span.before.contact.peak, AGAIN_SINCE
+    for i, now in enumerate(panel.equations if known is None else []):
+        if TAU[i + 1] > sooner:
+            return
+        if now.excess * now.after.peak > EXCEEDED * peak:
+            x, q, limit = now.stuck_shear
+            k = int((np.abs(q) - limit).argmax())
+            known, since = (float(x[k]), float(np.sign(q[k]))), float(TAU[i])
+            break
+    if known is not None:
+        margins = [_margin_at(now, *known) for now in panel.equations]
+        share = _root(_series(np.array(margins)), since=since)
+        if share is not None:
+            yield Event(share, -1, opened=known)
+
+
+def _margin_at(now: StripEquations, x: float, sense: float) -> float:
+    """The margin f p - s q at a place in stick, by interpolation between a few."""
+    places, q, limit = now.stuck_shear
+    order = np.argsort(places)
+    return float(np.interp(x, places[order], (limit - sense * q)[order]))
+
+
+# -- the end of a part ---------------------------------------------------------------------------
+
+
+def _ended(panel: Panel, event: Event | None, until: float) -> StripPart:
+    """The state at the end of a part, with the end of the event at its place."""
+    span, ends = panel.span, panel.places[-1].copy()
+    known = {}
+    for j in span.which(Motion.ADVANCES):
+        known[j] = span.onset.ends[j]
+    if event is not None:
+        known.pop(event.j, None)
+        if event.place is not None and np.isfinite(event.place):
+            ends[event.j] = event.place
+        if event.then is not None:
+            known[event.j] = event.then
+    for j in span.which(Motion.RECEDES):
+        apart = np.abs(span.before.marks - ends[j])
+        if apart.min() <= ON_MARK * span.before.contact.width:
+            ends[j] = span.before.marks[apart.argmin()]
+    last = replace(panel, places=np.concatenate((panel.places[:-1], [ends])))
+    what_next = {float(ends[j]): replace(end, place=float(ends[j])) for j, end in known.items()}
+    opened = event.opened if event is not None else None
+    equations = last.equations[-1]
+    return StripPart(panel, equations, built(equations), until, what_next, opened)
