@@ -54,10 +54,6 @@ def test_axes_of_their_own_are_shown_in_a_notebook(draw):
     assert draw()._repr_png_().startswith(PNG)
 
 
-def test_a_picture_is_shown_in_a_notebook():
-    assert sie.plots.picture(PUNCH)._repr_png_().startswith(PNG)
-
-
 @pytest.mark.parametrize("projection", ["polar", "3d"])
 def test_axes_without_x_and_y_are_refused(projection):
     axes = Figure().add_subplot(projection=projection)
@@ -80,11 +76,6 @@ def test_axes_without_x_and_y_are_refused(projection):
 def test_a_bad_request_is_refused_in_a_sentence(given, said):
     with pytest.raises(ValueError, match=said):
         PUNCH.plot(**given)
-
-
-def test_a_path_without_a_loop_is_refused():
-    with pytest.raises(ValueError, match="has no loop"):
-        sie.follow(FRETTING.scene, sie.Path([(500.0, 100.0)])).plot()
 
 
 def test_pictures_change_no_setting_and_leave_pyplot_alone():
