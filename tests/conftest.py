@@ -16,6 +16,11 @@ from collections import Counter
 import pytest
 from hypothesis import HealthCheck, Phase, settings
 
+# Before NumPy is imported: each worker of pytest-xdist has a core of its own, and threads of linear
+# algebra that wait for each other took it from the others, up to a hundred times as long.
+for threads in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
+    os.environ.setdefault(threads, "1")
+
 COMMON = {
     "deadline": None,
     "suppress_health_check": [HealthCheck.too_slow],

@@ -8,15 +8,7 @@ import pytest
 import scipy.special
 from hypothesis import example, given
 from hypothesis import strategies as st
-from manufactured_problems import (
-    KINDS,
-    PROMISE,
-    agrees,
-    constants,
-    equation_of,
-    problems,
-    words,
-)
+from manufactured_problems import KINDS, PROMISE, agrees, constants, equation_of, problems, words
 from strategies import between
 
 import sie

@@ -7,14 +7,7 @@ import mpmath
 import numpy as np
 import pytest
 from hypothesis import given, settings
-from manufactured_problems import (
-    KINDS,
-    PROMISE,
-    agrees,
-    equation_of,
-    inside,
-    problems,
-)
+from manufactured_problems import KINDS, PROMISE, agrees, equation_of, inside, problems
 
 import sie
 from oracles.manufactured import Manufactured, exact, exponents, mp, needed, right_hand_side

@@ -27,6 +27,7 @@ TABLE = [
 ]
 
 
+@pytest.mark.slow(but=4)
 @pytest.mark.parametrize(("beta", "f", "ratio", "pressure", "moment"), TABLE)
 def test_stick_zone_pressure_and_load_are_those_of_the_table(beta, f, ratio, pressure, moment):
     given = {"friction": f, "dundurs": beta}

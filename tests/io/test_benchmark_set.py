@@ -119,10 +119,7 @@ def test_edges_and_pressure_of_two_feet_are_those_of_the_closed_form(texts):
     assert answer["patches"][1] == pytest.approx([float(inner), float(outer)], rel=EPS)
     ends = {"inner": inner, "outer": outer}
     agrees(
-        table,
-        "p",
-        lambda x: two_parabolas.pressure(x, **ends, **CYLINDER, lib=mp),
-        [inner, outer],
+        table, "p", lambda x: two_parabolas.pressure(x, **ends, **CYLINDER, lib=mp), [inner, outer]
     )
 
 

@@ -119,15 +119,6 @@ def test_a_traction_on_a_curved_surface_is_compared_where_it_acts(tmp_path):
     assert any("where they act" in note for note in comparison.mesh.notes)
 
 
-def test_the_load_of_element_centres_counts_whole_elements(tmp_path):
-    edges = np.linspace(*SOLUTION.edges, 41)
-    centres = 0.5 * (edges[1:] + edges[:-1])
-    comparison = compared(table("x,p", centres, SOLUTION.pressure(centres)), tmp_path)
-    dx = edges[1] - edges[0]
-    exact = SOLUTION.pressure(centres).sum() * dx / SOLUTION.normal_load - 1.0
-    assert comparison.differences["p"].resultant == pytest.approx(exact, abs=1e-12)
-
-
 UNSHEARED = SOLUTION.with_(tangential_load=0.0)
 
 

@@ -90,22 +90,6 @@ def test_the_stated_error_covers_the_true_one_and_is_no_multiple_of_it(profile, 
     assert np.median(ratio_of_edges) <= 10.0
 
 
-@pytest.mark.slow(but=2)
-@pytest.mark.parametrize(
-    ("points", "size", "smoothing"), [(31, 3e-4, 0.0), (15, 1e-3, "gcv"), (401, 1e-4, 1e-3)]
-)
-def test_few_points_no_smoothing_and_a_given_one_have_their_errors_stated_too(
-    points, size, smoothing
-):
-    x = np.linspace(-1.0, 1.0, points)
-    exact, ratio = solved(sie.Parabola(1.0)), []
-    for seed in range(20):
-        found = solved(sie.Sampled(x, 0.5 * (x**2 + size * white(seed, points)), smoothing))
-        ratio.append(found.trace_reports()[0].pressure_error / largest_error(found, exact))
-    assert np.count_nonzero(np.array(ratio) >= 1.0) >= 18
-    assert np.median(ratio) <= 10.0
-
-
 def test_smoothing_beyond_cross_validation_counts_as_an_error():
     h, shape = PROFILES["rounded"]
     found = solved(sie.Sampled(X, h + 1e-5 * white(0), 0.1))

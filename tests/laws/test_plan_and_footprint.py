@@ -13,62 +13,39 @@ from hypothesis import given
 import sie
 
 STAGES = {"bonded", "normal", "pressure", "inequalities", "tangential", "tractions", "certificate"}
-ECONOMIES = ("symmetry", "transform", "zero panels", "convexity", "shear", "sliding")
-SHEARED = {
-    "profile": sie.RoundedFlat(1.0, 2.0), "modulus": 1.0, "normal_load": 1.0, "friction": 0.5,
-}  # fmt: skip
+PUNCH, CYLINDER = sie.RoundedFlat(1.0, 2.0), sie.Parabola(2.0)
+SINH = {"slope": "sinh(x)", "domain": (-9.0, 9.0)}
+FLATS = sie.Piecewise(
+    (-3.0, -2.0, -0.5, 0.5, 1.0), ((1.0, 0.5), (-0.5,), (-0.5,), (0.0,), (0.0,), (-2.0, 2.0))
+)
+
+
+def pressed(profile=PUNCH, **given):
+    bodies = {} if "body" in given else {"modulus": 1.0}
+    loads = {} if "half_width" in given else {"normal_load": 1.0}
+    return sie.Scene(profile=profile, **(bodies | loads | given))
+
+
 SCENES = {
-    "convex": sie.Scene(profile=sie.RoundedFlat(1.0, 2.0), modulus=1.0, normal_load=1.0),
-    "tilted": sie.Scene(profile=sie.RoundedFlat(1.0, 2.0), modulus=1.0, normal_load=1.0, tilt=0.05),
-    "moment": sie.Scene(
-        profile=sie.RoundedFlat(1.0, 2.0), modulus=1.0, normal_load=1.0, moment=0.1
+    "convex": pressed(),
+    "tilted": pressed(tilt=0.05),
+    "moment": pressed(moment=0.1),
+    "cylinder": pressed(CYLINDER, half_width=0.5),
+    "function": pressed(sie.FromFunction(**SINH)),
+    "even function": pressed(sie.FromFunction(**SINH, parity="even")),
+    "flat": pressed(sie.Flat(1.0)),
+    "many flats": pressed(FLATS, half_width=2.75),
+    "partial slip": pressed(friction=0.5, tangential_load=0.3),
+    "full sliding": pressed(friction=0.5, tangential_load=-0.5),
+    "both signs": pressed(CYLINDER, half_width=1.0, friction=0.5, bulk_stress=0.3),
+    "rough, not sheared": pressed(CYLINDER, half_width=1.0, friction=0.5),
+    "dissimilar": pressed(
+        CYLINDER, body=sie.Elastic(1.0, 0.3), indenter=sie.RIGID, normal_load=0.5
     ),
-    "cylinder": sie.Scene(profile=sie.Parabola(2.0), modulus=1.0, half_width=0.5),
-    "function": sie.Scene(
-        profile=sie.FromFunction("sinh(x)", domain=(-9.0, 9.0)), modulus=1.0, normal_load=1.0
-    ),
-    "even function": sie.Scene(
-        profile=sie.FromFunction("sinh(x)", domain=(-9.0, 9.0), parity="even"),
-        modulus=1.0,
-        normal_load=1.0,
-    ),
-    "flat": sie.Scene(profile=sie.Flat(1.0), modulus=1.0, normal_load=1.0),
-    "many flats": sie.Scene(
-        profile=sie.Piecewise(
-            (-3.0, -2.0, -0.5, 0.5, 1.0),
-            ((1.0, 0.5), (-0.5,), (-0.5,), (0.0,), (0.0,), (-2.0, 2.0)),
-        ),
-        modulus=1.0,
-        half_width=2.75,
-    ),
-    "partial slip": sie.Scene(**SHEARED, tangential_load=0.3),
-    "full sliding": sie.Scene(**SHEARED, tangential_load=-0.5),
-    "both signs": sie.Scene(
-        profile=sie.Parabola(2.0), modulus=1.0, half_width=1.0, friction=0.5, bulk_stress=0.3
-    ),
-    "rough, not sheared": sie.Scene(
-        profile=sie.Parabola(2.0), modulus=1.0, half_width=1.0, friction=0.5
-    ),
-    "dissimilar": sie.Scene(
-        profile=sie.Parabola(2.0), body=sie.Elastic(1.0, 0.3), indenter=sie.RIGID, normal_load=0.5
-    ),
-    "dissimilar, sliding": sie.Scene(
-        profile=sie.RoundedFlat(1.0, 2.0),
-        modulus=1.0,
-        dundurs=0.2,
-        normal_load=1.0,
-        friction=0.5,
-        sliding=1,
-    ),
-    "bonded": sie.Scene(
-        profile=sie.Flat(1.0),
-        modulus=1.0,
-        dundurs=0.2,
-        normal_load=1.0,
-        friction=float("inf"),
-        tangential_load=0.3,
-    ),
+    "dissimilar, sliding": pressed(dundurs=0.2, friction=0.5, sliding=1),
+    "bonded": pressed(sie.Flat(1.0), dundurs=0.2, friction=float("inf"), tangential_load=0.3),
 }
+ECONOMIES = ("symmetry", "transform", "zero panels", "convexity", "shear", "sliding")
 
 
 def shear(solution):
@@ -104,24 +81,21 @@ def test_the_footprint_is_the_plan(name, want, economy):
     assert footprint(solution) == sie.plan(SCENES[name], want=want, economy=economy).stages
 
 
-@pytest.mark.parametrize(
-    "want",
-    [
-        "half_width",
-        "centre",
-        "stick",
-        "slip",
-        "shift",
-        "energy_lost",
-        "elastic_limit",
-        "peak_tension",
-    ],
-)
+ATTRIBUTES = [
+    "half_width",
+    "centre",
+    "stick",
+    "slip",
+    "shift",
+    "energy_lost",
+    "elastic_limit",
+    "peak_tension",
+]
+
+
+@pytest.mark.parametrize("want", ATTRIBUTES)
 def test_an_attribute_of_a_solution_may_be_wanted_by_its_name(want):
-    scene = sie.Scene(
-        profile=sie.RoundedFlat(1.0, 2.0), modulus=1.0, poisson=0.3, normal_load=1.0, friction=0.5,
-        tangential_load=0.3,
-    )  # fmt: skip
+    scene = pressed(poisson=0.3, friction=0.5, tangential_load=0.3)
     solution = sie.solve(scene)
     answer = getattr(solution, want)
     if callable(answer):
