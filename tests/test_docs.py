@@ -4,7 +4,6 @@ import importlib
 import re
 import runpy
 import shutil
-import tomllib
 from functools import cache
 from pathlib import Path
 
@@ -154,18 +153,6 @@ def test_the_class_sheet_runs_and_answers_its_third_question():
     sheet = runpy.run_path(str(ROOT / "docs" / "class_sheet.py"))["app"]
     _, names = sheet.run()
     assert names["by_misfit"] == pytest.approx(names["tilted"].centre, abs=1e-12)
-
-
-def test_the_version_is_written_in_one_module():
-    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
-    assert "version" in project["project"]["dynamic"]
-    assert project["tool"]["setuptools"]["dynamic"]["version"] == {"attr": "sie.__version__"}
-    assert re.fullmatch(r"\d+\.\d+\.\d+\S*", sie.__version__)
-
-
-def test_the_citation_has_the_version_of_the_package():
-    citation = (ROOT / "CITATION.cff").read_text(encoding="utf-8")
-    assert f"\nversion: {sie.__version__}\n" in citation
 
 
 PAGES = [page for page in DOCUMENTS if "{code-cell}" in page.read_text(encoding="utf-8")]

@@ -10,7 +10,6 @@ from hypothesis import strategies as st
 from traces import H, X, pressed
 
 import sie
-from sie.contact import normal
 
 # -- repeated --------------------------------------------------------------------------------------
 
@@ -120,18 +119,6 @@ def test_a_trace_that_no_smoothing_helps_and_a_profile_without_trace_are_refused
         sie.least_smoothing(pressed(sie.Sampled(X, -H)).scene)
     with pytest.raises(ValueError, match="is no trace"):
         sie.least_smoothing(pressed(sie.Parabola(1.0)).scene)
-
-
-@pytest.mark.parametrize("load", [1e-3, 0.3, 2.0])
-def test_a_rough_trace_costs_no_search_for_one_patch(load, monkeypatch):
-    searches, smoothings = [], []
-    whole = normal.normal_contact
-    counted = lambda *args: searches.append(args) or whole(*args)  # noqa: E731
-    monkeypatch.setattr("sie.frictionless.normal_contact", counted)
-    monkeypatch.setattr("sie.profiles.sampled.cross_validated", smoothings.append)
-    rough = sie.Sampled(X, H + 0.1 * np.cos(40.0 * X))
-    assert len(pressed(rough, load).patches) > 1
-    assert searches == smoothings == []
 
 
 @pytest.mark.parametrize(
