@@ -125,9 +125,9 @@ def _without_what_slipped(part: Part, zones: Onset) -> Part:
 def _lost(share: float, reason: str) -> ContactError:
     """The refusal of a step that is followed up to a share of it only."""
     return ContactError(
-        f"stick and slip are followed for {100.0 * share:.4g} % of the step only: there slip starts "
-        "or stops next to where it has before; move this point of the path a little, or end the "
-        "path before it",
+        f"stick and slip are followed for {100.0 * share:.4g} % of the step only: there slip "
+        "starts or stops next to where it has before; move this point of the path a little, or end "
+        "the path before it",
         share=share,
         reason=reason,
     )

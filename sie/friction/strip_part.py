@@ -20,7 +20,7 @@ from sie.errors import ContactError
 from .cells import zones_on_cells
 from .finite_step import built
 from .loading import LoadStep
-from .onset import End, Motion, Onset, onset, resting_place, set_out
+from .onset import End, Motion, Onset, resting_place, set_out
 from .rates import Rates
 from .state import Ends, State, overlaps
 from .strips import MOMENTS, TAU, Panel, Span, StripEquations, solved_panel
