@@ -196,7 +196,9 @@ def _stopped(verdict: Verdict) -> dict[float, End]:
     assert equations is not None
     left = {lo: s for lo, _, s in equations.slip}
     right = {hi: s for _, hi, s in equations.slip}
-    found = {}
+    found: dict[float, End] = {}
+    if not verdict.margins.size:  # all of the contact sticks
+        return found
     for j, (e, margin) in enumerate(zip(equations.stick.ravel(), verdict.margins, strict=True)):
         place = float(e)
         sense = left.get(place) if j % 2 else right.get(place)
