@@ -18,8 +18,8 @@ from sie.friction.dissipation import Dissipation, dissipated
 from sie.friction.load_history import changing_contact
 from sie.friction.load_history.turning_point import TurningPoint
 from sie.friction.memory import SlippedLayer
-from sie.friction.step_energy import work
 from sie.friction.slip_state import Slip
+from sie.friction.step_energy import work
 from sie.progress_bar import reported, step_done
 
 from .dissipation import PatchDissipation
