@@ -23,7 +23,7 @@ LINES = {
     "live": 1190,
     "numerics": 2210,
     "patches": 5570,
-    "paths": 1020,
+    "paths": 1030,
     "plots": 1010,
     "problem": 1000,
     "profiles": 5900,

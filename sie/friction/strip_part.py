@@ -28,7 +28,7 @@ from .strips import MOMENTS, TAU, Panel, Span, StripEquations, solved_panel
 Array = NDArray[np.float64]
 
 SHORTER = 1.0 / 3.0  # of a part that is not solved
-SHORTEST = 1e-11  # of a step: a part
+SHORTEST = 1e-9  # of a step: a part
 FINE = np.linspace(0.02, 1.0, 197)  # shares of τ at which events are looked for
 BEYOND = 1.3  # times τ: so far ahead an arrival is seen
 ARRIVED = 1e-7  # of the contact: room that is none
