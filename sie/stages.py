@@ -33,7 +33,7 @@ STAGES = {
         ("unverified", "density", "inequalities", "normal", "in_patches", "pressure"), NORMAL
     ),
     **dict.fromkeys(OF_SHEAR, SHEAR),
-    **dict.fromkeys(("pressed", "tangential_search"), PRESSED),
+    **dict.fromkeys(("pressed", "locked_in"), PRESSED),
 }
 
 if TYPE_CHECKING:

@@ -202,16 +202,9 @@ def test_solution_keeps_its_contact_only_while_nothing_of_it_changes():
     assert similar.half_width != solution.half_width and similar.shear is sie.ZERO
 
 
-@pytest.mark.parametrize(
-    ("changes", "words"),
-    [
-        ({"moment": 0.01}, "give a tilt in its place"),
-        ({"bulk_stress": 0.01}, "bulk_stress"),
-    ],
-)
-def test_what_is_not_solved_is_refused_with_what_to_do(changes, words):
-    with pytest.raises(sie.ContactError, match=words):
-        sie.solve(scene(normal_load=1.0, **changes))
+def test_a_moment_is_refused_with_what_to_do():
+    with pytest.raises(sie.ContactError, match="give a tilt in its place"):
+        sie.solve(scene(normal_load=1.0, moment=0.01))
 
 
 @pytest.mark.parametrize(

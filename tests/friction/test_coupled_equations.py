@@ -15,8 +15,6 @@ from sie.certificate.coupled_check import coupled_certificate
 from sie.friction.coupled.functions import flat_functions
 from sie.friction.coupled.half_potential import DEGREE, HalfPotential, Panels
 from sie.friction.coupled.profile import Superposition
-from sie.friction.coupled.zones import NODES, _from_others
-from sie.numerics.gauss_jacobi import gauss_jacobi
 
 # -- the two equations -----------------------------------------------------------------------------
 
@@ -224,14 +222,6 @@ def test_potential_far_away_is_the_load_over_the_distance():
     F, dF = half(z, derivative=True)
     np.testing.assert_allclose(F, 0.5 / (math.pi * z), rtol=1e-7)
     np.testing.assert_allclose(dF, -0.5 / (math.pi * z * z), rtol=1e-7)
-
-
-@pytest.mark.parametrize("length", [1.0, 1e-40])
-def test_a_value_from_the_other_nodes_of_a_panel_is_that_of_a_polynomial(length):
-    x = gauss_jacobi(NODES, 0.0, 0.0).x
-    others = x**3 - 2.0 * x
-    weights = _from_others(length * x, 4)
-    assert weights @ others == pytest.approx(others[4], rel=1e-12)
 
 
 @pytest.mark.parametrize("pair", [(0.3, 0.3), (0.1, 1.0), (0.5, 10.0)])

@@ -13,7 +13,7 @@ import sie
 from sie import cli as command
 from sie.certificate.result import Certificate
 from sie.cli import main
-from sie.friction.coupled import energy
+from sie.friction.coupled import answer
 from sie.io import report, sample_points, scene_file
 from sie.problem.request import WANTS
 
@@ -122,9 +122,7 @@ def test_the_energy_of_dissimilar_bodies_under_q_is_answered_only_if_asked_for(
 ):
     path, costs = tmp_path / "sheared.toml", []
     path.write_text(SHEARED_DISSIMILAR)
-    monkeypatch.setattr(
-        energy, "tangential_energy", lambda state, _: costs.append(state) or state.Q
-    )
+    monkeypatch.setattr(answer, "work", lambda _, after: costs.append(after) or after.Q)
     more = ["--want", "shear", "energy"] if asked else []
     assert main(["solve", str(path), *more]) == 0
     assert len(costs) == asked == ("energy lost" in capsys.readouterr().out)

@@ -163,6 +163,8 @@ class CoupledContact:
         way = "outwards" if self.sign > 0.0 else "inwards"
         return f"{way} on both sides while the normal load grew; β couples p and q"
 
+    shift = strain_kept = 0.0
+
     @property
     def least_slip(self) -> float:
         """The least slip in its direction in a slip zone, over the largest."""

@@ -15,30 +15,17 @@ and ∫_a^y P' D(y/s) ds/s = E*/2 h' by (1).
 
 from __future__ import annotations
 
-import itertools
-from collections.abc import Callable
 from functools import cached_property
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-
-from sie.numerics import chebyshev
 
 from .load_rate import GrowthPanel
 from .panels import graded, totals
 from .profile import Kernel, Superposition
 from .tables import Table
-from .traction import ROUGH, SAME
 
 Array = NDArray[np.float64]
-
-DEGREE = 16
-RESOLVED = 1e-12  # of the size of the functions: the last coefficients of a panel
-FAINT = 1e-16  # of that size times the interval: what a short panel may miss
-SHORTEST = 1e-11  # of the interval: no panel is cut that is as short; a corner's p is infinite
-HALVINGS = 14  # of the last panel, before its functions are evaluated
-APART = 1e-9  # of the interval: marks that are nearer are one
 
 
 class SlipGradient:
@@ -58,11 +45,6 @@ class SlipGradient:
         gamma[slipped] = flat.friction * H[slipped] - self._beside_shear(at, top)
         whole = np.full(len(at), self.ahead)
         gamma[slipped] += self.superposition._sum(self._kernels, at, whole, over_s=True)
-        return gamma
-
-    def beside(self, y: Array, H: Array) -> Array:
-        """γ beside the contact, y > b; H is 1/π ∫p/(y - t) dt there."""
-        gamma: Array = self.flat.friction * H - self._beside_shear(y, np.full(len(y), self.ahead))
         return gamma
 
     @cached_property
@@ -112,59 +94,3 @@ class SlipGradient:
         remaining = scale * (before[owner][:, None] + left)
         values = self._J(scale * ((z + panel.lo) + ahead), remaining) * panel(ahead) * weight
         return totals(owner, values, len(y)) / y
-
-
-class Tabulated(NamedTuple):
-    """Chebyshev series of an even function on panels of 0 < y < b, ascending."""
-
-    lo: Array
-    hi: Array
-    series: Array
-
-    def __call__(self, x: Array) -> Array:
-        """The values at |x| <= b."""
-        y = np.abs(x)
-        k = np.minimum(np.searchsorted(self.hi, y), len(self.hi) - 1)
-        lo, hi = self.lo[k], self.hi[k]
-        values: Array = chebyshev.evaluate(self.series.T[:, k], 2.0 * (y - lo) / (hi - lo) - 1.0)
-        return values
-
-    @property
-    def cuts(self) -> Array:
-        """Ends of the panels on both sides of the axis."""
-        return np.concatenate((-self.hi[::-1], self.lo[:1], self.hi))
-
-
-def tabulated(
-    function: Callable[[Array], Array],
-    companions: tuple[Callable[[Array], Array], ...],
-    marks: tuple[float, ...],
-    size: float,
-) -> Tabulated:
-    """The function on panels on which its companions are resolved as well, to parts of `size`.
-
-    All are smooth between the marks; the last of these is where the panels end.
-    """
-    b = marks[-1]
-    kept = [m for m in marks[:-1] if APART * b < m < (1.0 - APART) * b]
-    ends = [0.0, *(m for k, m in enumerate(kept) if m - (0.0, *kept)[k] > APART * b), b]
-    # Next to the end all of them have a power of the distance
-    ends[-1:] = [b - (b - ends[-2]) * 0.5**k for k in range(1, HALVINGS)] + [b]
-    part = 0.5 * (1.0 + chebyshev.points(DEGREE))
-    todo = [(lo, hi, np.inf) for lo, hi in itertools.pairwise(ends)]
-    done: list[tuple[float, float, Array]] = []
-    while todo:
-        lo, hi, before = (np.array(column) for column in zip(*todo, strict=True))
-        y = (lo[:, None] + (hi - lo)[:, None] * part).ravel()
-        f = np.stack([v(y).reshape(len(lo), DEGREE) for v in (function, *companions)])
-        series = chebyshev.transform(f)
-        tail = np.abs(series[..., -2:]).max(axis=(0, 2)) / size
-        settled = (tail <= RESOLVED) | (tail * (hi - lo) <= FAINT * b)
-        settled |= (tail < ROUGH) & (tail > SAME * before) | (hi - lo <= SHORTEST * b)
-        done += [(lo[k], hi[k], series[0, k]) for k in np.flatnonzero(settled)]
-        todo = []
-        for k in np.flatnonzero(~settled).tolist():
-            middle = 0.5 * (lo[k] + hi[k])
-            todo += [(lo[k], middle, tail[k]), (middle, hi[k], tail[k])]
-    done.sort(key=lambda panel: panel[0])
-    return Tabulated(*(np.array(column) for column in zip(*done, strict=True)))

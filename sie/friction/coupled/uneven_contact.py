@@ -187,6 +187,8 @@ class UnevenContact:
 
         return on_line(value, x)
 
+    shift = strain_kept = 0.0
+
     @cached_property
     def least_slip(self) -> float:
         """The least slip outwards in a slip zone, over the largest."""

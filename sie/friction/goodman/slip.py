@@ -144,6 +144,8 @@ class GoodmanSlip(Slip):
         c1, c2 = light.stick[0] if light is not None else self.normal_stick
         return (max(lo, c1), min(hi, c2)), light
 
+    strain_kept = 0.0
+
     @property
     def least_slip(self) -> float:
         """The least slip in its direction in a slip zone before Q, over the largest."""
