@@ -37,9 +37,8 @@ if TYPE_CHECKING:  # what a stage needs is imported when it is computed
     from .certificate.result import Certificate, ShearCertificate
     from .certificate.trace_noise import TraceReport
     from .friction.coupled.answer import LoadedContact
-    from .friction.coupled.contact import CoupledContact
+    from .friction.coupled.pressed import Pressed
     from .friction.coupled.traction import OnHalves
-    from .friction.coupled.uneven_contact import UnevenContact
     from .friction.full_stick import Component
     from .friction.goodman.slip import GoodmanSlip
     from .friction.slip_state import Slip, Step
@@ -105,7 +104,7 @@ class Solution(Frictionless, StressAnswers):
         return full_stick_contact(self.scene, self.tol)
 
     @cached_property
-    def coupled(self) -> tuple[Edges, CoupledContact | UnevenContact | LoadedContact]:
+    def coupled(self) -> tuple[Edges, Pressed | LoadedContact]:
         """The edges and the state of dissimilar bodies in partial slip."""
         scene = self.scene
         if not (scene.tangential_load or scene.tau):
@@ -113,14 +112,14 @@ class Solution(Frictionless, StressAnswers):
         state = self.locked_in.under(scene.tangential_load, scene.tau)
         return replace(state.edges, tilt=scene.tilt), state
 
-    def go_on_from(self, before: CoupledContact | UnevenContact | LoadedContact | None) -> None:
+    def go_on_from(self, before: Pressed | LoadedContact | None) -> None:
         """Goes on from another state under the same P, and not from that under P alone."""
         if before is not None and hasattr(before, "under"):
             state = before.under(self.scene.tangential_load, self.scene.tau)
             self.__dict__["coupled"] = replace(state.edges, tilt=self.scene.tilt), state
 
     @cached_property
-    def pressed(self) -> tuple[Edges, CoupledContact | UnevenContact]:
+    def pressed(self) -> tuple[Edges, Pressed]:
         """The same under the normal load alone."""
         from .friction.coupled.normal import coupled_contact
 
@@ -146,7 +145,7 @@ class Solution(Frictionless, StressAnswers):
         """The same with what it locks in, from which Q and bulk stress lead to other states."""
         from .friction.coupled.answer import pressed_contact
 
-        return pressed_contact(self._upright, self.pressed[1])
+        return pressed_contact(self.pressed[1])
 
     def _frictionless(self, scene: Scene) -> Normal:
         return Frictionless(scene, self.tol).unverified

@@ -14,26 +14,16 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from sie.contact.known_contact import Edges
 from sie.errors import ContactError
-from sie.numerics.interval import Interval
-from sie.problem.scene import Scene
-from sie.profiles.base import Profile
-from sie.traction.base import on_line, zero_or_nan
-from sie.traction.in_contact import InContact
+from sie.traction.base import on_line
 
-from .fields import Fields
-from .half_slope import HalfSlope
-from .integral import integral, outwards, towards_ends
-from .pieces import Pieces
-from .state import Question, State
+from .integral import integral, towards_ends
 from .step import Loaded
-from .two_sided import Known, TwoSidedTraction, both_tractions
+from .view import View
 from .work import work
 
 if TYPE_CHECKING:
-    from .contact import CoupledContact
-    from .uneven_contact import UnevenContact
+    from .pressed import Pressed
 
 Array = NDArray[np.float64]
 
@@ -45,7 +35,7 @@ NARROWEST = 1e-15  # of the contact: slip zones of the normal load, as wide at l
 
 
 @dataclass(frozen=True, eq=False)
-class LoadedContact:
+class LoadedContact(View):
     """A state at constant P in the coordinates of the scene.
 
     loaded      the state
@@ -56,13 +46,13 @@ class LoadedContact:
     """
 
     loaded: Loaded
-    pressed: CoupledContact | UnevenContact
+    pressed: Pressed
     origin: float
     sign: float
     previous: LoadedContact | None = None
 
     @property
-    def half_modulus(self) -> float:
+    def half_modulus(self) -> float:  # type: ignore[override]
         return self.pressed.half_modulus
 
     def under(self, Q: float, tau: float) -> LoadedContact:
@@ -85,81 +75,6 @@ class LoadedContact:
         while first.before is not None:
             first = first.before
         return first
-
-    # -- zones and loads ---------------------------------------------------------------------------
-
-    @cached_property
-    def contact(self) -> Interval:
-        lo, hi = self.loaded.zones.ends[[0, -1]].tolist()
-        return Interval(self.origin + lo, self.origin + hi)
-
-    @property
-    def stick(self) -> tuple[tuple[float, float], ...]:
-        """The stick zones."""
-        return tuple((self.origin + lo, self.origin + hi) for lo, hi in self.loaded.zones.stick)
-
-    @property
-    def slip_zones(self) -> tuple[tuple[float, float, float], ...]:
-        """(lo, hi, sign of q)."""
-        return tuple(
-            (self.origin + lo, self.origin + hi, self.sign * s)
-            for lo, hi, s in self.loaded.zones.slip
-        )
-
-    @property
-    def edges(self) -> Edges:
-        P = self.loaded.question.P
-        return Edges(self.contact, P, self.moment, 0.0, (False, False), 0.0, 0.0, 0.0, 0)
-
-    @cached_property
-    def moment(self) -> float:
-        """∫p x dx."""
-        at, (p, _, _) = self.loaded.fields.whole
-        return self.origin * self.loaded.question.P + float(at.weight @ (p * at.x))
-
-    @property
-    def kind(self) -> str:
-        """The slip in words."""
-        ways = ["+" if s > 0.0 else "-" for _, _, s in self.slip_zones]
-        left, right = ways[0], ways[-1]
-        where = f"towards {left}x" if left == right else f"towards {left}x left and {right}x right"
-        return f"{where} beside the stick zone; β couples p and q"
-
-    # -- tractions ---------------------------------------------------------------------------------
-
-    def rows(self, x: Array, rest: Array | None = None) -> Array:
-        """Rows of p and q in contact."""
-        p, q, _ = self.loaded.fields(x - self.origin, rest)
-        return np.stack((p, self.sign * q))
-
-    @property
-    def values(self) -> InContact:
-        """The tractions about the origin."""
-        lo, hi = self.loaded.zones.ends[[0, -1]].tolist()
-
-        def rows(x: Array, rest: Array) -> Array:
-            p, q, _ = self.loaded.fields(x, rest)
-            return np.stack((p, self.sign * q))
-
-        marks = (lo, *(x - self.origin for x in self.marks[1:-1]), hi)
-        return InContact(Interval(lo, hi), marks, rows, self.origin)
-
-    @cached_property
-    def marks(self) -> tuple[float, ...]:
-        """Places in the contact where p or q is not smooth, with its edges, ascending."""
-        (lo, hi), kinks = self.contact[:2], self.loaded.question.slope.kinks
-        places = {self.origin + x for x in (*self.loaded.marks, *kinks)}
-        return (lo, *sorted(x for x in places if lo < x < hi), hi)
-
-    @cached_property
-    def tractions(self) -> tuple[TwoSidedTraction, TwoSidedTraction]:
-        """p and q with their potentials, which share their panels."""
-        lo, hi = self.stick[0]
-        powers = self.loaded.state.pieces.powers
-        loads = self.loaded.question.P, self.sign * self.loaded.Q
-        known = Known(0.5 * (lo + hi), self.marks, (powers[0], powers[-1]), loads, self.moment)
-        values = (lambda x: self.rows(x)[0], lambda x: self.rows(x)[1])
-        return both_tractions(values, self.rows, known)
 
     # -- slip --------------------------------------------------------------------------------------
 
@@ -237,28 +152,6 @@ class LoadedContact:
         moved = _to_far(self.loaded, start) - _to_far(first, start)
         return self.sign * (moved + self.loaded.Q / math.pi * bonded) / self.half_modulus
 
-    # -- beside the contact ------------------------------------------------------------------------
-
-    def gap(self, x: Array, profile: Profile) -> Array:
-        """The gap between the deformed bodies: 0 in contact."""
-        flat = np.asarray(x, dtype=float).ravel()
-        lo, hi = profile.domain
-        out: Array = zero_or_nan(flat)
-        out[(flat < lo) | (flat > hi) | np.isinf(flat)] = np.inf
-        known, width = np.isfinite(flat) & (out == 0.0), self.contact.r
-        for edge, side in ((self.contact.x1, -1.0), (self.contact.x2, 1.0)):
-            beside = known & (side * (flat - edge) > 0.0)
-            if beside.any():
-
-                def H(d: Array, edge: float = edge, side: float = side) -> Array:
-                    at = edge - self.origin + side * np.maximum(d, 1e-12 * width)
-                    return side * self.loaded.state.beside_contact(at)[0]
-
-                rise = profile.height(flat[beside]) - profile.height(np.array(edge))
-                raised = outwards(H, np.abs(flat[beside] - edge), width)
-                out[beside] = rise - raised / self.half_modulus
-        return out.reshape(np.shape(x))
-
 
 def slipped(after: Loaded, before: Loaded, x: Array) -> Array:
     """E*/2 times the slip from one state to a later one."""
@@ -291,22 +184,9 @@ def _to_far(state: Loaded, start: float) -> float:
     return float(at.weight @ (beta * (at.x > start) * p - q * log))
 
 
-def pressed_contact(scene: Scene, pressed: CoupledContact | UnevenContact) -> LoadedContact:
+def pressed_contact(pressed: Pressed) -> LoadedContact:
     """The state under P alone, as the first of others at constant P."""
-    origin, sign = _middle(pressed), math.copysign(1.0, scene.beta)
-    slope = scene.profile.pieces.shifted(-origin) if origin else scene.profile.pieces
-    P, beta = pressed.load, abs(scene.beta)
-    b = pressed.b
-    gamma = locked_in(pressed, slope, origin)
-    half = HalfSlope(slope, pressed.half_modulus, (-WINDOW * b, WINDOW * b))
-    question = Question(beta, pressed.flat.friction, half, gamma, P, 0.0)
-    width = max(pressed.slip_width, NARROWEST * b)
-    (lo, hi) = pressed.stick[0]
-    widths = (width, (hi - lo) if not pressed.full_stick else 2.0 * (b - width), width)
-    marks = tuple(x - origin for x in pressed_marks(pressed))
-    pieces = Pieces(-b, widths, (-1, 0, 1), marks, half.kinks, question.theta)
-    first = Loaded(Fields(State(pieces, question)), 0.0, 0.0, friction=scene.friction)
-    return LoadedContact(first, pressed, origin, sign)
+    return LoadedContact(pressed.loaded, pressed, pressed.origin, pressed.sign)
 
 
 def refused(state: LoadedContact, Q: float) -> ContactError:
@@ -318,28 +198,3 @@ def refused(state: LoadedContact, Q: float) -> ContactError:
         f"|Q| = {abs(Q):.6g} ({abs(Q) / limit:.3g} f P): slip turns inside a zone, or contact that "
         "is gained sticks, which is not solved; change Q, or give dundurs = 0"
     )
-
-
-def _middle(pressed: CoupledContact | UnevenContact) -> float:
-    lo, hi = pressed.stick[0]
-    return float(getattr(pressed, "axis", 0.5 * (lo + hi)))
-
-
-def pressed_marks(pressed: CoupledContact | UnevenContact) -> tuple[float, ...]:
-    """Places where γ is not smooth under P alone."""
-    axis = getattr(pressed, "axis", None)
-    if axis is None:
-        return pressed.marks[1:-1]
-    return tuple(sorted({axis, *(axis + s * y for y in pressed.marks[:-1] for s in (-1.0, 1.0))}))
-
-
-def locked_in(pressed: CoupledContact | UnevenContact, slope: Any, origin: float) -> Any:
-    """γ under P alone as a function of the place about the origin."""
-    from .gradient import SlipGradient  # noqa: PLC0415 -- of symmetric profiles alone
-
-    if hasattr(pressed, "superposition"):
-        gradient = SlipGradient(pressed.superposition, pressed.ahead)
-        return lambda x: gradient(np.abs(x), pressed.half_modulus * slope(np.abs(x)))
-    p, q = pressed.tractions
-    beta = pressed.flat.beta
-    return lambda x: pressed.sign * q.hilbert(x + origin) + beta * p(x + origin)

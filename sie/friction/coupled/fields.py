@@ -8,13 +8,13 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.special import sici
 
-from .pieces import STEP, Places
+from .pieces import Places
 from .state import State
 
 Array = NDArray[np.float64]
@@ -23,6 +23,7 @@ SHIFTS = 4
 POINTS = 14  # of the interpolation
 FARTHEST = 22.0  # |v| beyond which fields go on as a power of the distance from an edge
 DEEP = 33.0  # |v| up to which p and γ are told at marks inside the contact
+NEAR_EDGE = 1e-3  # of the contact: up to there the distance from an edge tells a place best
 NEAREST = 1e-8  # of the contact: nodes that are nearer to a mark are not looked at
 
 
@@ -34,32 +35,80 @@ class Fields:
 
     def __call__(self, x: Array, rest: Array | None = None) -> Array:
         """Rows of p, q and γ at places in contact, at distances `rest` from the nearer edge."""
-        cuts = self.state.pieces.cuts
-        k = np.clip(np.searchsorted(cuts, x, side="right") - 1, 0, len(cuts) - 2)
-        lo, hi = x - cuts[k], cuts[k + 1] - x
-        if rest is not None:
-            at_left = (k == 0) & (lo < hi)
-            at_right = (k == len(cuts) - 2) & (hi <= lo)
-            lo, hi = np.where(at_left, rest, lo), np.where(at_right, rest, hi)
+        cuts, (k, lo, hi) = self.state.pieces.cuts, self._located(x, rest)
         with np.errstate(divide="ignore"):
             v = np.log(np.maximum(lo, 0.0)) - np.log(np.maximum(hi, 0.0))
-        rows, last = np.empty((3, len(x))), len(cuts) - 2
+        rows, last, step = np.empty((3, len(x))), len(cuts) - 2, self.state.pieces.fineness.step
         for piece in np.unique(k):
             own = k == piece
-            first, table = self._tables[piece]
+            first, table = self.tables[piece]
             lowest = FARTHEST if piece == 0 else DEEP
             highest = FARTHEST if piece == last else DEEP
-            for row, far in (([0, 2], (-lowest, highest)), ([1], (-FARTHEST, FARTHEST))):
-                place = (np.clip(v[own], *far) - first) * (SHIFTS / STEP)
+            ends = -self._last_shear(piece, -1), self._last_shear(piece, 1)
+            for row, far in (([0, 2], (-lowest, highest)), ([1], ends)):
+                place = (np.clip(v[own], *far) - first) * (SHIFTS / step)
                 rows[np.ix_(row, own)] = interpolated(table[row], place)
-        sign = self.state.pieces.sign[self.state.pieces.zone_of_piece[k]]
-        slips = sign != 0.0
-        rows[1, slips] = sign[slips] * self.state.question.friction * rows[0, slips]
+            for side in (-1, 1):
+                near = np.flatnonzero(own & (side * v > side * ends[side > 0]))
+                if near.size and 0 <= piece + side <= last:
+                    rows[1, near] = self._shear_next_to_cut(
+                        (int(piece), side), v[near], rows[0, near]
+                    )
         powers = self.state.pieces.powers
         for edge, side, sign in ((0, k == 0, -1.0), (-1, k == len(cuts) - 2, 1.0)):
             beyond = side & (sign * v > FARTHEST)
             rows[:2, beyond] *= np.exp(powers[edge] * (FARTHEST - sign * v[beyond]))
+        signs = self.state.pieces.sign[self.state.pieces.zone_of_piece[k]]
+        slips = signs != 0.0
+        rows[1, slips] = signs[slips] * self.state.question.friction * rows[0, slips]
         return rows
+
+    def _located(self, x: Array, rest: Array | None) -> tuple[NDArray[np.intp], Array, Array]:
+        """The piece of each place, and its distances from the ends of that."""
+        pieces = self.state.pieces
+        cuts, last = pieces.cuts, len(pieces.cuts) - 2
+        k = np.clip(np.searchsorted(cuts, x, side="right") - 1, 0, last)
+        lo, hi = x - cuts[k], cuts[k + 1] - x
+        if rest is None:
+            return k, lo, hi
+        # next to an edge distances from that tell more
+        for left in (True, False):
+            lengths = pieces.lengths if left else pieces.lengths[::-1]
+            ends = np.append(0.0, np.cumsum(lengths))
+            own = (rest < NEAR_EDGE * pieces.length) & ((x < 0.5 * (cuts[0] + cuts[-1])) == left)
+            j = np.clip(np.searchsorted(ends, rest[own], side="right") - 1, 0, last)
+            outer, inner = rest[own] - ends[j], ends[j + 1] - rest[own]
+            k[own] = j if left else last - j
+            lo[own], hi[own] = (outer, inner) if left else (inner, outer)
+        return k, lo, hi
+
+    def _last_shear(self, piece: int, side: int) -> float:
+        """|v| up to which q is told: nearer to a narrow slip zone, next to which it varies more."""
+        pieces, other = self.state.pieces, piece + side
+        if not 0 <= other < len(pieces.lengths) or not pieces.powers[piece + (side > 0)]:
+            return FARTHEST
+        width = pieces.widths[pieces.zone_of_piece[other]]
+        return min(DEEP, FARTHEST + 0.5 * max(math.log(pieces.lengths[piece] / width), 0.0))
+
+    def _shear_next_to_cut(self, where: tuple[int, int], v: Array, p: Array) -> Array:
+        """q in stick, too near to a cut for principal values, on that side of a piece.
+
+        Next to slip f p - |q| is a power of the distance; at marks q may have a logarithm.
+        """
+        (piece, side), pieces = where, self.state.pieces
+        signs = pieces.sign[pieces.zone_of_piece]
+        (first, table), step = self.tables[piece], pieces.fineness.step
+        last = self._last_shear(piece, side)
+        at = np.array([last, last - 1.0])
+        (p0, _), (q0, q1) = interpolated(table[:2], (side * at - first) * (SHIFTS / step))
+        beyond = side * v - last
+        if signs[piece + side] == signs[piece]:
+            return q0 + (q0 - q1) * beyond
+        full = signs[piece + side] * self.state.question.friction
+        values: Array = full * p - (full * p0 - q0) * np.exp(
+            -pieces.powers[piece + (side > 0)] * beyond
+        )
+        return values
 
     def gamma(self, x: Array) -> Array:
         """γ in contact."""
@@ -96,7 +145,7 @@ class Fields:
         return rules, rows
 
     @cached_property
-    def _tables(self) -> list[tuple[float, Array]]:
+    def tables(self) -> list[tuple[float, Array]]:
         """The first v and the rows of each piece."""
         rules, rows = self._rules
         lengths, tables = self.state.pieces.lengths, []
@@ -129,16 +178,22 @@ class Fields:
         return every.chosen(kept), fields[:, kept]
 
 
-def interpolated(table: Array, place: Array) -> Array:
+def interpolated(table: Array, place: Array, points: int = POINTS) -> Array:
     """Columns of a table at fractional places by Lagrange's polynomials."""
-    first = np.clip(np.floor(place).astype(int) - POINTS // 2 + 1, 0, table.shape[1] - POINTS)
-    apart = (place - first)[:, None] - np.arange(POINTS)
+    first = np.clip(np.floor(place).astype(int) - points // 2 + 1, 0, table.shape[1] - points)
+    apart = (place - first)[:, None] - np.arange(points)
     exact = apart == 0.0
-    weights = _WEIGHTS / np.where(exact, 1.0, apart)
+    weights = _binomial(points) / np.where(exact, 1.0, apart)
     weights = np.where(exact.any(axis=1)[:, None], exact, weights)
     weights /= weights.sum(axis=1)[:, None]
-    values: Array = np.einsum("rmk,mk->rm", table[:, first[:, None] + np.arange(POINTS)], weights)
+    values: Array = np.einsum("rmk,mk->rm", table[:, first[:, None] + np.arange(points)], weights)
     return values
+
+
+@lru_cache(maxsize=4)
+def _binomial(points: int) -> Array:
+    """The weights of equidistant points."""
+    return np.array([(-1.0) ** j * math.comb(points - 1, j) for j in range(points)])
 
 
 def cumulative(values: Array) -> Array:
@@ -168,6 +223,3 @@ def _integral_of_step(points: int) -> Array:
 
 
 _STENCIL = _integral_of_step(10)
-_WEIGHTS: Array = np.array(
-    [(-1.0) ** j * math.comb(POINTS - 1, j) for j in range(POINTS)], dtype=float
-)

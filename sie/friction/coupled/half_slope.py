@@ -70,7 +70,7 @@ class HalfSlope:
         series = chebyshev.transform(self._on(k, lo, half * (1.0 + chebyshev.points(degree + 1))))
         s = 0.5 * (to_lo - to_hi) / half
         outside = np.maximum(np.abs(s), 1.0)
-        near = (outside + np.sqrt(outside**2 - 1.0)) ** max(degree, 1) < GROWTH
+        near = max(degree, 1) * np.arccosh(outside) < math.log(GROWTH)
         out = np.empty(len(s))
         if near.any():
             out[near] = _recurred(series, s[near], to_lo[near], to_hi[near])

@@ -151,7 +151,7 @@ class State:
         return values
 
     @cached_property
-    def _shear_halfway(self) -> Array:
+    def shear_halfway(self) -> Array:
         """q on the nodes halfway."""
         at, question = self.halfway, self.question
         sticks, psi, H1 = self.sticks(at), self.psi(at), question.slope(at.x)
@@ -169,7 +169,7 @@ class State:
         arm, mass = self._arm(self.nodes), self._solved[0]
         moments = np.array([mass @ arm**k for k in range(n + 1)]) / question.P
         moments[n] -= 1.0
-        Q = float(self.halfway.weight @ self._shear_halfway)
+        Q = float(self.halfway.weight @ self.shear_halfway)
         return np.append(moments, (Q - question.Q) / (question.friction * question.P))
 
     # -- beside the contact ------------------------------------------------------------------------
@@ -187,7 +187,7 @@ class State:
         size = np.exp(self.pieces.log_chi(at) - n * math.log(self.half_width))
         size *= np.where(at.anchor == 0, (-1.0) ** n, 1.0) * self._arm(at) ** -n / math.pi
         Hp = size * (kernel @ self._solved[0])
-        q = self.halfway.weight * self._shear_halfway
+        q = self.halfway.weight * self.shear_halfway
         Hq = (1.0 / self.pieces.apart(at, self.halfway)) @ q / math.pi
         return Hp[back], Hq[back]
 
