@@ -22,8 +22,7 @@ from numpy.typing import NDArray
 
 from .fields import interpolated
 from .flat import FlatPunch
-from .growth import Panel, trapezoidal
-from .pieces import STEP
+from .growth import STEP, Panel, trapezoidal
 
 Array = NDArray[np.float64]
 Passing = tuple[NDArray[np.intp], Array]
@@ -157,25 +156,43 @@ class Frozen:
         for j, panel in enumerate(self.panels):
             sticks = (k_c == j) & (ahead_c < panel.length)
             lo = np.where(k < j, 0.0, np.where(k == j, ahead, math.inf))
-            hi = np.where(k_c < j, 0.0, np.where(sticks, ahead_c, panel.length))
-            hi = np.minimum(hi, until - panel.lo)
-            own = np.flatnonzero(hi > lo)
+            last = np.where(k_c < j, 0.0, np.where(sticks, ahead_c, panel.length))
+            length = np.minimum(last, until - panel.lo) - lo
+            whole = sticks & (k == j) & (ahead > 0.0) & (ahead_c <= until - panel.lo)
+            length[whole] = self._slipping(panel, side, ahead[whole])
+            own = np.flatnonzero(length > 0.0)
             if not own.size:
                 continue
-            at, first, last = x[own, None], lo[own, None], hi[own, None]
+            at, first, length = x[own, None], lo[own, None], length[own, None]
+            exact = (sticks & (ahead_c <= until - panel.lo))[own, None]
+            last = first + length
             room = min(1.0 + panel.power, 1.0 - self.flat.exponent)
             part, rest, weight = trapezoidal(room, 1.0 + self.flat.exponent)
-            past, left = (last - first) * part, (last - first) * rest
+            past, left = length * part, length * rest
             # how far the edge is beyond x at first, and x beyond the stick zone at last
             edge = np.where(first > 0.0, 0.0, side * (self.start(j, side, 1.0) - at))
             end = self.start(j, side, c) + side * c * last + panel.moved(np.zeros(1), last)
-            exact = (sticks & (hi == ahead_c))[own, None]
             stick = np.where(exact, 0.0, side * (at - end))
             e = np.maximum(edge, 0.0) + past + side * panel.moved(first, past)
             d = np.maximum(stick, 0.0) + c * left - side * panel.moved(last, -left)
             values = rate(np.maximum(d, LEAST), np.maximum(e, LEAST), panel.lo + first + past)
-            total[own] += (last - first)[:, 0] * ((values * panel(first + past)) @ weight)
+            total[own] += length[:, 0] * ((values * panel(first + past)) @ weight)
         return total
+
+    def _slipping(self, panel: Panel, side: float, ahead: Array) -> Array:
+        """How far s grows from where an edge passes a place to where the stick zone reaches it.
+
+        To relative accuracy: of a narrow slip zone the difference of both would lose all digits.
+        """
+        c, width = self.flat.c, self.flat.rest * (panel.lo + ahead)
+        length = np.minimum(width / c, panel.length)
+        for _ in range(NEWTONS):
+            missed = c * length + side * panel.moved(ahead, length) - width
+            step = missed / (c + side * panel.turn(ahead + length))
+            length = np.maximum(length - step, 0.5 * length)
+            if float((np.abs(step) / length).max(initial=0.0)) <= 10.0 * SETTLED:
+                break
+        return length
 
     # -- the gradient as a function ----------------------------------------------------------------
 

@@ -27,9 +27,11 @@ from sie.numerics import chebyshev
 from sie.numerics.gauss_jacobi import with_weight
 
 from .flat import FlatPunch
-from .pieces import STEP
+from .pieces import FINEST
 
 Array = NDArray[np.float64]
+
+STEP = FINEST.step
 
 DEGREE = 24
 NEAR = 0.5  # lengths of a panel: farther from its end a Gauss rule of its DEGREE suffices

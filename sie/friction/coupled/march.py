@@ -36,8 +36,6 @@ FOLDS = 5.0  # e-folds of the distance from a kink, that a panel behind it may r
 STEEPLY, LEAST_CUT = 0.7, 1e-4
 SHORTEST = 1e-13  # of the half-width, a panel
 MOST = 400  # panels
-# Kinks after which their number is foretold, and how many times MOST it then has to be
-TELLING, SURELY = 10, 1.2
 BEYOND = 1.01  # of the length at which an edge seems to reach a kink, a panel
 LANDED, LANDINGS = 1e-14, 12  # of the half-width: an edge at a kink; and trials
 CLOSE = 1e-12  # of the half-width: kinks so near the place of first contact are that place
@@ -245,8 +243,6 @@ class March:
                 raise ContactError(self._unresolved())
             break
         self._accept(panel)
-        if fresh:
-            self._refuse_many(goal)
         return panel
 
     def _longest(self, goal: float) -> float:
@@ -307,20 +303,6 @@ class March:
                 edge.passed()
                 self.kinked = panel.hi
                 self.kinks.append(panel.hi)
-
-    def _refuse_many(self, goal: float) -> None:
-        """Raises ContactError where so many panels a kink as so far are too many by far."""
-        n, passed = len(self.panels), len(self.kinks)
-        breaks = self.edges[0].slope.breaks
-        near = breaks[np.abs(breaks - self.middle) < goal]
-        ahead = (len(near) // 2 if self.even else len(near)) - passed
-        if passed < TELLING or n + ahead * n / passed < SURELY * MOST:
-            return
-        raise ContactError(
-            f"the contact of dissimilar bodies grows over {passed + ahead} places where h'' or h' "
-            f"jumps, and takes {n} steps over the first {passed}, of {MOST} at most; smooth the "
-            f"profile, give fewer points of it, lower the load, {NEGLECT}"
-        )
 
     @property
     def stopped(self) -> Edge | None:

@@ -15,14 +15,15 @@ from numpy.typing import NDArray
 
 from sie.contact.known_contact import Edges, Normal
 from sie.errors import ContactError
-from sie.numerics.interval import EPS
+from sie.numerics.interval import EPS, Interval
 from sie.problem.scene import Scene
+from sie.profiles.slope import Slope
 from sie.progress_bar import reported
 
 from .flat import flat_punch
 from .frozen import Frozen
 from .growth import Panel
-from .march import NEGLECT, March, first_touch, refuse_turning
+from .march import NEGLECT, March, Touch, first_touch, refuse_turning
 from .pressed import Flat, Grown
 
 Array = NDArray[np.float64]
@@ -30,6 +31,7 @@ Array = NDArray[np.float64]
 WIDER = 1.0 + 64.0 * EPS  # than the frictionless contact: as far as P' is sought at first
 MORE = 1.1  # where a load asks for more
 NEARLY, BISECTIONS = 1e-14, 60  # of the load; and steps to it
+MOST_KINKS = 8  # of the profile within the contact: each cuts a state at up to five places
 RESOLVED = 1e-9  # of P and f P: what the state may miss
 # Points where the symmetry of a profile is measured, and to what part of its largest slope.
 LOOKS, EVEN = 64, 1e-10
@@ -58,6 +60,7 @@ def coupled_contact(
         )
         return state.edges, state
     touch = first_touch(slope, *contact[:2])
+    _refuse_many_kinks(slope, contact, touch)
     march = March(flat, slope, half_modulus, touch, axis)
     s, P = _marched(march, scene.normal_load, contact.r)
     state = Grown(
@@ -72,7 +75,26 @@ def coupled_contact(
         math.nan if axis is None else axis,
         s,
     )
+    missed = float(np.abs(state.loaded.state.missed).max())
+    if not missed <= RESOLVED:
+        raise ContactError(
+            f"the contact of dissimilar bodies under P = {P:.6g} is known to {missed:.1g} of P "
+            f"alone: change friction or the profile, or {NEGLECT}"
+        )
     return state.edges, state
+
+
+def _refuse_many_kinks(slope: Slope, contact: Interval, touch: Touch) -> None:
+    """Raises ContactError where more places are not smooth than a state is cut at."""
+    breaks = slope.breaks
+    inside = (breaks > contact.x1) & (breaks < contact.x2)
+    kinks = int(np.count_nonzero(inside & ((breaks < touch.lo) | (breaks > touch.hi))))
+    if kinks > MOST_KINKS:
+        raise ContactError(
+            f"dissimilar bodies touch over {kinks} places where the slope of the profile is not "
+            f"smooth, as at the points of a trace; {MOST_KINKS} are solved: fit a sie.Polynomial "
+            f"to it, or {NEGLECT}"
+        )
 
 
 def _marched(march: March, P: float | None, goal: float) -> tuple[float, float]:
