@@ -321,6 +321,8 @@ def _expansion(scene: Scene, economy: Collection[str]) -> str:
 def _coupling(scene: Scene) -> Step:
     if scene.beta == 0.0:
         return Step("coupling", False, "β = 0: pressure and shear are uncoupled")
+    if scene.neglects_beta:
+        return Step("coupling", False, "β q is left out: Goodman's approximation")
     beta = f"β = {scene.beta:.4g}"
     if not scene.slides:
         return Step("coupling", False, f"{beta}, but f = 0: no shear acts back on the pressure")
@@ -341,7 +343,9 @@ def _slip(scene: Scene, asked: bool, economy: Collection[str]) -> Step:
     for holds, why in skipped:
         if holds:
             return Step("slip", False, why, "tangential")
-    if scene.tau == 0.0:
+    if scene.goodman:
+        how = "flats superposed while the load grew; Q changes what the shear lacks of f p"
+    elif scene.tau == 0.0:
         how = "zones of stick and slip for Q at constant P, slip in one direction"
         how += " on all patches" if asks_for_patches(scene.profile) else ""
     else:
@@ -354,6 +358,7 @@ def _corrective(scene: Scene, economy: Collection[str]) -> Step:
     """A decision inside the slip stage."""
     skipped = (
         (not sheared(scene, economy), "there is no shear traction"),
+        (scene.goodman, "the shear follows from how the contact grew"),
         (
             scene.slides and "sliding" in economy,
             "|Q| = f P, full sliding: q is f times the pressure, no second solve",

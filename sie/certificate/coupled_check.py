@@ -8,7 +8,8 @@ gradient stays. The integrals are Gauss rules on panels that shrink towards ever
 traction is not smooth, with the value at x subtracted.
 
 A state has the values of p and q (`InContact`) and their potentials, its zones, and the earlier
-state. In full stick, of a flat punch, γ is 0 on the whole contact; tension is allowed there.
+state. Of Goodman's approximation, whose p is that without friction, (12) alone is measured here.
+In full stick, of a flat punch, γ is 0 on the whole contact; tension is allowed there.
 """
 
 from __future__ import annotations

@@ -18,7 +18,8 @@
     [body]              young, poisson, plane = "strain" | "stress"; or rigid = true
     [indenter]          the same; without it the indenter is made of the body's material
     [pair]              modulus = E*, dundurs, poisson, in place of [body] and [indenter]; beside
-                        them dundurs = 0, which neglects their β
+                        them dundurs = 0, which neglects their β; coupling = "goodman", which
+                        leaves β q out of the normal equation
     [load]              normal_load | half_width, tilt | moment, friction,
                         tangential_load | sliding, bulk_stress; or, in place of the loads,
                         path = [[P, Q, σ], ...], turning points, σ may be left out, or a file,

@@ -16,7 +16,7 @@ from sie.profiles.base import Profile
 
 from .material import RIGID, Body, Elastic, Rigid, coupling, dundurs, pair_modulus, share
 
-COUPLINGS = ("full",)
+COUPLINGS = ("full", "goodman")
 
 
 def refuse_no_scene(scene: Any) -> None:
@@ -59,9 +59,9 @@ class Scene:
         Dundurs' β beside `modulus`; |β| < 1e-12 is taken for 0. Beside bodies, 0 neglects their β.
     poisson : float, optional
         Poisson's ratio of the body beside `modulus`, for σ_zz.
-    coupling : {"full"}, optional
-        How pressure and shear of dissimilar bodies are coupled: both ways, by equations (1) and
-        (12).
+    coupling : {"full", "goodman"}, optional
+        "goodman" leaves β q out of equation (1), so that the pressure is that without friction: an
+        approximation for dissimilar bodies, in contacts that are symmetric.
 
     Raises
     ------
@@ -302,13 +302,16 @@ class Scene:
             )
 
     def _check_coupling(self) -> None:
-        if self.coupling == "goodman":
-            raise ValueError(
-                "coupling = 'goodman': Goodman's approximation, which leaves β q out of equation "
-                "(1), is not solved; leave coupling out for the coupled answer"
-            )
         if not arguments.among(self.coupling, COUPLINGS):
-            raise ValueError(f"coupling = {self.coupling!r} is not known: give 'full'")
+            raise ValueError(
+                f"coupling = {self.coupling!r} is not known: give 'full', or 'goodman' to leave "
+                "β q out of the normal equation"
+            )
+        if self.coupling == "goodman" and self.friction == math.inf:
+            raise ValueError(
+                "coupling = 'goodman' with infinite friction: full stick of dissimilar bodies is "
+                "solved without an approximation; leave coupling out"
+            )
 
     def _set(self, name: str, value: Any) -> None:
         object.__setattr__(self, name, value)
@@ -333,7 +336,17 @@ class Scene:
     @property
     def coupled(self) -> bool:
         """Whether pressure and shear are one problem: dissimilar bodies in partial slip."""
-        return bool(self.beta and self.friction) and not (self.slides or self.bonded)
+        return self._slips_in_part and self.coupling == "full"
+
+    @property
+    def goodman(self) -> bool:
+        """Whether β q is neglected in the partial slip of dissimilar bodies."""
+        return self._slips_in_part and self.coupling == "goodman"
+
+    @property
+    def neglects_beta(self) -> bool:
+        """Whether β q would change the pressure and is left out, in partial slip or in sliding."""
+        return bool(self.beta and self.friction) and self.coupling == "goodman"
 
     @property
     def neglected_beta(self) -> float:
@@ -342,12 +355,16 @@ class Scene:
         return dundurs(*self._pair) if given else 0.0
 
     @property
+    def _slips_in_part(self) -> bool:
+        return bool(self.beta and self.friction) and not (self.slides or self.bonded)
+
+    @property
     def epsilon(self) -> float:
         """ε of the edge exponents in full sliding, 1/2 + ε on the left and 1/2 - ε on the right.
 
         tan πε = -β f for sliding along +x.
         """
-        slides = self.slides
+        slides = 0 if self.coupling == "goodman" else self.slides
         return -math.atan(self.beta * self.friction * slides) / math.pi if slides else 0.0
 
     @property

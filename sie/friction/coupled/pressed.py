@@ -246,6 +246,10 @@ class Flat(Pressed):
     sharp = True
 
     @property
+    def axis(self) -> float:
+        return self.origin
+
+    @property
     def half_width(self) -> float:
         return self.b
 

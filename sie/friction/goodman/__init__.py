@@ -1,0 +1,1 @@
+"""Partial slip of dissimilar bodies by Goodman's approximation."""

@@ -1,0 +1,307 @@
+"""Dissimilar bodies in Goodman's approximation: β q is left out of equation (1)."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import mpmath
+import numpy as np
+import pytest
+
+import sie
+from analytic import goodman
+from sie.certificate.coupled_check import shear_certificate
+from sie.friction.goodman.frame import DeficitFrame
+from sie.friction.goodman.functions import goodman_flat
+from sie.io.scene_file import parse
+
+SYMMETRIC = {
+    "flat": sie.Flat(1.0),
+    "parabola": sie.Parabola(1.0),
+    "rounded flat": sie.RoundedFlat(0.5, 1.0),
+    "power": sie.Power(2.5, 0.4),
+    "wedge": sie.Wedge(0.1),
+}
+
+
+def solved(profile=None, beta=0.1, friction=0.1, **given):
+    given = {"normal_load": 1.0, "coupling": "goodman"} | given
+    return sie.solve(
+        sie.Scene(
+            profile=profile or sie.Parabola(1.0),
+            modulus=2.0,
+            dundurs=beta,
+            friction=friction,
+            **given,
+        )
+    )
+
+
+@pytest.mark.parametrize("name", SYMMETRIC)
+@pytest.mark.parametrize(("beta", "friction"), [(0.1, 0.1), (-0.3, 0.1), (0.07, 0.3)])
+def test_stick_zone_of_a_symmetric_profile_is_that_of_the_elliptic_integrals(name, beta, friction):
+    solution = solved(SYMMETRIC[name], beta, friction)
+    b = solution.half_width
+    c = goodman.stick_half_width(half_width=b, friction=friction, dundurs=abs(beta))
+    assert solution.stick[0] == pytest.approx((-float(c), float(c)), rel=1e-13)
+
+
+@pytest.mark.parametrize("name", SYMMETRIC)
+def test_pressure_is_that_without_friction(name):
+    x = np.linspace(-0.9, 0.9, 7)
+    plain = sie.solve(sie.Scene(profile=SYMMETRIC[name], modulus=2.0, normal_load=1.0))
+    assert (solved(SYMMETRIC[name]).pressure(x) == plain.pressure(x)).all()
+
+
+@pytest.mark.parametrize("name", SYMMETRIC)
+def test_certificate_holds_for_symmetric_profiles(name):
+    certificate = solved(SYMMETRIC[name]).check()
+    assert certificate.ok
+    assert certificate.shear.residual < 1e-11
+
+
+SKEW = sie.Polynomial((0.0, 0.0, 0.5, 0.1, 0.2))
+CORNERS = sie.Piecewise((-3.0, -0.1, 0.1, 3.0), ((-0.17, 1.0), (0.0, 1.0), (0.17, 1.0)))
+
+
+def test_contact_without_symmetry_is_refused_and_answered_as_the_message_says():
+    with pytest.raises(sie.ContactError, match=r"not symmetric: .* leave coupling out") as refused:
+        _ = solved(SKEW, 0.1, 0.3).stick
+    assert len(str(refused.value).split()) <= 40
+    assert solved(SKEW, 0.1, 0.3, coupling="full").check().ok
+    with pytest.raises(sie.ContactError, match=r"not symmetric: .*follow; give dundurs = 0"):
+        _ = solved(SKEW, 0.1, 0.3, tangential_load=0.1).stick
+    assert solved(SKEW, 0.0, 0.3, tangential_load=0.1).check().ok
+
+
+@pytest.mark.slow(but=1)
+@pytest.mark.parametrize("load", [0.0, 0.3])
+def test_symmetric_trace_is_answered_as_the_profile_that_it_samples(load):
+    x = np.linspace(-2.0, 2.0, 41)
+    trace, smooth = (
+        solved(profile, friction=0.4, normal_load=0.2, tangential_load=0.08 * load)
+        for profile in (sie.Sampled(x, 0.5 * x * x), sie.Parabola(1.0))
+    )
+    assert trace.stick[0] == pytest.approx(smooth.stick[0], abs=1e-11)
+    assert trace.check().ok
+
+
+@pytest.mark.slow
+def test_tangential_load_moves_an_end_of_the_stick_zone_past_a_corner():
+    solution = solved(CORNERS, 0.03, 0.3, normal_load=0.05, tangential_load=0.012)
+    assert solution.stick[0][1] < 0.1 < solution.half_width
+    assert solution.check().ok
+
+
+def test_zone_past_two_breaks_at_one_distance_keeps_its_force():
+    def one(distance, _):
+        return np.ones_like(distance)
+
+    frame = DeficitFrame(one, 0.5, 1.0, 0.5, (0.2, 0.2), None, 0.1)
+    assert frame.zone(0.5).force.sum() == pytest.approx(0.5 / 0.5, rel=1e-12)
+
+
+# In the second one nothing sticks that stuck under a lighter normal load
+@pytest.mark.parametrize("given", [(0.1, 0.1, 0.0), (0.2, 0.05, 0.015)])
+def test_certificate_is_not_ok_for_another_mismatch(given):
+    beta, friction, load = given
+    profile = sie.RoundedFlat(0.5, 1.0)
+    state = solved(profile, beta, friction, tangential_load=load).tangential
+    scene = replace(state.step.scene, dundurs=1.1 * beta)
+    wrong = replace(state, step=replace(state.step, scene=scene))
+    assert shear_certificate(state, state.step.scene, 1e-13).ok
+    assert not shear_certificate(wrong, scene, 1e-13).ok
+
+
+@pytest.mark.parametrize("part", [1e-4, 0.3, -0.7])
+def test_certificate_holds_under_tangential_load(part):
+    solution = solved(tangential_load=0.1 * part)
+    certificate = solution.check()
+    assert certificate.ok
+    assert certificate.shear.equilibrium < 1e-10
+    assert solution.shear.resultant == 0.1 * part
+
+
+@pytest.mark.parametrize("part", [1e-6, 0.99, -0.99, 1.0 - 1e-6, 1.0 - 1e-9])
+def test_small_and_large_tangential_loads_are_answered(part):
+    certificate = solved(tangential_load=0.1 * part).check()
+    assert certificate.ok
+    assert certificate.shear.equilibrium < 1e-10
+
+
+@pytest.mark.parametrize("part", [1e-6, 0.3, -0.99])
+def test_a_tilted_parabola_is_the_upright_one_elsewhere_under_tangential_load(part):
+    x = np.linspace(-0.7, 0.7, 9)
+    tilted = solved(tangential_load=0.1 * part, tilt=0.05)
+    upright = solved(tangential_load=0.1 * part)
+    assert tilted.shear(x - 0.05) == pytest.approx(upright.shear(x), abs=1e-14)
+    assert tilted.check().ok
+
+
+def test_a_symmetric_shear_without_symmetry_of_the_profile_is_resolved_in_few_values():
+    shear = solved(tilt=0.05).tangential.shear
+    assert len(shear.halves[0].panels.lo) < 40
+
+
+DOUBLE_WELL = sie.Polynomial((0.0, 0.0, -0.5, 0.0, 1.0))
+
+
+def test_several_patches_are_refused_with_a_remedy():
+    with pytest.raises(
+        sie.ContactError, match=r"2 patches with coupling = 'goodman'.* dundurs = 0"
+    ):
+        _ = solved(DOUBLE_WELL, normal_load=0.05).stick
+
+
+def test_a_periodic_contact_is_refused_as_one_that_repeats():
+    with pytest.raises(sie.ContactError, match=r"repeats every 4 with coupling = 'goodman'"):
+        _ = solved(sie.Periodic(sie.Parabola(1.0), 4.0), normal_load=0.1).stick
+
+
+def test_a_long_trace_is_refused_with_the_number_of_its_kinks():
+    x = np.linspace(-2.0, 2.0, 401)
+    with pytest.raises(sie.ContactError, match=r"has \d+ kinks .* at most: fit fewer points"):
+        _ = solved(sie.Sampled(x, 0.5 * x * x)).stick
+
+
+@pytest.mark.parametrize("load", [2.0, 5.0, 50.0])
+def test_patches_that_have_merged_are_refused_too(load):
+    with pytest.raises(sie.ContactError, match=r"does not grow steadily .* convex profile"):
+        _ = solved(DOUBLE_WELL, normal_load=load).stick
+
+
+def test_the_load_to_the_left_mirrors_the_load_to_the_right():
+    right, left = solved(tangential_load=0.03), solved(tangential_load=-0.03)
+    x = np.linspace(-0.7, 0.7, 9)
+    assert left.stick[0] == pytest.approx(tuple(-c for c in right.stick[0][::-1]), rel=1e-12)
+    assert left.shear(x) == pytest.approx(-right.shear(-x), abs=1e-13)
+
+
+def test_the_other_sign_of_beta_turns_the_shear_of_the_normal_load():
+    x = np.linspace(-0.7, 0.7, 9)
+    assert (solved(beta=-0.1).shear(x) == -solved(beta=0.1).shear(x)).all()
+
+
+def test_shear_of_a_flat_is_the_ratio_of_elliptic_integrals():
+    context = mpmath.MPContext()
+    context.dps = 25
+    solution, c = solved(sie.Flat(1.0)), context.sqrt(0.5)
+    for x in (0.1, 0.5, 0.7):
+        ratio = context.ellipf(context.asin(x / c), c * c) / context.ellipk(c * c)
+        expected = 0.1 * ratio / (context.pi * context.sqrt(1 - context.mpf(x) ** 2))
+        assert float(solution.shear(x)) == pytest.approx(float(expected), rel=1e-13)
+
+
+@pytest.mark.parametrize(("beta", "friction"), [(0.1, 0.1), (0.07, 0.3), (0.3, 0.1)])
+def test_shear_of_a_flat_is_that_of_the_closed_form(beta, friction):
+    x = np.array([-0.9, -0.6, -0.02, 0.0, 0.3, 0.7, 0.99])
+    solution = solved(sie.Flat(1.0), beta, friction)
+    form = goodman.flat_shear(x, half_width=1.0, normal_load=1.0, friction=friction, dundurs=beta)
+    assert solution.shear(x) == pytest.approx(form, rel=1e-12, abs=1e-15)
+
+
+def test_slip_of_a_flat_is_the_integral_of_its_gradient():
+    solution = solved(sie.Flat(1.0))
+    x, step = np.linspace(0.75, 0.95, 5), 1e-5
+    gradient = (solution.slip(x + step) - solution.slip(x - step)) / (2.0 * step)
+    gamma = solution.shear.hilbert(x) + 0.1 * solution.pressure(x)
+    assert gradient == pytest.approx(gamma, rel=1e-7)  # E*/2 = 1
+
+
+def test_energy_of_a_power_law_is_the_work_of_friction_on_its_self_similar_slip():
+    # q dg/dP is a function of x/b, and b ~ sqrt P under a parabola: E ~ P² (2/E*)
+    assert solved(normal_load=2.0).energy_lost == pytest.approx(
+        4.0 * solved().energy_lost, rel=1e-9
+    )
+    P, step = 1.0, 1e-4
+    x = np.cos(np.pi * (np.arange(300) + 0.5) / 600)
+    weight = np.sin(np.pi * (np.arange(300) + 0.5) / 600) * np.pi / 600
+    r = solved().half_width
+    more, less = (solved(normal_load=P + s).slip(r * x * (1 - 1e-3)) for s in (step, -step))
+    work = 2.0 * r * (weight * 0.1 * solved().pressure(r * x * (1 - 1e-3))) @ (more - less)
+    assert work / (2.0 * step) == pytest.approx(2.0 * solved().energy_lost, rel=5e-3)
+
+
+def test_answer_tends_to_the_coupled_one_quadratically():
+    x = 0.4
+    errors = [
+        float(
+            solved(sie.RoundedFlat(0.5, 1.0), beta, beta).shear(x)
+            - solved(sie.RoundedFlat(0.5, 1.0), beta, beta, coupling="full").shear(x)
+        )
+        / beta
+        for beta in (1e-2, 1e-3)
+    ]
+    assert abs(errors[0]) < 1e-3
+    assert errors[1] == pytest.approx(0.01 * errors[0], rel=0.02)
+
+
+@pytest.mark.parametrize("ratio", [1e-3, 0.1, 3.0, 30.0])
+def test_thin_and_wide_zones_keep_the_elliptic_integrals(ratio):
+    flat = goodman_flat(0.1, 0.1 * ratio)
+    rest = goodman.slip_width(half_width=1.0, friction=flat.friction, dundurs=0.1)
+    assert flat.modulus.rest == pytest.approx(float(rest), rel=1e-13)
+
+
+def test_report_says_how_far_the_approximation_is():
+    *_, note = solved().notes
+    assert "c/b = 0.707107 instead of 0.700618 (+0.93 %)" in note
+    assert solved().check().notes[-1] == note
+
+
+@pytest.mark.parametrize(
+    ("given", "words"),
+    [
+        ({"tilt": 0.02, "profile": sie.Flat(1.0)}, "not symmetric: .* leave coupling out"),
+        ({"profile": sie.Flat(1.0), "tangential_load": 0.05}, "corner behind sticks"),
+        ({"bulk_stress": 0.1}, "bulk_stress"),
+        ({"tangential_load": 0.2}, "slide"),
+    ],
+)
+def test_what_is_not_solved_is_refused_with_a_remedy(given, words):
+    with pytest.raises(sie.ContactError, match=f"(?s){words}"):
+        _ = solved(**given).stick
+
+
+def test_full_stick_has_no_approximation():
+    with pytest.raises(ValueError, match=r"full stick .* leave coupling out"):
+        solved(sie.Flat(1.0), friction=float("inf"))
+
+
+def test_another_name_of_coupling_is_refused():
+    with pytest.raises(ValueError, match="'full', or 'goodman'"):
+        solved(coupling="spence")
+
+
+def test_sliding_leaves_the_pressure_without_friction():
+    solution = solved(sliding=1)
+    plain = sie.solve(sie.Scene(profile=sie.Parabola(1.0), modulus=2.0, normal_load=1.0))
+    assert solution.edges == plain.edges
+    assert solution.shear(0.3) == pytest.approx(0.1 * plain.pressure(0.3), rel=1e-15)
+
+
+def test_slip_under_tangential_load_is_refused():
+    with pytest.raises(sie.ContactError, match="not computed in Goodman's"):
+        solved(tangential_load=0.03).slip(0.0)
+
+
+def test_scene_file_takes_the_coupling():
+    text = """
+        [profile]
+        kind = "parabola"
+        radius = 1.0
+        [pair]
+        modulus = 2.0
+        dundurs = 0.1
+        coupling = "goodman"
+        [load]
+        normal_load = 1.0
+        friction = 0.1
+    """
+    assert parse(text).scene == solved().scene
+
+
+def test_plan_says_that_the_coupling_is_left_out():
+    steps = {step.name: step for step in sie.plan(solved().scene, want="shear").steps}
+    assert "Goodman" in steps["coupling"].reason and not steps["coupling"].run
+    assert steps["slip"].run and not steps["corrective"].run
