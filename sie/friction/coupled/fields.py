@@ -117,32 +117,64 @@ class Fields:
 
     @cached_property
     def _rules(self) -> tuple[list[Places], list[Array]]:
-        """The four rules, and rows of p, q and γ on each."""
+        """The four rules, and rows of p, q and γ on each.
+
+        q follows from (12), which loses nothing as β tends to 0: with ω the product of the roots of
+        both distances over the stick zones,
+
+            1/π ∫q/(z - t) dt = ω/π ∫μ/(z - t) dt,   μ = (γ - β p)/|ω| in stick, q/ω in slip.
+        """
         state, question = self.state, self.state.question
         beta, f, pieces = question.beta, question.friction, state.pieces
         rules = [pieces.rule(shift / SHIFTS) for shift in range(SHIFTS)]
-        flows, stuck, cos = [], [], math.cos(math.pi * question.theta)
+        stuck, flows, cos = [], [], math.cos(math.pi * question.theta)
         for at in rules:
-            sticks, A, p = state.sticks(at), state.A(at), np.empty(len(at.x))
-            gamma = np.empty(len(at.x))
-            gamma[sticks] = question.gamma(at.x[sticks])
-            p[sticks] = (A[sticks] - beta * gamma[sticks]) / (1.0 - beta**2)
+            sticks = state.sticks(at)
+            held = at.chosen(sticks)
+            gamma = question.gamma(held.x)
+            p = (state.A(held) - beta * gamma) / (1.0 - beta**2)
             H1, chi = question.slope(at.x), state.chi(at)
-            mass = np.where(sticks, p, -cos * H1) * at.weight / chi
-            stuck.append((sticks, A, H1, chi, p, gamma))
-            flows.append(mass)
-        rows = []
+            mass = -cos * H1
+            mass[sticks] = p
+            stuck.append((sticks, gamma, p, H1, chi))
+            flows.append(mass * at.weight / chi)
+        rows, sources, roots = [], [], [self._root(at) for at in rules]
         for k, at in enumerate(rules):
-            sticks, A, H1, chi, p, gamma = stuck[k]
-            other = (k + SHIFTS // 2) % SHIFTS
-            flow = chi * state.psi(at, rules[other], flows[other])
-            sign = pieces.sign[at.zone]
+            (sticks, gamma, held, H1, chi), other = stuck[k], (k + SHIFTS // 2) % SHIFTS
+            slips = ~sticks
+            sign = pieces.sign[at.zone[slips]]
             kappa = sign * beta * f
-            p = np.where(sticks, p, cos * flow - kappa * H1 / (1.0 + kappa**2))
-            q = np.where(sticks, (flow - H1) / beta, sign * f * p)
-            gamma = np.where(sticks, gamma, (A - (1.0 - beta**2) * p) / beta)
-            rows.append(np.stack((p, q, gamma)))
+            p = np.empty(len(at.x))
+            p[sticks] = held
+            flow = chi[slips] * state.psi(at.chosen(slips), rules[other], flows[other])
+            p[slips] = cos * flow - kappa * H1[slips] / (1.0 + kappa**2)
+            mass = np.empty(len(at.x))
+            mass[sticks] = -(gamma - beta * held)
+            mass[slips] = sign * f * p[slips]
+            sources.append(mass * at.weight / roots[k])
+            rows.append(p)
+        for k, at in enumerate(rules):
+            (sticks, gamma, *_), p = stuck[k], rows[k]
+            other = (k + SHIFTS // 2) % SHIFTS
+            flow = roots[k] * state.psi(at, rules[other], sources[other])
+            q = np.where(sticks, flow, pieces.sign[at.zone] * f * p)
+            slope = flow + beta * p
+            slope[sticks] = gamma
+            rows[k] = np.stack((p, q, slope))
         return rules, rows
+
+    def _root(self, at: Places) -> Array:
+        """ω in slip; in stick, where ω is imaginary, i ω above the contact."""
+        pieces = self.state.pieces
+        log, zones = np.zeros(len(at.x)), np.flatnonzero(pieces.sign == 0.0)
+        for zone in zones:
+            for cut in pieces.cut_of_ends[[zone, zone + 1]]:
+                log += 0.5 * np.log(np.abs(pieces.from_cut(at, int(cut))))
+        # ω changes its sign across each stick zone to the right
+        ahead = np.array([np.count_nonzero(zones > k) for k in range(len(pieces.sign))])
+        turns = (-1.0) ** (ahead + (pieces.sign == 0.0))
+        values: Array = turns[at.zone] * np.exp(log)
+        return values
 
     @cached_property
     def tables(self) -> list[tuple[float, Array]]:

@@ -132,9 +132,13 @@ class FlatPunch:
         return state_of_flat(self, 1.0, 1.0)
 
     @cached_property
+    def _fields(self) -> Fields:
+        return Fields(self.state)
+
+    @cached_property
     def _in_slip(self) -> Table:
         """γ e^(-h v) and the integral of γ, in c < x < 1, by v = ln((x - c)/(1 - x))."""
-        first, rows = Fields(self.state).tables[2]
+        first, rows = self._fields.tables[2]
         v = first + STEP / SHIFTS * np.arange(rows.shape[1])
         e = np.exp(-np.abs(v))
         slip = cumulative(rows[2] * self.rest * e / (1.0 + e) ** 2) * (STEP / SHIFTS)
@@ -159,11 +163,11 @@ class FlatPunch:
         lowest = math.floor((-33.0 + math.log(0.5 * self.rest)) / step)
         w = step * np.arange(lowest, 0)
         E = 2.0 * np.exp(w) / -np.expm1(w)
-        state, anchor = self.state, np.full(len(E), 3)
+        fields, anchor = self._fields, np.full(len(E), 3)
         none = np.zeros(len(E), dtype=int)
-        t, outside = state.halfway, Places(anchor, E, 1.0 + E, none, none, none)
-        moment = t.weight * state.shear_halfway * t.x / math.pi
-        values = (1.0 + E) * ((1.0 / state.pieces.apart(outside, t)) @ moment)
+        (t, (_, q, _)), outside = fields.whole, Places(anchor, E, 1.0 + E, none, none, none)
+        moment = t.weight * q * t.x / math.pi
+        values = (1.0 + E) * ((1.0 / fields.state.pieces.apart(outside, t)) @ moment)
         values *= (E * (2.0 + E) / (1.0 + E) ** 2) ** self.exponent
         whole = np.concatenate((values, [moment.sum()], values[: -MIRRORED - 1 : -1]))
         return finer(lowest * step, whole[None])
