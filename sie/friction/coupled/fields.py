@@ -23,6 +23,7 @@ SHIFTS = 4
 POINTS = 14  # of the interpolation
 FARTHEST = 22.0  # |v| beyond which fields go on as a power of the distance from an edge
 DEEP = 33.0  # |v| up to which p and γ are told at marks inside the contact
+DEEPEST = 50.0  # the same next to the end of a zone: slip zones may be as narrow as 1e-15
 NEAR_EDGE = 1e-3  # of the contact: up to there the distance from an edge tells a place best
 NEAREST = 1e-8  # of the contact: nodes that are nearer to a mark are not looked at
 
@@ -42,8 +43,7 @@ class Fields:
         for piece in np.unique(k):
             own = k == piece
             first, table = self.tables[piece]
-            lowest = FARTHEST if piece == 0 else DEEP
-            highest = FARTHEST if piece == last else DEEP
+            lowest, highest = (self._last_pressure(piece, side) for side in (-1, 1))
             ends = -self._last_shear(piece, -1), self._last_shear(piece, 1)
             for row, far in (([0, 2], (-lowest, highest)), ([1], ends)):
                 place = (np.clip(v[own], *far) - first) * (SHIFTS / step)
@@ -82,13 +82,20 @@ class Fields:
             lo[own], hi[own] = (outer, inner) if left else (inner, outer)
         return k, lo, hi
 
+    def _last_pressure(self, piece: int, side: int) -> float:
+        """|v| up to which p and γ are told."""
+        pieces = self.state.pieces
+        if not 0 <= piece + side < len(pieces.lengths):
+            return FARTHEST
+        return DEEPEST if pieces.powers[piece + (side > 0)] else DEEP
+
     def _last_shear(self, piece: int, side: int) -> float:
         """|v| up to which q is told: nearer to a narrow slip zone, next to which it varies more."""
         pieces, other = self.state.pieces, piece + side
         if not 0 <= other < len(pieces.lengths) or not pieces.powers[piece + (side > 0)]:
             return FARTHEST
         width = pieces.widths[pieces.zone_of_piece[other]]
-        return min(DEEP, FARTHEST + 0.5 * max(math.log(pieces.lengths[piece] / width), 0.0))
+        return min(DEEPEST, FARTHEST + 0.5 * max(math.log(pieces.lengths[piece] / width), 0.0))
 
     def _shear_next_to_cut(self, where: tuple[int, int], v: Array, p: Array) -> Array:
         """q in stick, too near to a cut for principal values, on that side of a piece.

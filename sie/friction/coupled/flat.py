@@ -49,7 +49,7 @@ Array = NDArray[np.float64]
 
 STEP = FINEST.step
 
-WIDE = 92.0  # |v| at the ends of the stick zone, where 1 - c has its digits
+WIDE = 116.0  # |v| at the ends of the stick zone, where 1 - c has its digits
 # Where 1 - c is less than this the punch sticks all over, to the resolution of doubles.
 FULL_STICK = 1e-15
 # K'/K where 1 - c = c'²/2 is that, as c' = 4 exp(-π K/2K'); nearer than DOUBTFUL the guess cannot

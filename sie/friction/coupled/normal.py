@@ -32,6 +32,7 @@ WIDER = 1.0 + 64.0 * EPS  # than the frictionless contact: as far as P' is sough
 MORE = 1.1  # where a load asks for more
 NEARLY, BISECTIONS = 1e-14, 60  # of the load; and steps to it
 MOST_KINKS = 8  # of the profile within the contact: each cuts a state at up to five places
+NARROWEST_STICK = 1e-9  # of the contact
 RESOLVED = 1e-9  # of P and f P: what the state may miss
 # Points where the symmetry of a profile is measured, and to what part of its largest slope.
 LOOKS, EVEN = 64, 1e-10
@@ -47,6 +48,11 @@ def coupled_contact(
     `frictionless` solves the normal problem of a scene; its contact bounds the search.
     """
     flat, half_modulus = flat_punch(abs(scene.beta), scene.friction), 0.5 * scene.Estar
+    if flat.c < NARROWEST_STICK:
+        raise ContactError(
+            f"dissimilar bodies (β = {scene.beta:.3g}) with friction = {scene.friction:g} stick "
+            f"on {flat.c:.1g} of the contact, less than what is solved: raise friction, or {NEGLECT}"
+        )
     sign = math.copysign(1.0, scene.beta)
     bound = frictionless(_without_friction(scene))
     contact, axis = bound.edges.contact, symmetry_axis(scene, bound.edges)

@@ -182,6 +182,10 @@ class Pieces:
         h, reach_of_one, inner = self.fineness
         reach = reach_of_one / (1.0 - np.abs(power))
         reach[self.powers == 0.0] = inner
+        # what is summed varies down to the width of the narrower zone, from there on as its power
+        for zone, cut in enumerate(self.cut_of_ends[1:-1]):
+            wide, narrow = sorted(self.widths[zone : zone + 2], reverse=True)
+            reach[cut] += math.log(wide / narrow)
         reach = np.minimum(reach, ONCE)
         columns = []
         for k, length in enumerate(self.lengths.tolist()):
