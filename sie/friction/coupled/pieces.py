@@ -23,11 +23,26 @@ Array = NDArray[np.float64]
 Index = NDArray[np.intp]
 
 STEP = 0.6  # h: e^(-2π²/h) is 5e-15
-REACH = 33.0  # e-folds of an integrand, beyond which a rule is cut
-# The same at a mark inside a zone: what is left out there is missed by principal values beside it
-INNER = 42.0
+ONCE = 320.0  # e-folds that a double holds
 ONE = 1e-7  # of the contact: marks that are nearer to others are one
 SAME = 1e-13  # of a zone: marks nearer to its ends are one with them
+
+
+class Fineness(NamedTuple):
+    """How fine a rule is.
+
+    step        h
+    reach       e-folds of an integrand, beyond which the rule is cut
+    inner       the same at a mark inside a zone, where principal values miss what is left out
+    """
+
+    step: float
+    reach: float
+    inner: float
+
+
+FINE = Fineness(STEP, 33.0, 42.0)
+QUICK = Fineness(0.9, 19.0, 23.0)  # to about 1e-8
 
 
 class Places(NamedTuple):
@@ -61,6 +76,7 @@ class Pieces:
     marks       places where the γ of what sticks is not smooth
     kinks       places where h' is not smooth
     theta       atan(β f)/π, β > 0
+    fineness    of the rules
     """
 
     left: float
@@ -69,6 +85,7 @@ class Pieces:
     marks: tuple[float, ...]
     kinks: tuple[float, ...]
     theta: float
+    fineness: Fineness = FINE
 
     @cached_property
     def ends(self) -> Array:
@@ -156,20 +173,21 @@ class Pieces:
         `lowered`: what the exponents of the integrands at the ends of zones are smaller by.
         """
         power = np.where(self.powers > 0.0, self.powers - lowered, 0.0)
-        reach = REACH / (1.0 - np.maximum(power, -power if lowered else 0.0))
-        reach[self.powers == 0.0] = INNER
-        reach = np.minimum(reach, 320.0)
+        h, reach_of_one, inner = self.fineness
+        reach = reach_of_one / (1.0 - np.maximum(power, -power if lowered else 0.0))
+        reach[self.powers == 0.0] = inner
+        reach = np.minimum(reach, ONCE)
         columns = []
         for k, length in enumerate(self.lengths.tolist()):
-            lo, hi = (math.ceil(reach[k + side] / STEP) for side in (0, 1))
-            v = STEP * (np.arange(-lo, hi + 1) + shift)
+            lo, hi = (math.ceil(reach[k + side] / h) for side in (0, 1))
+            v = h * (np.arange(-lo, hi + 1) + shift)
             e = np.exp(-np.abs(v))
             near, far, on_left = length * e / (1.0 + e), length / (1.0 + e), v < 0.0
             columns.append(
                 (
                     np.where(on_left, k, k + 1),
                     np.where(on_left, near, -near),
-                    STEP * near * far / length,
+                    h * near * far / length,
                     np.full(len(v), k),
                 )
             )
@@ -183,27 +201,27 @@ class Pieces:
 
         What is integrated varies over distances as short as the zones at the edges.
         """
-        L = self.length
+        L, h = self.length, self.fineness.step
         to_right, to_left = (
-            math.ceil(self._reach_beside(power, width, lowered) / STEP)
+            math.ceil(self._reach_beside(power, width, lowered) / h)
             for power, width in (
                 (self.powers[-1], self.widths[-1]),
                 (self.powers[0], self.widths[0]),
             )
         )
-        v = STEP * (np.arange(to_left, -to_right - 1, -1) - 0.5)
+        v = h * (np.arange(to_left, -to_right - 1, -1) - 0.5)
         d = L * np.exp(-np.abs(v)) / -np.expm1(-np.abs(v))
         on_left = v > 0.0
         anchor = np.where(on_left, 0, len(self.cuts) - 1)
         offset, none = np.where(on_left, -d, d), np.zeros(len(v), dtype=int)
         return Places(
-            anchor, offset, self.cuts[anchor] + offset, STEP * d * (d + L) / L, none, none
+            anchor, offset, self.cuts[anchor] + offset, h * d * (d + L) / L, none, none
         )
 
     def _reach_beside(self, power: float, width: float, lowered: float) -> float:
         """e-folds next to an edge, where the integrand has the exponent 0, or power - lowered."""
         smallest = 1.0 + min(power - lowered, 0.0)
-        return REACH / smallest + math.log(self.length / width)
+        return self.fineness.reach / smallest + math.log(self.length / width)
 
     def apart(self, one: Places, other: Places) -> Array:
         """x - t of all pairs."""
