@@ -51,7 +51,8 @@ def coupled_contact(
     if flat.c < NARROWEST_STICK:
         raise ContactError(
             f"dissimilar bodies (β = {scene.beta:.3g}) with friction = {scene.friction:g} stick "
-            f"on {flat.c:.1g} of the contact, less than what is solved: raise friction, or {NEGLECT}"
+            f"on a part {flat.c:.1g} of the contact, less than is solved: raise friction, or "
+            f"{NEGLECT}"
         )
     sign = math.copysign(1.0, scene.beta)
     bound = frictionless(_without_friction(scene))

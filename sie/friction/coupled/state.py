@@ -225,11 +225,19 @@ class State:
         resultants = at.weight @ q
         mixed[0] = (dQ - resultants[1] * strain) / resultants[0]
         slips = ~sticks
-        kernel = pieces.apart(at.chosen(slips), eta)
+        places = at.chosen(slips)
+        kernel = pieces.apart(places, eta)
         np.divide(-1.0 / math.pi, kernel, out=kernel)
         A = kernel @ (eta.weight * chi_beside * (D @ mixed))
         gamma = (A - (1.0 - beta**2) * (slipping[slips] @ mixed)) / beta
-        return Rates(at.chosen(slips), gamma)
+        return Rates(places, gamma)
+
+    def pressure_in_slip(self, at: Places) -> Array:
+        """p at places in slip half a step from the nodes."""
+        kappa = self.pieces.sign[at.zone] * self.question.beta * self.question.friction
+        p = math.cos(math.pi * self.question.theta) * self.chi(at) * self.psi(at)
+        values: Array = p - kappa * self.question.slope(at.x) / (1.0 + kappa**2)
+        return values
 
     def _log_rates(self, at: Places) -> Array:
         n = self.pieces.slip_zones

@@ -16,6 +16,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from .cells import Carried, cuts_between, zones_on_cells
 from .fields import Fields, cumulative, summed
 from .pieces import Places
 from .search import Zones, settled, zones_between
@@ -23,11 +24,10 @@ from .state import Question, State
 
 Array = NDArray[np.float64]
 
-NEAR = 0.05  # of f P, and of the largest f p
 CLOSED = 1e-12  # of f P: loads that are the same
 TOLERATED = 1e-9  # of the largest f p, and of the largest slip: what the verdict forgives
+AWAY = 0.05  # of the stick zone: how far its ends go about, times the root of the part of f P
 HALVINGS = 3  # of a step whose end is not found at once
-WIDTHS = (0.02, 0.1, 0.3, 0.6)  # of half a contact: slip zones that a bulk stress may open
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,25 +81,24 @@ class Loaded:
         back = self.returned(Q, strain)
         if back is not None:
             return back
-        if self.before is not None and self._farther(Q, strain) > 1.0:
-            state = settled(self.before.asked(Q, strain), self.ahead(Q, strain), self.before.marks)
-            after = (
-                Loaded(Fields(state), Q, strain, self.before, step, self.friction)
-                if state
-                else None
-            )
-            if after is not None and after.verdict.holds and after.within(self):
-                return after
-        for signs in patterns(*step):
-            for state in candidates(self, Q, strain, signs):
-                after = Loaded(Fields(state), Q, strain, self, step, self.friction)
-                if after.verdict.holds:
+        for base, start in self._starts(Q, strain):
+            state = settled(base.asked(Q, strain), start, base.marks) if start else None
+            if state is not None:
+                after = Loaded(Fields(state), Q, strain, base, step, self.friction)
+                if after.verdict.holds and (base is self or after.within(self)):
                     return after
         if not halvings:
             return None
         half = self.stepped(self.Q + 0.5 * step[0], self.strain + 0.5 * step[1], halvings - 1)
         found = half.stepped(Q, strain, 0) if half is not None else None
         return replace(found, step=step) if found is not None else None
+
+    def _starts(self, Q: float, strain: float) -> Iterator[tuple[Loaded, Zones | None]]:
+        """States from which a step may be solved, and zones to start from."""
+        if self.before is not None and self._farther(Q, strain) > 1.0:
+            yield self.before, self.ahead(Q, strain)
+            yield self.before, guess(self.before, Q, strain)
+        yield self, guess(self, Q, strain)
 
     def ahead(self, Q: float, strain: float) -> Zones:
         """The zones if slip goes on, which widen about as the loads since the turn."""
@@ -149,11 +148,6 @@ class Loaded:
             turn = turn.before
         return tuple(found)
 
-    def near(self, other: Loaded, Q: float, strain: float) -> bool:
-        """Whether loads are next to those of another state."""
-        unit = self.friction * self.question.P
-        return abs(Q - other.Q) <= NEAR * unit and abs(strain - other.strain) <= NEAR * self.peak
-
     def turned_from(self, turn: Loaded) -> bool:
         """Whether the loads are on their way back to that state already."""
         return self.before is not turn
@@ -175,142 +169,6 @@ class Loaded:
     @cached_property
     def verdict(self) -> Verdict:
         return verdict(self)
-
-
-def patterns(dQ: float, strain: float) -> Iterator[tuple[int, ...]]:
-    """Signs of zones, the likelier first."""
-    s, t = (1 if dQ > 0.0 else -1), (1 if strain > 0.0 else -1)
-    if dQ:
-        yield s, 0, s
-    if strain:
-        yield t, 0, -t
-
-
-def candidates(now: Loaded, Q: float, strain: float, signs: tuple[int, ...]) -> Iterator[State]:
-    """States under a load from several starts."""
-    question = now.asked(Q, strain)
-    for turn in now.turns:  # next to loads that were there before, zones are next to those then
-        if turn.zones.signs == signs and now.near(turn, Q, strain):
-            state = settled(question, turn.zones, now.marks)
-            if state is not None:
-                yield state
-    if signs[0] == signs[-1]:
-        way = Approach(now, signs[0], strain)
-        state = way.direct(Q)
-        if state is not None:
-            yield state
-        return
-    ends = now.zones.ends
-    for part in WIDTHS:
-        inner = 0.5 * part * (ends[-1] - ends[0])
-        places = np.array([ends[0], ends[0] + inner, ends[-1] - inner, ends[-1]])
-        state = settled(question, zones_between(places, signs), now.marks)
-        if state is not None:
-            yield state
-
-
-class Approach:
-    """Starts for slip of one sign at both edges, between the present state and sliding."""
-
-    def __init__(self, now: Loaded, sign: int, strain: float) -> None:
-        self.now, self.sign, self.strain = now, sign, strain
-        self.limit = sign * now.friction * now.question.P
-
-    def part(self, Q: float) -> float:
-        """How far Q is on the way to sliding."""
-        return (Q - self.now.Q) / (self.limit - self.now.Q)
-
-    @cached_property
-    def sliding(self) -> State | None:
-        """The state of full sliding."""
-        question = self.now.asked(self.limit, self.strain)
-        ends = self.now.zones.ends
-        return settled(question, zones_between(ends[[0, -1]], (self.sign,)), ())
-
-    @cached_property
-    def last_stick(self) -> tuple[float, float]:
-        """The place that slips least, and the half-length of stick from which sliding is near."""
-        assert self.sliding is not None
-        lo, hi = self.bounds
-        x = lo + (hi - lo) * np.linspace(0.0, 1.0, 203)[1:-1]
-        inside = (x > self.sliding.pieces.ends[0]) & (x < self.sliding.pieces.ends[-1])
-        x = x[inside]
-        question = self.now.asked(self.limit, self.strain)
-        slips = self.sign * (Fields(self.sliding).gamma(x) - question.gamma(x))
-        k = int(np.argmin(np.cumsum((slips[1:] + slips[:-1]) * np.diff(x)))) + 1
-        k = k if slips[k] > 0.0 else min(k + 1, len(x) - 1)
-        rise = (slips[k] - slips[k - 1]) / (x[k] - x[k - 1])
-        missing = abs(self.limit - self.now.Q)
-        if rise <= 0.0:
-            return float(x[k]), 0.5 * (hi - lo)
-        x0 = float(np.clip(x[k] - slips[k] / rise, x[0], x[-1]))
-        return x0, math.sqrt(2.0 * missing / (math.pi * rise))
-
-    @cached_property
-    def bounds(self) -> tuple[float, float]:
-        """What the stick zone stays between."""
-        lo, hi = self.now.zones.ends[[0, -1]].tolist()
-        slip = self.now.zones.slip
-        if slip[0][2] == self.sign:
-            lo = slip[0][1]
-        if slip[-1][2] == self.sign:
-            hi = slip[-1][0]
-        return lo, hi
-
-    def start(self, Q: float) -> Zones | None:
-        """Zones next to those under Q."""
-        if self.sliding is None:
-            return None
-        part, (lo, hi), (x0, half) = self.part(Q), self.bounds, self.last_stick
-        left, right = min(half, x0 - lo), min(half, hi - x0)
-        cos, sin = math.sqrt(1.0 - part), math.sqrt(part)
-        e1 = x0 - cos * (left + (x0 - lo - left) * (1.0 - sin))
-        e2 = x0 + cos * (right + (hi - x0 - right) * (1.0 - sin))
-        old, new = self.now.zones.ends[[0, -1]], self.sliding.pieces.ends
-        x1, x2 = old + part * (new - old)
-        least = 1e-9 * (x2 - x1)
-        e1, e2 = max(e1, x1 + least), min(e2, x2 - least)
-        if not x1 < e1 < e2 < x2:
-            return None
-        return zones_between(np.array([x1, e1, e2, x2]), (self.sign, 0, self.sign))
-
-    def direct(self, Q: float) -> State | None:
-        """The state next to a start, if it is found."""
-        question = self.now.asked(Q, self.strain)
-        for start in (self.start, self.nested):
-            zones = start(Q)
-            state = settled(question, zones, self.now.marks) if zones is not None else None
-            if state is not None:
-                return state
-        return None
-
-    def nested(self, Q: float) -> Zones | None:
-        """Zones that stick where the bodies would touch under what is left of P, as for β = 0."""
-        if self.sliding is None:
-            return None
-        left = 1.0 - self.part(Q)
-        lighter = self.now.asked(left * self.limit, self.strain)._replace(
-            P=left * self.now.question.P
-        )
-        inner = settled(lighter, zones_between(self.sliding.pieces.ends, (self.sign,)), ())
-        if inner is None:
-            return None
-        old, new = self.now.zones.ends[[0, -1]], self.sliding.pieces.ends
-        x1, x2 = old + (1.0 - left) * (new - old)
-        (lo, hi), least = self.bounds, 1e-9 * (x2 - x1)
-        e1 = max(float(inner.pieces.ends[0]), lo + least, x1 + least)
-        e2 = min(float(inner.pieces.ends[1]), hi - least, x2 - least)
-        if not x1 < e1 < e2 < x2:
-            return None
-        return zones_between(np.array([x1, e1, e2, x2]), (self.sign, 0, self.sign))
-
-
-def _unknowns(state: State) -> Array:
-    return np.append(state.pieces.left, np.log(state.pieces.widths))
-
-
-def _zones(u: Array, signs: tuple[int, ...]) -> Zones:
-    return Zones(float(u[0]), tuple(np.exp(u[1:]).tolist()), signs)
 
 
 @dataclass(frozen=True)
@@ -376,3 +234,43 @@ def slip_along(
         grown = -total(step[::-1])[::-1] if zone == 0 else total(step)
         out.append(sign * grown)
     return np.concatenate(out)
+
+
+def guess(base: Loaded, Q: float, strain: float) -> Zones | None:
+    """Zones next to those under other loads, from cells; None where no cell sticks."""
+    old, dQ, P = base.zones.ends[[0, -1]], Q - base.Q, base.question.P
+    states = [(1.0, base.fields, old)]
+    if dQ:
+        limit = math.copysign(base.friction * P, dQ)
+        part = dQ / (limit - base.Q)
+        sliding = settled(
+            base.asked(limit, strain), zones_between(old, (1 if dQ > 0.0 else -1,)), ()
+        )
+        if sliding is not None:
+            states = [(1.0 - part, base.fields, old)]
+            states.append((part, Fields(sliding), sliding.pieces.ends))
+    x1, x2 = sum(part * ends for part, _, ends in states)
+    cuts = cuts_between(x1, x2)
+    x = 0.5 * (cuts[1:] + cuts[:-1])
+    p, q = np.zeros(len(x)), np.zeros(len(x))
+    for part, fields, (lo, hi) in states:
+        stretch = (hi - lo) / (x2 - x1)
+        p += part * stretch * fields(lo + stretch * (x - x1))[0]
+    touched = (x > old[0]) & (x < old[1])
+    q[touched] = base.fields(x[touched])[1]
+    carried = Carried(cuts, base.friction * p, q)
+    found = zones_on_cells(carried, dQ, strain - base.strain)
+    return kept_within(found, base.zones, abs(dQ) / (base.friction * P)) if found else None
+
+
+def kept_within(found: Zones, old: Zones, part: float) -> Zones:
+    """Zones where slip that goes on with its sign begins at the old end of stick.
+
+    That end leaves its place like the root of the load.
+    """
+    ends, away = found.ends.copy(), AWAY * math.sqrt(part) * (old.stick[0][1] - old.stick[0][0])
+    if found.signs[0] == old.signs[0]:
+        ends[1] = min(max(ends[1], old.ends[1] + away), 0.5 * (ends[1] + ends[2]))
+    if found.signs[-1] == old.signs[-1]:
+        ends[-2] = max(min(ends[-2], old.ends[-2] - away), 0.5 * (ends[-2] + ends[-3]))
+    return zones_between(ends, found.signs) if (np.diff(ends) > 0.0).all() else found

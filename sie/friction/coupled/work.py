@@ -1,86 +1,221 @@
-"""The energy that slip dissipates in a step: ∫∫ f p |dg| dx, by the rates of states on the way."""
+"""The energy that slip dissipates in a step: ∫∫ f p |dg| dx, by the rates of states on the way.
+
+The power is smooth in the load between the turn of the loads and the loads at which an end of the
+stick zone, or an edge on a kink of the profile, passes a mark. There the way is divided. Powers of
+the distance from these loads are smooth in the variable of the rule, that of Clenshaw and Curtis,
+whose nodes are doubled until two sums agree.
+"""
 
 from __future__ import annotations
 
 import math
+from bisect import insort
+from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
 from sie.errors import ContactError
-from sie.numerics.gauss_jacobi import gauss_jacobi
 
-from .fields import Fields
-from .search import settled
-from .state import State
-from .step import Loaded, _unknowns, _zones, candidates, slip_along
+from .search import ROUGHLY, Zones, passing, settled
+from .state import Question, State
+from .step import Loaded, guess, slip_along
 
 Array = NDArray[np.float64]
 
-NODES = 10  # in the root of the way after a turn, and of the way where slip goes on
-FEWER = 7  # nodes of a second rule, whose difference is the error that is stated
-PROMISED = 1e-6  # of the energy of a step
-ROUGH = 1e-9  # of P and f P: what the states on the way may miss
+INTERVALS = (4, 8, 16, 32)  # of the rule, one after the other
+AGREED, PROMISED = 1e-7, 1e-6  # of the energy of a step: where to stop, and what must be reached
+FLATNESS = 3  # power of the distance from a load where the power is not smooth
+CLOSE = 1e-5  # parts that are one, where zones are told from known ones
+NARROW = 1e-5  # of an interval: the power there is taken for that farther in
+APART = 1e-9  # of the step: marks that are passed nearer to its ends are not divided at
 
 
 def work(previous: Loaded, after: Loaded) -> float:
-    """E*/2 times the energy of the step that led to a state.
-
-    Raises ContactError where a state on the way is missing, or two rules differ.
-    """
-    found, other = (_sum(previous, after, nodes) for nodes in (NODES, FEWER))
-    if found is None or other is None:
-        raise ContactError(
-            "the energy of this step is a sum over states on the way, of which one was not found; "
-            "give the step in two parts"
-        )
-    if abs(found - other) > PROMISED * found:
-        raise ContactError(
-            f"the energy of this step is known to {abs(found - other) / found:.1e} of itself only, "
-            "as an end of the stick zone passes where an earlier one was: give the step in two "
-            "parts, divided there"
-        )
-    return found
-
-
-def _sum(previous: Loaded, after: Loaded, nodes: int) -> float | None:
-    """The sum over so many states on the way; None where one is missing."""
+    """E*/2 times the energy of the step that led to a state; ContactError where it is not known."""
     base = after.base or after.before
     if base is None or after is previous:
         return 0.0
-    turned = base is previous
-    t, _, weight = gauss_jacobi(nodes, 0.0, 0.0)
-    way, part = (t * t, 2.0 * t * weight) if turned else (t, weight)
-    known = after if turned else previous
-    near = [(1.0 if turned else 0.0, _unknowns(known.state))]
-    if not turned and after.base is None:
-        near.append((1.0, _unknowns(after.state)))
-    total, (dQ, strain) = 0.0, after.step
-    for place, mass in sorted(zip(way.tolist(), part.tolist(), strict=True), reverse=turned):
-        Q, tau = after.Q - (1.0 - place) * dQ, after.strain - (1.0 - place) * strain
-        start = _zones(_ahead(near, place, turned), after.zones.signs)
-        state = settled(base.asked(Q, tau), start, base.marks, ROUGH)
+    way = Way(previous, after, base)
+    parts = way.divided
+    return sum(_summed(way, *ends) for ends in zip(parts[:-1], parts[1:], strict=True))
+
+
+@dataclass(frozen=True, eq=False)
+class Way:
+    """The states of a step, by the part of it that is done.
+
+    previous    the state before it
+    after       that after it
+    base        what is locked in
+    known       zones that were found, by the part, ascending
+    """
+
+    previous: Loaded
+    after: Loaded
+    base: Loaded
+    known: list[tuple[float, Zones]] = field(default_factory=list)
+
+    @property
+    def turned(self) -> bool:
+        """Whether the loads turned at the beginning."""
+        return self.base is self.previous
+
+    @cached_property
+    def marks(self) -> tuple[float, ...]:
+        return self.base.marks
+
+    def question(self, part: float) -> Question:
+        """What the state at a part of the step is asked for."""
+        return self.base.asked(*self.loads(part))
+
+    @cached_property
+    def divided(self) -> tuple[float, ...]:
+        """Parts between which the power is smooth, with 0 and 1."""
+        insort(self.known, (1.0, self.after.zones))
+        if not self.turned and self.after.base is None:
+            insort(self.known, (0.0, self.previous.zones))
+        first, last = self._beginning, self.after.zones.ends
+        kinks = self.after.question.slope.kinks
+        places = {0: kinks, 1: (*self.marks, *kinks), 2: (*self.marks, *kinks), 3: kinks}
+        passed = []
+        for end, marks in places.items():
+            span = last[end] - first[end]
+            inside = [m for m in marks if APART < (m - first[end]) / (span or 1.0) < 1.0 - APART]
+            # from the state that is known towards the beginning
+            for mark in sorted(inside, key=lambda m: -abs(m - first[end])):
+                passed.append(self._passed(end, mark))
+        return (0.0, *sorted(passed), 1.0)
+
+    @cached_property
+    def _beginning(self) -> Array:
+        """The ends of the zones at the beginning."""
+        zones = self.previous.zones
+        ends = zones.ends.copy()
+        if self.turned:
+            left, *_, right = zones.signs
+            ends = ends[[0, 1 if left == self.after.zones.signs[0] else 0, -1, -1]]
+            ends[2] = zones.ends[-2 if right == self.after.zones.signs[-1] else -1]
+        return ends
+
+    def _passed(self, end: int, mark: float) -> float:
+        """The part at which an end passes a mark, by the known states before and after it."""
+        place = lambda known: abs(known[1].ends[end] - self._beginning[end])
+        ahead = abs(mark - self._beginning[end])
+        later = next(known for known in self.known if place(known) > ahead)
+        sooner = [known for known in self.known if known[0] < later[0]]
+        low, e0 = (sooner[-1][0], place(sooner[-1])) if sooner else (0.0, 0.0)
+        part = low + (later[0] - low) * (ahead - e0) / (place(later) - e0)
+        start = self.near(part)
+        found = passing(self.question, (part, start), self.marks, end, mark) if start else None
+        if found is None:
+            print("FAILpass", part, start.ends, end, mark)
+        if found is None or not 0.0 < found[0] < 1.0:
+            raise _unknown()
+        self._keep(*found)
+        return found[0]
+
+    def near(self, part: float) -> Zones | None:
+        """Zones next to those at a part, from two that are known or from cells.
+
+        After a turn widths grow about as powers of the part.
+        """
+        if len(self.known) < 2:
+            return self.guess(part)
+        (a, one), (b, other) = sorted(self.known, key=lambda known: abs(known[0] - part))[:2]
+        outside = self.turned and part < min(a, b)
+        weight = math.log(part / a) / math.log(b / a) if outside else (part - a) / (b - a)
+        x1, x2 = one.ends[[0, -1]] + weight * (other.ends[[0, -1]] - one.ends[[0, -1]])
+        slips, more = (np.log([known.widths[0], known.widths[-1]]) for known in (one, other))
+        left, right = np.exp(slips + weight * (more - slips)).tolist()
+        if left + right >= x2 - x1:
+            return self.guess(part)
+        return Zones(float(x1), (left, float(x2 - x1) - left - right, right), one.signs)
+
+    def guess(self, part: float) -> Zones | None:
+        """Zones next to those at a part, from cells."""
+        Q, strain = self.loads(part)
+        return guess(self.base, Q, strain)
+
+    def loads(self, part: float) -> tuple[float, float]:
+        """Q and strain at a part of the step."""
+        (dQ, strain), rest = self.after.step, 1.0 - part
+        return self.after.Q - rest * dQ, self.after.strain - rest * strain
+
+    def _keep(self, part: float, state: State) -> None:
+        pieces = state.pieces
+        if any(abs(part - other) <= CLOSE * part for other, _ in self.known):
+            return
+        insort(self.known, (part, Zones(pieces.left, pieces.widths, pieces.signs)))
+
+    def power(self, part: float) -> float:
+        """∫ f p |dg| dx at a part of the step, per part."""
+        state = None
+        for start in (self.near, self.guess):
+            zones = start(part)
+            if state is None and zones is not None:
+                state = settled(self.question(part), zones, self.marks, ROUGHLY)
         if state is None:
-            state = next(candidates(base, Q, tau, after.zones.signs), None)
-        if state is None:
-            return None
-        near.append((place, _unknowns(state)))
-        total += mass * power(state, dQ, strain)
-    return total
+            print("   FAIL", part, zones.ends, self.divided)
+        if state is None or state.pieces.signs != self.after.zones.signs:
+            raise _unknown()
+        self._keep(part, state)
+        return power(state, *self.after.step)
 
 
 def power(state: State, dQ: float, strain: float) -> float:
     """∫ f p |dg| dx of a rate."""
     rates = state.rates(dQ, strain)
     slip = slip_along(state, rates.at, rates.gamma - strain)
-    p = Fields(state)(rates.at.x)[0]
+    p = state.pressure_in_slip(rates.at)
     return float(rates.at.weight @ (state.question.friction * p * slip))
 
 
-def _ahead(near: list[tuple[float, Array]], place: float, turned: bool) -> Array:
-    """Unknowns by two known states: as powers of the way after a turn, else on a straight line."""
-    if len(near) < 2:
-        return near[-1][1]
-    (a, u), (b, v) = sorted(near, key=lambda known: abs(known[0] - place))[:2]
-    part = math.log(place / a) / math.log(b / a) if turned else (place - a) / (b - a)
-    return u + part * (v - u)
+def _summed(way: Way, first: float, last: float) -> float:
+    """The integral of the power over a part of a step."""
+    rough = (first > 0.0 or way.turned, last < 1.0)
+    found, values = [], dict[float, float]()
+    for n in INTERVALS:
+        v, weight = _clenshaw_curtis(n)
+        s, slope = _flattened(v, *rough)
+        inside = ((s > NARROW) | (not rough[0])) & ((s < 1.0 - NARROW) | (not rough[1]))
+        for part in s[inside][::-1].tolist():
+            if part not in values:
+                values[part] = way.power(first + (last - first) * part)
+        known = sorted(values)
+        powers = np.interp(s, known, [values[part] for part in known])
+        found.append((last - first) * float(weight * slope @ powers))
+        if len(found) > 1 and abs(found[-1] - found[-2]) <= AGREED * found[-1]:
+            return found[-1]
+    if abs(found[-1] - found[-2]) > PROMISED * found[-1]:
+        raise _unknown()
+    return found[-1]
+
+
+def _flattened(v: Array, at_first: bool, at_last: bool) -> tuple[Array, Array]:
+    """The part of an interval and its derivative, which vanish to some order at rough ends."""
+    if at_first and at_last:
+        return v**3 * (10.0 - 15.0 * v + 6.0 * v**2), 30.0 * (v * (1.0 - v)) ** 2
+    if at_first:
+        return v**FLATNESS, FLATNESS * v ** (FLATNESS - 1)
+    if at_last:
+        return 1.0 - (1.0 - v) ** FLATNESS, FLATNESS * (1.0 - v) ** (FLATNESS - 1)
+    return v, np.ones(len(v))
+
+
+def _clenshaw_curtis(n: int) -> tuple[Array, Array]:
+    """Nodes and weights on (0, 1), with n intervals."""
+    k = np.arange(n + 1)
+    angle, m = math.pi * k / n, np.arange(1, n // 2 + 1)
+    factor = np.where(m == n // 2, 1.0, 2.0) / (4.0 * m**2 - 1.0)
+    weight = (1.0 - np.cos(2.0 * np.outer(angle, m)) @ factor) / n
+    weight[[0, -1]] *= 0.5
+    return np.sin(0.5 * angle) ** 2, weight
+
+
+def _unknown() -> ContactError:
+    return ContactError(
+        "the energy of this step is a sum over states on the way, of which one was not found, or "
+        "is known to less than 1e-6; give the step in two parts"
+    )
