@@ -25,6 +25,7 @@ FARTHEST = 22.0  # |v| beyond which fields go on as a power of the distance from
 DEEP = 33.0  # |v| up to which p and γ are told at marks inside the contact
 DEEPEST = 50.0  # the same next to the end of a zone: slip zones may be as narrow as 1e-15
 NEAR_EDGE = 1e-3  # of the contact: up to there the distance from an edge tells a place best
+SMALL = 0.05  # β below which q loses digits by (1)
 NEAREST = 1e-8  # of the contact: nodes that are nearer to a mark are not looked at
 
 
@@ -87,7 +88,13 @@ class Fields:
         pieces = self.state.pieces
         if not 0 <= piece + side < len(pieces.lengths):
             return FARTHEST
-        return DEEPEST if pieces.powers[piece + (side > 0)] else DEEP
+        return self._within(piece, side, DEEPEST if pieces.powers[piece + (side > 0)] else DEEP)
+
+    def _within(self, piece: int, side: int, far: float) -> float:
+        """|v| that the table reaches, at most this."""
+        first, table = self.tables[piece]
+        last = first + (table.shape[1] - 1) * self.state.pieces.fineness.step / SHIFTS
+        return min(far, last if side > 0 else -first)
 
     def _last_shear(self, piece: int, side: int) -> float:
         """|v| up to which q is told: nearer to a narrow slip zone, next to which it varies more."""
@@ -95,7 +102,8 @@ class Fields:
         if not 0 <= other < len(pieces.lengths) or not pieces.powers[piece + (side > 0)]:
             return FARTHEST
         width = pieces.widths[pieces.zone_of_piece[other]]
-        return min(DEEPEST, FARTHEST + 0.5 * max(math.log(pieces.lengths[piece] / width), 0.0))
+        more = 0.5 * max(math.log(pieces.lengths[piece] / width), 0.0)
+        return self._within(piece, side, min(DEEPEST, FARTHEST + more))
 
     def _shear_next_to_cut(self, where: tuple[int, int], v: Array, p: Array) -> Array:
         """q in stick, too near to a cut for principal values, on that side of a piece.
@@ -126,10 +134,12 @@ class Fields:
     def _rules(self) -> tuple[list[Places], list[Array]]:
         """The four rules, and rows of p, q and γ on each.
 
-        q follows from (12), which loses nothing as β tends to 0: with ω the product of the roots of
-        both distances over the stick zones,
+        With ω the product of the roots of both distances over the stick zones, by (12)
 
-            1/π ∫q/(z - t) dt = ω/π ∫μ/(z - t) dt,   μ = (γ - β p)/|ω| in stick, q/ω in slip.
+            1/π ∫q/(z - t) dt = ω/π ∫μ/(z - t) dt,   μ = (γ - β p)/|ω| in stick, q/ω in slip,
+
+        which gives γ in slip and loses nothing as β tends to 0. Where β is SMALL it gives q in
+        stick too, which else makes (1) hold.
         """
         state, question = self.state, self.state.question
         beta, f, pieces = question.beta, question.friction, state.pieces
@@ -145,29 +155,32 @@ class Fields:
             mass[sticks] = p
             stuck.append((sticks, gamma, p, H1, chi))
             flows.append(mass * at.weight / chi)
-        rows, sources, roots = [], [], [self._root(at) for at in rules]
+        small, roots = beta < SMALL, [self._root(at) for at in rules]
+        rows, sources = [], []
         for k, at in enumerate(rules):
             (sticks, gamma, held, H1, chi), other = stuck[k], (k + SHIFTS // 2) % SHIFTS
-            slips = ~sticks
-            sign = pieces.sign[at.zone[slips]]
-            kappa = sign * beta * f
-            p = np.empty(len(at.x))
+            slips, place = ~sticks, at.chosen(~sticks) if small else at
+            flow = np.zeros(len(at.x))
+            flow[slips if small else slice(None)] = state.psi(place, rules[other], flows[other])
+            flow *= chi
+            kappa = pieces.sign[at.zone] * beta * f
+            p = cos * flow - kappa * H1 / (1.0 + kappa**2)
             p[sticks] = held
-            flow = chi[slips] * state.psi(at.chosen(slips), rules[other], flows[other])
-            p[slips] = cos * flow - kappa * H1[slips] / (1.0 + kappa**2)
-            mass = np.empty(len(at.x))
-            mass[sticks] = -(gamma - beta * held)
-            mass[slips] = sign * f * p[slips]
+            q = np.where(sticks, (flow - H1) / beta, pieces.sign[at.zone] * f * p)
+            mass = np.where(sticks, 0.0, q)
+            mass[sticks] = beta * held - gamma
             sources.append(mass * at.weight / roots[k])
-            rows.append(p)
+            rows.append(np.stack((p, q, beta * p)))
         for k, at in enumerate(rules):
-            (sticks, gamma, *_), p = stuck[k], rows[k]
-            other = (k + SHIFTS // 2) % SHIFTS
-            flow = roots[k] * state.psi(at, rules[other], sources[other])
-            q = np.where(sticks, flow, pieces.sign[at.zone] * f * p)
-            slope = flow + beta * p
-            slope[sticks] = gamma
-            rows[k] = np.stack((p, q, slope))
+            sticks, gamma, *_ = stuck[k]
+            other, slips = (k + SHIFTS // 2) % SHIFTS, ~sticks
+            place = at if small else at.chosen(slips)
+            flow = state.psi(place, rules[other], sources[other])
+            flow *= roots[k] if small else roots[k][slips]
+            rows[k][2, slips] += flow[slips] if small else flow
+            rows[k][2, sticks] = gamma
+            if small:
+                rows[k][1, sticks] = flow[sticks]
         return rules, rows
 
     def _root(self, at: Places) -> Array:

@@ -58,8 +58,7 @@ def coupled_contact(
     bound = frictionless(_without_friction(scene))
     contact, axis = bound.edges.contact, symmetry_axis(scene, bound.edges)
     slope = bound.slope(scene.profile)
-    inside = (slope.breaks[1:] > contact.x1) & (slope.breaks[:-1] < contact.x2)
-    if slope.is_zero[inside].all():
+    if _flat(slope, contact):
         P = scene.normal_load
         assert P is not None
         state: Grown | Flat = Flat(
@@ -89,6 +88,14 @@ def coupled_contact(
             f"alone: change friction or the profile, or {NEGLECT}"
         )
     return state.edges, state
+
+
+def _flat(slope: Slope, contact: Interval) -> bool:
+    """Whether h' = 0 in the contact."""
+    if slope.functions:
+        return not slope(np.linspace(*contact[:2], LOOKS + 2)[1:-1]).any()
+    inside = (slope.breaks[1:] > contact.x1) & (slope.breaks[:-1] < contact.x2)
+    return bool(slope.is_zero[inside].all())
 
 
 def _refuse_many_kinks(slope: Slope, contact: Interval, touch: Touch) -> None:
