@@ -33,7 +33,7 @@ MORE = 1.1  # where a load asks for more
 NEARLY, BISECTIONS = 1e-14, 60  # of the load; and steps to it
 MOST_KINKS = 8  # of the profile within the contact: each cuts a state at up to five places
 NARROWEST_STICK = 1e-9  # of the contact
-RESOLVED = 1e-9  # of P and f P: what the state may miss
+RESOLVED = 2e-11  # of P and f P: what the state may miss
 # Points where the symmetry of a profile is measured, and to what part of its largest slope.
 LOOKS, EVEN = 64, 1e-10
 AXIS_ROUNDING = 256.0 * EPS  # half-widths: the rounding of the frictionless contact's centre
@@ -85,7 +85,7 @@ def coupled_contact(
     if not missed <= RESOLVED:
         raise ContactError(
             f"the contact of dissimilar bodies under P = {P:.6g} is known to {missed:.1g} of P "
-            f"alone: change friction or the profile, or {NEGLECT}"
+            f"alone, as where it hardly spreads beyond a flat base: raise the load, or {NEGLECT}"
         )
     return state.edges, state
 
