@@ -115,10 +115,10 @@ def test_slip_zone_remains_under_any_friction_of_very_dissimilar_bodies():
 
 @pytest.mark.parametrize("profile", [sie.Flat(1.0), sie.Parabola(1.0)])
 def test_friction_far_above_one_is_certified_or_refused(profile):
-    assert solved(profile, 0.5, 990.0).check().ok
+    assert solved(profile, 0.5, 2.5).check().ok
     assert solved(profile, 0.05, 1e9).check().ok  # sticks all over
-    with pytest.raises(sie.ContactError, match="give friction = 1000 or less"):
-        _ = solved(profile, 0.5, 1010.0).edges
+    with pytest.raises(sie.ContactError, match="give friction = 3 or less"):
+        _ = solved(profile, 0.5, 3.1).edges
 
 
 def test_exponents_of_large_friction_keep_their_digits():

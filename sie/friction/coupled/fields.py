@@ -25,6 +25,9 @@ FARTHEST = 22.0  # |v| beyond which fields go on as a power of the distance from
 DEEP = 33.0  # |v| up to which p and γ are told at marks inside the contact
 DEEPEST = 50.0  # the same next to the end of a zone: slip zones may be as narrow as 1e-15
 NEAR_EDGE = 1e-3  # of the contact: up to there the distance from an edge tells a place best
+LEFT_OUT = 24.0  # e-folds that a rule goes on beyond: what it leaves out is then 4e-11 of p
+LAST = 745.0  # e-folds that doubles have
+FLAT = 1e-8  # of p and q: what changes less in v is no logarithm
 SMALL = 0.05  # β below which q loses digits by (1)
 NEAREST = 1e-8  # of the contact: nodes that are nearer to a mark are not looked at
 
@@ -40,6 +43,7 @@ class Fields:
         cuts, (k, lo, hi) = self.state.pieces.cuts, self._located(x, rest)
         with np.errstate(divide="ignore"):
             v = np.log(np.maximum(lo, 0.0)) - np.log(np.maximum(hi, 0.0))
+        v = np.clip(v, -LAST, LAST)
         rows, last, step = np.empty((3, len(x))), len(cuts) - 2, self.state.pieces.fineness.step
         for piece in np.unique(k):
             own = k == piece
@@ -50,11 +54,8 @@ class Fields:
                 place = (np.clip(v[own], *far) - first) * (SHIFTS / step)
                 rows[np.ix_(row, own)] = interpolated(table[row], place)
             for side in (-1, 1):
-                near = np.flatnonzero(own & (side * v > side * ends[side > 0]))
-                if near.size and 0 <= piece + side <= last:
-                    rows[1, near] = self._shear_next_to_cut(
-                        (int(piece), side), v[near], rows[0, near]
-                    )
+                if 0 <= piece + side <= last:
+                    self._next_to_cut((int(piece), side), own, v, rows)
         powers = self.state.pieces.powers
         for edge, side, sign in ((0, k == 0, -1.0), (-1, k == len(cuts) - 2, 1.0)):
             beyond = side & (sign * v > FARTHEST)
@@ -99,31 +100,41 @@ class Fields:
     def _last_shear(self, piece: int, side: int) -> float:
         """|v| up to which q is told: nearer to a narrow slip zone, next to which it varies more."""
         pieces, other = self.state.pieces, piece + side
-        if not 0 <= other < len(pieces.lengths) or not pieces.powers[piece + (side > 0)]:
+        if not 0 <= other < len(pieces.lengths):
             return FARTHEST
+        if not pieces.powers[piece + (side > 0)]:
+            return max(FARTHEST, pieces.fineness.inner - LEFT_OUT)
         width = pieces.widths[pieces.zone_of_piece[other]]
         more = 0.5 * max(math.log(pieces.lengths[piece] / width), 0.0)
         return self._within(piece, side, min(DEEPEST, FARTHEST + more))
 
-    def _shear_next_to_cut(self, where: tuple[int, int], v: Array, p: Array) -> Array:
-        """q in stick, too near to a cut for principal values, on that side of a piece.
+    def _next_to_cut(
+        self, where: tuple[int, int], own: NDArray[np.bool_], v: Array, rows: Array
+    ) -> None:
+        """Sets p and q too near to a cut on that side of a piece for what tables tell.
 
-        Next to slip f p - |q| is a power of the distance; at marks q may have a logarithm.
+        At marks both may have a logarithm; next to slip f p - |q| is a power of the distance.
         """
         (piece, side), pieces = where, self.state.pieces
-        signs = pieces.sign[pieces.zone_of_piece]
+        signs, power = pieces.sign[pieces.zone_of_piece], pieces.powers[piece + (side > 0)]
         (first, table), step = self.tables[piece], pieces.fineness.step
-        last = self._last_shear(piece, side)
-        at = np.array([last, last - 1.0])
-        (p0, _), (q0, q1) = interpolated(table[:2], (side * at - first) * (SHIFTS / step))
-        beyond = side * v - last
-        if signs[piece + side] == signs[piece]:
-            return q0 + (q0 - q1) * beyond
-        full = signs[piece + side] * self.state.question.friction
-        values: Array = full * p - (full * p0 - q0) * np.exp(
-            -pieces.powers[piece + (side > 0)] * beyond
-        )
-        return values
+        for row, last in enumerate(
+            (self._last_pressure(piece, side), self._last_shear(piece, side))
+        ):
+            near = np.flatnonzero(own & (side * v > last))
+            if not near.size or (row == 0 and power):
+                continue
+            place = side * np.array([last, last - 1.0])
+            (p, _), (q, _) = both = interpolated(table[:2], (place - first) * (SHIFTS / step))
+            beyond = side * v[near] - last
+            if power:
+                full = signs[piece + side] * self.state.question.friction
+                rows[1, near] = full * rows[0, near] - (full * p - q) * np.exp(-power * beyond)
+                continue
+            rise = both[row, 0] - both[row, 1]
+            if abs(rise) < FLAT * np.abs(both).max():
+                continue
+            rows[row, near] = both[row, 0] + rise * beyond
 
     def gamma(self, x: Array) -> Array:
         """γ in contact."""

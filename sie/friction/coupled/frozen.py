@@ -190,7 +190,7 @@ class Frozen:
             missed = c * length + side * panel.moved(ahead, length) - width
             step = missed / (c + side * panel.turn(ahead + length))
             length = np.maximum(length - step, 0.5 * length)
-            if float((np.abs(step) / length).max(initial=0.0)) <= 10.0 * SETTLED:
+            if float((np.abs(step) / np.maximum(length, LEAST)).max(initial=0.0)) <= 10.0 * SETTLED:
                 break
         return length
 

@@ -33,7 +33,8 @@ MORE = 1.1  # where a load asks for more
 NEARLY, BISECTIONS = 1e-14, 60  # of the load; and steps to it
 MOST_KINKS = 8  # of the profile within the contact: each cuts a state at up to five places
 NARROWEST_STICK = 1e-9  # of the contact
-RESOLVED = 2e-11  # of P and f P: what the state may miss
+RESOLVED = 3e-12  # of P: what a state may miss
+STEEPEST = 1.5  # β f: exponents at the ends of slip zones are then 0.19 and 0.81
 # Points where the symmetry of a profile is measured, and to what part of its largest slope.
 LOOKS, EVEN = 64, 1e-10
 AXIS_ROUNDING = 256.0 * EPS  # half-widths: the rounding of the frictionless contact's centre
@@ -48,6 +49,12 @@ def coupled_contact(
     `frictionless` solves the normal problem of a scene; its contact bounds the search.
     """
     flat, half_modulus = flat_punch(abs(scene.beta), scene.friction), 0.5 * scene.Estar
+    steep = flat.beta * scene.friction
+    if steep > STEEPEST and not flat.bonded:
+        raise ContactError(
+            f"dissimilar bodies with β f = {steep:.3g}, more than {STEEPEST:g}, are not solved: "
+            f"give friction = {STEEPEST / flat.beta:.3g} or less"
+        )
     if flat.c < NARROWEST_STICK:
         raise ContactError(
             f"dissimilar bodies (β = {scene.beta:.3g}) with friction = {scene.friction:g} stick "
@@ -81,7 +88,8 @@ def coupled_contact(
         math.nan if axis is None else axis,
         s,
     )
-    missed = float(np.abs(state.loaded.state.missed).max())
+    # but for Q, which (1) tells with the digits that 1/β leaves
+    missed = float(np.abs(state.loaded.state.missed[:-1]).max())
     if not missed <= RESOLVED:
         raise ContactError(
             f"the contact of dissimilar bodies under P = {P:.6g} is known to {missed:.1g} of P "

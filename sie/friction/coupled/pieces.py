@@ -43,7 +43,7 @@ class Fineness(NamedTuple):
 
 FINE = Fineness(STEP, 33.0, 42.0)
 QUICK = Fineness(0.9, 19.0, 23.0)  # to about 1e-8
-FINEST = Fineness(0.5, 38.0, 46.0)  # f p - q is known next to the end of a stick zone too
+FINEST = Fineness(0.5, 38.0, 60.0)  # f p - q is known next to the end of a stick zone too
 
 
 class Places(NamedTuple):

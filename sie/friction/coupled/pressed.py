@@ -155,8 +155,8 @@ class Grown(Pressed):
 
     @cached_property
     def origin(self) -> float:  # type: ignore[override]
-        """The middle of the contact."""
-        return self.frozen.middle(self.s)
+        """The place that touched first, or the middle of the flat base."""
+        return self.frozen.panels[0].middle
 
     @cached_property
     def marks_of_growth(self) -> tuple[float, ...]:
@@ -165,30 +165,38 @@ class Grown(Pressed):
     @cached_property
     def gradient(self) -> Gradient:
         """γ where the bodies stick."""
-        c = self.flat.c * self.s
-        stick = self.origin - c, self.origin + c
+        c, m = self.flat.c * self.s, self.frozen.middle(self.s)
+        stick = m - c, m + c
         return Gradient(self.frozen, self.marks_of_growth, stick, self.axis)
 
     @cached_property
     def loaded(self) -> Loaded:  # type: ignore[override]
-        """The state about the middle of the contact."""
+        """The state about the origin."""
         s, flat, origin, gradient = self.s, self.flat, self.origin, self.gradient
+        m = self.frozen.middle(s) - origin
         slope = self.slope.shifted(-origin) if origin else self.slope
-        half = HalfSlope(slope, self.half_modulus, (-WINDOW * s, WINDOW * s))
+        half = HalfSlope(slope, self.half_modulus, (m - WINDOW * s, m + WINDOW * s))
         question = Question(
             flat.beta, flat.friction, half, lambda x: gradient(x + origin), self.load, 0.0
         )
         marks = (x - origin for x in self.marks_of_growth)
         pieces = Pieces(
-            -s,
+            m - s,
             (flat.rest * s, 2.0 * flat.c * s, flat.rest * s),
             (-1, 0, 1),
-            tuple(x for x in marks if -s < x < s),
+            tuple(x for x in marks if m - s < x < m + s),
             half.kinks,
             flat.theta,
             FINEST,
         )
         return Loaded(Fields(State(pieces, question)), 0.0, 0.0, friction=self.friction)
+
+    def rows(self, x: Array, rest: Array | None = None) -> Array:
+        """Rows of p and q in contact; at a tip of the profile p is infinite, and q is told as 0."""
+        rows = super().rows(x, rest)
+        if self.frozen.panels[0].power == 0.0:
+            rows[0, x == self.origin], rows[1, x == self.origin] = np.inf, 0.0
+        return rows
 
     def _slip(self, x: Array) -> Array:
         at, base, g = x + self.origin, self.frozen.base, np.zeros(len(x))
