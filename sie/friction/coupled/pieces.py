@@ -63,7 +63,8 @@ class Places(NamedTuple):
 
     def chosen(self, mask: NDArray[np.bool_]) -> Places:
         """Some of them."""
-        return Places(*(column[mask] for column in self))
+        anchor, offset, x, weight, zone, piece = self
+        return Places(anchor[mask], offset[mask], x[mask], weight[mask], zone[mask], piece[mask])
 
 
 @dataclass(frozen=True, eq=False)
@@ -214,9 +215,7 @@ class Pieces:
         on_left = v > 0.0
         anchor = np.where(on_left, 0, len(self.cuts) - 1)
         offset, none = np.where(on_left, -d, d), np.zeros(len(v), dtype=int)
-        return Places(
-            anchor, offset, self.cuts[anchor] + offset, h * d * (d + L) / L, none, none
-        )
+        return Places(anchor, offset, self.cuts[anchor] + offset, h * d * (d + L) / L, none, none)
 
     def _reach_beside(self, power: float, width: float, lowered: float) -> float:
         """e-folds next to an edge, where the integrand has the exponent 0, or power - lowered."""
