@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import math
 from bisect import insort
+from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import pairwise
@@ -21,7 +22,7 @@ from sie.errors import ContactError
 
 from .search import ROUGHLY, Zones, passing, settled
 from .state import Question, State
-from .step import Loaded, guess, slip_along
+from .step import Loaded, beyond_marks, guess, slip_along
 
 Array = NDArray[np.float64]
 
@@ -30,6 +31,7 @@ PROMISED = 3e-7  # of the energy of a part of a step: what must be reached
 FLATNESS = 3  # power of the distance from a load where the power is not smooth
 CLOSE = 1e-5  # parts that are one, where zones are told from known ones
 NARROW = 1e-5  # of an interval: the power there is taken for that farther in
+TURNED = 1e-4  # of the largest rate of slip: what may go against q
 APART = 1e-6  # of the step: marks that are passed nearer to its ends are not divided at
 
 
@@ -97,8 +99,10 @@ class Way:
         """The zones at the end, where a loop that is closed there has not yet been left."""
         if self.after.base is None:
             return self.after.zones
-        zones = self.guess(1.0)
-        state = settled(self.question(1.0), zones, self.marks, ROUGHLY) if zones else None
+        near = self.guess(1.0)
+        starts = [near, *beyond_marks(near, self.marks)] if near else []
+        found = (settled(self.question(1.0), zones, self.marks, ROUGHLY) for zones in starts)
+        state = next((state for state in found if state is not None), None)
         if state is None:
             raise _unknown()
         return Zones(state.pieces.left, state.pieces.widths, state.pieces.signs)
@@ -130,14 +134,27 @@ class Way:
         self._keep(*found)
         return found[0]
 
+    def _starts(self, part: float) -> Iterator[Zones]:
+        """Zones to start from at a part, the likelier first."""
+        near = self.near(part)
+        if near is not None:
+            yield near
+        other = self.guess(part)
+        if other is not None:
+            yield other
+            yield from beyond_marks(other, self.marks)
+
     def near(self, part: float) -> Zones | None:
-        """Zones next to those at a part, from two that are known or from cells.
+        """Zones next to those at a part, from those that are known, or else from cells.
 
         After a turn widths grow about as powers of the part.
         """
-        if len(self.known) < 2:
+        closest = sorted(self.known, key=lambda known: abs(known[0] - part))[:2]
+        (a, one), (b, other) = closest[0], closest[-1]
+        if a == part:
+            return one
+        if a == b:
             return self.guess(part)
-        (a, one), (b, other) = sorted(self.known, key=lambda known: abs(known[0] - part))[:2]
         outside = self.turned and part < min(a, b)
         weight = math.log(part / a) / math.log(b / a) if outside else (part - a) / (b - a)
         x1, x2 = one.ends[[0, -1]] + weight * (other.ends[[0, -1]] - one.ends[[0, -1]])
@@ -165,11 +182,9 @@ class Way:
 
     def power(self, part: float) -> float:
         """∫ f p |dg| dx at a part of the step, per part."""
-        state = None
-        for start in (self.near, self.guess):
-            zones = start(part)
-            if state is None and zones is not None:
-                state = settled(self.question(part), zones, self.marks, ROUGHLY)
+        question = self.question(part)
+        found = (settled(question, zones, self.marks, ROUGHLY) for zones in self._starts(part))
+        state = next((state for state in found if state is not None), None)
         if state is None or state.pieces.signs != self._ending.signs:
             raise _unknown()
         self._keep(part, state)
@@ -180,6 +195,8 @@ def power(state: State, dQ: float, strain: float) -> float:
     """∫ f p |dg| dx of a rate."""
     rates = state.rates(dQ, strain)
     slip = slip_along(state, rates.at, rates.gamma - strain)
+    if slip.min() < -TURNED * slip.max():
+        raise _unknown()
     p = state.pressure_in_slip(rates.at)
     return float(rates.at.weight @ (state.question.friction * p * slip))
 
