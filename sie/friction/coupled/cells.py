@@ -11,6 +11,7 @@ and slip goes along q. Cells change between stick and slip until both hold.
 from __future__ import annotations
 
 import math
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -110,4 +111,4 @@ def _runs(signs: NDArray[np.intp]) -> list[tuple[int, int, int]]:
     alone = (signs[1:-1] != signs[:-2]) & (signs[:-2] == signs[2:])
     signs[1:-1][alone] = signs[:-2][alone]
     starts = [0, *(np.flatnonzero(np.diff(signs)) + 1).tolist(), len(signs)]
-    return [(a, b, int(signs[a])) for a, b in zip(starts[:-1], starts[1:], strict=True)]
+    return [(a, b, int(signs[a])) for a, b in pairwise(starts)]

@@ -89,7 +89,9 @@ class Fields:
         pieces = self.state.pieces
         if not 0 <= piece + side < len(pieces.lengths):
             return FARTHEST
-        return self._within(piece, side, DEEPEST if pieces.powers[piece + (side > 0)] else DEEP)
+        sticks = not pieces.sign[pieces.zone_of_piece[piece]]
+        deepest = sticks and pieces.powers[piece + (side > 0)] != 0.0
+        return self._within(piece, side, DEEPEST if deepest else DEEP)
 
     def _within(self, piece: int, side: int, far: float) -> float:
         """|v| that the table reaches, at most this."""

@@ -177,7 +177,14 @@ class March:
     """The panels from first touch on; about an axis of symmetry the middle stays."""
 
     def __init__(
-        self, flat: FlatPunch, slope: Slope, half_modulus: float, touch: Touch, axis: float | None
+        self,
+        flat: FlatPunch,
+        slope: Slope,
+        half_modulus: float,
+        touch: Touch,
+        *,
+        axis: float | None = None,
+        exponent: float = 0.0,
     ) -> None:
         self.flat, self.touch, self.even = flat, touch, axis is not None
         self.panels: list[Panel] = []
@@ -191,6 +198,10 @@ class March:
         assert edges[0] is not None and edges[1] is not None
         self.edges = (edges[1],) if self.even else (edges[1], edges[0])
         self.power, self.rate = start
+        # of a power law, h = C |x|^m: P' is one power then
+        self.exponent = exponent
+        if exponent:
+            self.power = exponent - 1.0
         self.load = 0.0
         # Where the last panel began that P' begins with a broken power of the distance from
         self.kinked = self.base
@@ -263,14 +274,17 @@ class March:
         behind, power = (lo - self.kinked or math.inf, 0.0) if last else (math.inf, self.power)
         middle = last.middle + last.whole_shift if last else self.middle
         rate = float(last.turn(np.array(last.length))) if last else self.rate
-        series = np.zeros(DEGREE)
+        degree = 1 if self.exponent else DEGREE
+        series = np.zeros(degree)
         empty = Panel(lo, lo + length, power, behind, middle, series, series)
-        shifts = chebyshev.transform(rate * empty.ahead(chebyshev.points(DEGREE)))
+        shifts = chebyshev.transform(rate * empty.ahead(chebyshev.points(degree)))
         sides = tuple(Side(edge.values, edge.sign) for edge in self.edges)
         return collocated(self.flat, self.panels, replace(empty, shifts=shifts), sides)
 
     def _missed(self, panel: Panel, goal: float) -> float:
         """What the last coefficients of both series carry, in parts of the load and of the goal."""
+        if self.exponent:
+            return 0.0
         size, length = np.abs(panel.series), panel.length
         tail = float(size[-3:].max())
         load = tail * length ** (1.0 + panel.power) if tail > DECAYED * size.max() else 0.0

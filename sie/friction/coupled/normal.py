@@ -74,7 +74,9 @@ def coupled_contact(
         return state.edges, state
     touch = first_touch(slope, *contact[:2])
     _refuse_many_kinks(slope, contact, touch)
-    march = March(flat, slope, half_modulus, touch, axis)
+    law = scene.profile.power_law
+    exponent = law.exponent if law is not None and axis is not None else 0.0
+    march = March(flat, slope, half_modulus, touch, axis=axis, exponent=exponent)
     s, P = _marched(march, scene.normal_load, contact.r)
     state = Grown(
         flat,

@@ -64,7 +64,8 @@ class Places(NamedTuple):
 
     def chosen(self, mask: NDArray[np.bool_]) -> Places:
         """Some of them."""
-        return Places(*(column[mask] for column in self))
+        anchor, offset, x, weight, zone, piece = self
+        return Places(anchor[mask], offset[mask], x[mask], weight[mask], zone[mask], piece[mask])
 
 
 @dataclass(frozen=True, eq=False)

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from sie.numerics.gauss_jacobi import with_weight
+from sie.numerics.interval import Interval
 from sie.profiles.slope import Slope
 from sie.traction.base import on_line
 
@@ -57,6 +58,16 @@ class Pressed(View):
     friction: float
 
     shift = strain_kept = 0.0
+
+    @cached_property
+    def contact(self) -> Interval:
+        middle, b = self.middle, self.half_width
+        return Interval(middle - b, middle + b)
+
+    @property
+    def middle(self) -> float:
+        """That of the contact."""
+        return self.origin
 
     @property
     def half_width(self) -> float:
@@ -147,6 +158,10 @@ class Grown(Pressed):
     @property
     def half_width(self) -> float:
         return self.s
+
+    @property
+    def middle(self) -> float:
+        return self.frozen.middle(self.s)
 
     @property
     def base(self) -> float:

@@ -19,10 +19,10 @@ from .state import Question, State
 
 Array = NDArray[np.float64]
 
-SETTLED, ACCEPTED = 1e-12, 1e-11  # of P and f P: what the conditions may miss
+SETTLED, ACCEPTED = 2e-13, 1e-11  # of P and f P: what the conditions may miss
 ROUGHLY = 1e-7  # the same by the quick rule
-MOST_STEPS, HALVINGS = 15, 5
-DIFFERENCE = 1e-6  # of the widths, for derivatives
+MOST_STEPS, HALVINGS = 25, 5
+DIFFERENCE, NARROWEST = 1e-6, 1e-6  # for derivatives: of widths, and of zones at the edges
 FOLDS = 1.0  # by which a step may change a width
 STALE = 0.4  # of what was missed: a slower step asks for new derivatives
 
@@ -140,6 +140,11 @@ def passing(
     The part takes the place of an edge among the unknowns.
     """
     part, zones = start
+    ends = zones.ends
+    ends[end] = mark
+    if not (np.diff(ends) > 0.0).all():
+        return None
+    zones = zones_between(ends, zones.signs)
     unknowns = _unknowns(zones)
     edge = 0 if end <= unknowns.widest else 1
 
@@ -174,11 +179,13 @@ def _descended(
             break
         if slopes is None:
             slopes, fresh = _slopes(trial, u, missed), True
+        if not np.isfinite(slopes).all():
+            return None
         step = np.linalg.lstsq(slopes, -missed, rcond=None)[0]
         step *= min(1.0, FOLDS / float(np.abs(step).max()))
         shortened = _shortened(trial, u, step, size)
         if shortened is None:
-            if fresh:
+            if fresh or size <= accepted:
                 break
             slopes = None
             continue
@@ -195,7 +202,7 @@ def _descended(
 
 
 def _slopes(trial: Trial, u: Array, missed: Array) -> Array:
-    columns, narrowest = [], min(1.0, math.exp(min(u[2:], default=0.0)))
+    columns, narrowest = [], min(1.0, max(math.exp(min(u[2:], default=0.0)), NARROWEST))
     for k in range(len(u)):
         other = u.copy()
         other[k] += DIFFERENCE * (narrowest if k < 2 else 1.0)

@@ -27,6 +27,7 @@ Array = NDArray[np.float64]
 CLOSED = 1e-12  # of f P: loads that are the same
 TOLERATED = 1e-9  # of the largest f p, and of the largest slip: what the verdict forgives
 AWAY = 0.05  # of the stick zone: how far its ends go about, times the root of the part of f P
+BEYOND, MOST_OTHERS = 0.02, 6  # of the way from a mark to the edge; starts beyond marks
 HALVINGS = 3  # of a step whose end is not found at once
 
 
@@ -40,6 +41,7 @@ class Loaded:
     step        changes of Q and strain since the point before
     friction    f; under P alone, that of a state may be smaller where nothing would slip
     base        the state from which the last step was solved, if not `before`
+    halfway     the state in the middle of a step that was halved, after which `step` is counted
     """
 
     fields: Fields
@@ -49,6 +51,7 @@ class Loaded:
     step: tuple[float, float] = (0.0, 0.0)
     friction: float = 0.0
     base: Loaded | None = None
+    halfway: Loaded | None = None
 
     @property
     def state(self) -> State:
@@ -91,14 +94,16 @@ class Loaded:
             return None
         half = self.stepped(self.Q + 0.5 * step[0], self.strain + 0.5 * step[1], halvings - 1)
         found = half.stepped(Q, strain, 0) if half is not None else None
-        return replace(found, step=step) if found is not None else None
+        return replace(found, halfway=half) if found is not None else None
 
     def _starts(self, Q: float, strain: float) -> Iterator[tuple[Loaded, Zones | None]]:
         """States from which a step may be solved, and zones to start from."""
         if self.before is not None and self._farther(Q, strain) > 1.0:
             yield self.before, self.ahead(Q, strain)
             yield self.before, guess(self.before, Q, strain)
-        yield self, guess(self, Q, strain)
+        near = guess(self, Q, strain)
+        yield self, near
+        yield from ((self, other) for other in beyond_marks(near, self.marks))
 
     def ahead(self, Q: float, strain: float) -> Zones:
         """The zones if slip goes on, which widen about as the loads since the turn."""
@@ -237,15 +242,14 @@ def slip_along(
 
 
 def guess(base: Loaded, Q: float, strain: float) -> Zones | None:
-    """Zones next to those under other loads, from cells; None where no cell sticks."""
+    """Zones next to those under other loads, from cells."""
     old, dQ, P = base.zones.ends[[0, -1]], Q - base.Q, base.question.P
-    states = [(1.0, base.fields, old)]
+    states, sliding = [(1.0, base.fields, old)], None
     if dQ:
-        limit = math.copysign(base.friction * P, dQ)
+        sign = 1 if dQ > 0.0 else -1
+        limit = sign * base.friction * P
         part = dQ / (limit - base.Q)
-        sliding = settled(
-            base.asked(limit, strain), zones_between(old, (1 if dQ > 0.0 else -1,)), ()
-        )
+        sliding = settled(base.asked(limit, strain), zones_between(old, (sign,)), ())
         if sliding is not None:
             states = [(1.0 - part, base.fields, old)]
             states.append((part, Fields(sliding), sliding.pieces.ends))
@@ -260,7 +264,43 @@ def guess(base: Loaded, Q: float, strain: float) -> Zones | None:
     q[touched] = base.fields(x[touched])[1]
     carried = Carried(cuts, base.friction * p, q)
     found = zones_on_cells(carried, dQ, strain - base.strain)
-    return kept_within(found, base.zones, abs(dQ) / (base.friction * P)) if found else None
+    if found is None:
+        return nearly_sliding(base, Q, sliding) if sliding is not None else None
+    return kept_within(found, base.zones, abs(dQ) / (base.friction * P))
+
+
+def beyond_marks(near: Zones | None, marks: tuple[float, ...]) -> Iterator[Zones]:
+    """Zones whose stick reaches beyond the next marks.
+
+    Between marks of loads that return, q is ± f p already: no end of stick is better than others.
+    """
+    if near is None or len(near.signs) != 3:
+        return
+    x1, e1, e2, x2 = near.ends.tolist()
+    lefts = [mark - BEYOND * (mark - x1) for mark in marks[::-1] if x1 < mark < e1]
+    rights = [mark + BEYOND * (x2 - mark) for mark in marks if e2 < mark < x2]
+    pairs = [(e1, right) for right in rights] + [(left, e2) for left in lefts]
+    pairs += list(zip(lefts[-1:], rights[-1:], strict=False))
+    for first, last in pairs[:MOST_OTHERS]:
+        yield zones_between(np.array([x1, first, last, x2]), near.signs)
+
+
+def nearly_sliding(base: Loaded, Q: float, sliding: State) -> Zones | None:
+    """Zones of a Q next to sliding: what slips least then sticks, over a length like a root."""
+    (sign,), question = sliding.pieces.signs, sliding.question
+    lo, hi = sliding.pieces.ends
+    x = lo + (hi - lo) * np.linspace(0.0, 1.0, 203)[1:-1]
+    x = x[(x > base.zones.ends[0]) & (x < base.zones.ends[-1])]
+    slips = sign * (Fields(sliding).gamma(x) - question.gamma(x))
+    k = int(np.argmin(np.cumsum((slips[1:] + slips[:-1]) * np.diff(x)))) + 1
+    k = k if slips[k] > 0.0 else min(k + 1, len(x) - 1)
+    rise = (slips[k] - slips[k - 1]) / (x[k] - x[k - 1])
+    if rise <= 0.0:
+        return None
+    x0 = float(np.clip(x[k] - slips[k] / rise, x[0], x[-1]))
+    half = math.sqrt(2.0 * abs(question.Q - Q) / (math.pi * rise))
+    ends = np.array([lo, max(x0 - half, 0.5 * (lo + x0)), min(x0 + half, 0.5 * (hi + x0)), hi])
+    return zones_between(ends, (sign, 0, sign))
 
 
 def kept_within(found: Zones, old: Zones, part: float) -> Zones:
