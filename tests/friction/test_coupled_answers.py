@@ -151,7 +151,7 @@ def test_rounded_flat_tends_to_a_parabola():
     assert nearly.half_width == pytest.approx(parabola.half_width, rel=1e-4)
 
 
-@pytest.mark.parametrize("exponent", [1.0, 2.0, 3.7, 9.0])
+@pytest.mark.parametrize("exponent", [1.0, 2.0, 3.7, 6.0])
 def test_loads_of_power_laws_are_those_of_similar_bodies_as_beta_vanishes(exponent):
     profile = sie.Wedge(0.4) if exponent == 1.0 else sie.Power(exponent, 0.4)
     one, other = (solved(profile, beta, 1e-7, half_width=1.0) for beta in (1e-7, 0.0))
