@@ -163,7 +163,7 @@ def _of_one_problem(scene: Scene, names: tuple[str, ...], stages: set[str]) -> I
     if scene.bonded:
         first, pressure = _full_stick(scene), "its real part"
         inequalities = "bonded surfaces can pull, and touch all over"
-    elif scene.tangential_load:
+    elif scene.tangential_load or scene.tau:
         first, pressure = _pressed_then_sheared(scene, names), "with the edges"
         inequalities = "the certificate measures p >= 0 and |q| <= f p"
     else:
@@ -207,7 +207,7 @@ def _pressed_then_sheared(scene: Scene, names: tuple[str, ...]) -> tuple[Step, .
     how = f"β = {scene.beta:.4g}: p and q are one problem; first under P alone"
     return (
         Step("coupling", True, how, "pressed"),
-        Step("slip gradient", True, "that of P alone, kept in stick", "tangential_search"),
+        Step("slip gradient", True, "that of P alone, kept in stick", "locked_in"),
         Step("zones", True, "four edges, of contact and stick zone, by Newton", "coupled"),
         Step("edges", True, "found with the zones", "normal"),
         _if_asked("energy", "energy" in names, "the power of friction, summed over states"),

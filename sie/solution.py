@@ -22,7 +22,7 @@ from .contact.pressure import pressure
 from .errors import ContactError
 from .frictionless import Frictionless
 from .numerics.interval import Interval
-from .problem.coverage import held_moment, refuse_uncovered, uneven_under_shear
+from .problem.coverage import held_moment, refuse_uncovered
 from .problem.request import ECONOMY, sheared
 from .problem.scene import Scene
 from .stages import changed_scene, kept_stages
@@ -36,11 +36,9 @@ if TYPE_CHECKING:  # what a stage needs is imported when it is computed
     from .cauchy.density import JacobiDensity
     from .certificate.result import Certificate, ShearCertificate
     from .certificate.trace_noise import TraceReport
-    from .friction.coupled.contact import CoupledContact
-    from .friction.coupled.sheared import ShearedContact
-    from .friction.coupled.tangential import TangentialSearch
+    from .friction.coupled.answer import LoadedContact
+    from .friction.coupled.pressed import Pressed
     from .friction.coupled.traction import OnHalves
-    from .friction.coupled.uneven_contact import UnevenContact
     from .friction.full_stick import Component
     from .friction.goodman.slip import GoodmanSlip
     from .friction.slip_state import Slip, Step
@@ -95,7 +93,7 @@ class Solution(Frictionless, StressAnswers):
         if self.scene.bonded:
             return Normal(self.bonded[0], False)
         if self.scene.coupled:
-            return Normal(self.coupled[0], not self.scene.tangential_load)
+            return Normal(self.coupled[0], not (self.scene.tangential_load or self.scene.tau))
         return super()._contact()
 
     @cached_property
@@ -106,17 +104,22 @@ class Solution(Frictionless, StressAnswers):
         return full_stick_contact(self.scene, self.tol)
 
     @cached_property
-    def coupled(self) -> tuple[Edges, CoupledContact | UnevenContact | ShearedContact]:
+    def coupled(self) -> tuple[Edges, Pressed | LoadedContact]:
         """The edges and the state of dissimilar bodies in partial slip."""
-        if self.scene.tangential_load:
-            from .friction.coupled.load_path import sheared_contact
+        scene = self.scene
+        if not (scene.tangential_load or scene.tau):
+            return self.pressed
+        state = self.locked_in.under(scene.tangential_load, scene.tau)
+        return replace(state.edges, tilt=scene.tilt), state
 
-            edges, state = sheared_contact(self._upright, self.tangential_search)
-            return replace(edges, tilt=self.scene.tilt), state
-        return self.pressed
+    def go_on_from(self, before: Pressed | LoadedContact | None) -> None:
+        """Goes on from another state under the same P, and not from that under P alone."""
+        if before is not None and hasattr(before, "under"):
+            state = before.under(self.scene.tangential_load, self.scene.tau)
+            self.__dict__["coupled"] = replace(state.edges, tilt=self.scene.tilt), state
 
     @cached_property
-    def pressed(self) -> tuple[Edges, CoupledContact | UnevenContact]:
+    def pressed(self) -> tuple[Edges, Pressed]:
         """The same under the normal load alone."""
         from .friction.coupled.normal import coupled_contact
 
@@ -138,17 +141,11 @@ class Solution(Frictionless, StressAnswers):
         return replace(scene, profile=scene.profile.tilted(scene.tilt), tilt=0.0)
 
     @cached_property
-    def tangential_search(self) -> TangentialSearch:
-        """The search for the zones of dissimilar bodies under any tangential load after that."""
-        from .friction.coupled.tangential import tangential_search
-        from .friction.coupled.uneven_contact import UnevenContact
+    def locked_in(self) -> LoadedContact:
+        """The same with what it locks in, from which Q and bulk stress lead to other states."""
+        from .friction.coupled.answer import pressed_contact
 
-        pressed = self.pressed[1]
-        if isinstance(pressed, UnevenContact):
-            raise uneven_under_shear(self.scene)
-        return tangential_search(
-            self._upright, pressed, lambda scene: self._frictionless(scene).edges
-        )
+        return pressed_contact(self.pressed[1])
 
     def _frictionless(self, scene: Scene) -> Normal:
         return Frictionless(scene, self.tol).unverified
@@ -318,17 +315,9 @@ class Solution(Frictionless, StressAnswers):
     @cached_property
     def dissipated(self) -> float:
         """The energy dissipated by slip."""
-        from .friction.coupled.energy import tangential_energy
-        from .friction.coupled.load_path import found_state
         from .friction.dissipation import dissipated
 
-        if not self.scene.coupled:
-            return dissipated(self.tangential)
-        pressed = self.pressed[1].energy
-        if not self.scene.tangential_load:
-            return pressed
-        state = cast("ShearedContact", self.coupled[1])
-        return pressed + tangential_energy(state, partial(found_state, self.tangential_search))
+        return self.coupled[1].energy if self.scene.coupled else dissipated(self.tangential)
 
     @cached_property
     def certificate(self) -> Certificate | PatchCertificate:
@@ -408,7 +397,7 @@ class Solution(Frictionless, StressAnswers):
             when they are smaller than the rounding of the edges; 0 below 1e-15 of the half-width,
             where that is full stick.
         """
-        if self.scene.coupled and not self.scene.tangential_load:
+        if self.scene.coupled and not (self.scene.tangential_load or self.scene.tau):
             width = self.pressed[1].slip_width
             return width, width
         x1, x2 = self.edges
@@ -529,10 +518,7 @@ class Solution(Frictionless, StressAnswers):
         """
         self._refuse_unknown_slip()
         if self.scene.coupled:
-            from .friction.coupled.shift import tangential_shift
-
-            sheared = self.scene.tangential_load != 0.0
-            return tangential_shift(cast("ShearedContact", self.coupled[1])) if sheared else 0.0
+            return self.coupled[1].shift
         return self.tangential.shift if self.sheared else 0.0
 
     def _refuse_unknown_slip(self) -> None:

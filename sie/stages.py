@@ -31,7 +31,7 @@ PRESSED = (NORMAL - {"coupled"}) | {"friction", "dundurs", "coupling"}
 STAGES = {
     **dict.fromkeys(("rises", "unverified", "density", "normal", "in_patches", "pressure"), NORMAL),
     **dict.fromkeys(OF_SHEAR, SHEAR),
-    **dict.fromkeys(("pressed", "tangential_search"), PRESSED),
+    **dict.fromkeys(("pressed", "locked_in"), PRESSED),
 }
 
 if TYPE_CHECKING:

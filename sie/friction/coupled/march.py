@@ -1,14 +1,14 @@
-"""The march of both edges of a contact of dissimilar bodies from first touch to the load.
+"""The growth of a contact of dissimilar bodies from first touch to the load.
 
-Each panel of `uneven_growth` ends where an edge reaches a place at which the profile is not
-smooth, where its series ask for it, or beyond the load. What is refused is refused with the load at
-which it happens.
+Each panel of `growth` ends where an edge reaches a place at which the profile is not smooth, where
+its series ask for it, or beyond the load. What is refused is refused with the load at which it
+happens.
 """
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import NamedTuple
 
@@ -16,12 +16,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie.errors import ContactError
+from sie.numerics import chebyshev
 from sie.numerics.root_finding import false_position
 from sie.profiles.slope import Slope
 from sie.progress_bar import step_done
 
-from .functions import FlatFunctions
-from .uneven_growth import History, Side, UnevenPanel, collocated
+from .flat import FlatPunch
+from .growth import DEGREE, Panel, Side, collocated
 
 Array = NDArray[np.float64]
 
@@ -29,13 +30,12 @@ DECAYED = 1e-13  # of a series, its last coefficients
 NEGLIGIBLE = 1e-12  # of the load, or of the half-width: what a short panel may miss
 UNRESOLVED = 1e-9  # of the same: what is refused
 NO_LESS = 0.5  # of what a panel missed before it was cut
-CUT, GROWN = 0.4, 2.5  # of a panel that is cut, and of the next one over it, or over its kink
+CUT = 0.4  # of a panel that is cut
+FOLDS = 5.0  # e-folds of the distance from a kink, that a panel behind it may reach over
 # What a panel misses that begins at a kink: its power of the length, and the shortest cut
 STEEPLY, LEAST_CUT = 0.7, 1e-4
 SHORTEST = 1e-13  # of the half-width, a panel
 MOST = 400  # panels
-# Kinks after which their number is foretold, and how many times MOST it then has to be
-TELLING, SURELY = 10, 1.2
 BEYOND = 1.01  # of the length at which an edge seems to reach a kink, a panel
 LANDED, LANDINGS = 1e-14, 12  # of the half-width: an edge at a kink; and trials
 CLOSE = 1e-12  # of the half-width: kinks so near the place of first contact are that place
@@ -174,29 +174,39 @@ def edge_at(slope: Slope, place: float, sign: float, half_modulus: float) -> Edg
 
 
 class March:
-    """The panels from first touch on."""
+    """The panels from first touch on; about an axis of symmetry the middle stays."""
 
     def __init__(
-        self, flat: FlatFunctions, slope: Slope, half_modulus: float, touch: Touch
+        self,
+        flat: FlatPunch,
+        slope: Slope,
+        half_modulus: float,
+        touch: Touch,
+        *,
+        axis: float | None = None,
+        exponent: float = 0.0,
     ) -> None:
-        self.flat, self.touch = flat, touch
-        self.history = History(flat)
+        self.flat, self.touch, self.even = flat, touch, axis is not None
+        self.panels: list[Panel] = []
         self.base = 0.5 * (touch.hi - touch.lo)
-        self.middle = touch.lo + self.base
+        self.middle = touch.lo + self.base if axis is None else axis
         edges = [
             edge_at(slope, place, sign, half_modulus)
             for place, sign in ((touch.lo, -1.0), (touch.hi, 1.0))
         ]
         start = self._start(edges[0] is None or edges[1] is None)
         assert edges[0] is not None and edges[1] is not None
-        self.edges = (edges[1], edges[0])
+        self.edges = (edges[1],) if self.even else (edges[1], edges[0])
         self.power, self.rate = start
+        # of a power law, h = C |x|^m: P' is one power then
+        self.exponent = exponent
+        if exponent:
+            self.power = exponent - 1.0
         self.load = 0.0
         # Where the last panel began that P' begins with a broken power of the distance from
-        self.kinked = self.base if self.power % 1.0 else None
+        self.kinked = self.base
         self.kinks: list[float] = []
-        # How long the next panel may be, and the largest load that any carried
-        self._next, self._scale = math.inf, 0.0
+        self._scale = 0.0  # the largest load that any panel carried
 
     def _start(self, ends: bool) -> tuple[float, float]:
         """The power of P' and m' at first touch."""
@@ -206,35 +216,25 @@ class March:
             where = f"x = {self.touch.lo:.6g}" + (f" ... {self.touch.hi:.6g}" if self.base else "")
             raise ContactError(
                 f"the profile touches first at {where}, and rises so unlike on both sides, as at a "
-                "corner, that one edge of contact stays there while the other one moves: behind an "
-                "edge that stays what stuck would slip, which is not solved between dissimilar "
-                f"bodies; round the corner, change the tilt, {NEGLECT}"
+                "corner, that one edge of contact stays there: behind it what stuck would slip, "
+                f"which is not solved; round the corner, change the tilt, {NEGLECT}"
             )
-        power = self.flat.h - 1.0 + q if self.base else q
-        turn = (left / right) ** (1.0 / (q + self.flat.h)) if self.base else 1.0
-        return power, (turn - 1.0) / (turn + 1.0)
+        power = self.flat.exponent - 1.0 + q if self.base else q
+        turn = (left / right) ** (1.0 / (q + self.flat.exponent)) if self.base else 1.0
+        return power, 0.0 if self.even else (turn - 1.0) / (turn + 1.0)
 
     @property
     def s(self) -> float:
-        panels = self.history.panels
-        return panels[-1].hi if panels else self.base
+        return self.panels[-1].hi if self.panels else self.base
 
-    def advance(self, goal: float) -> UnevenPanel:
+    def advance(self, goal: float) -> Panel:
         """One more panel, as far as goal at most."""
-        lo, panels = self.s, self.history.panels
-        length = goal - lo
-        if panels:
-            length = min(length, self._next)
-        if self.kinked is not None and lo > self.kinked:
-            length = min(length, GROWN * (lo - self.kinked))
-        rate = float(panels[-1].rates.sum()) if panels else self.rate
-        for edge in self.edges:
-            length = min(length, BEYOND * edge.end / (1.0 + edge.sign * rate))
-        before, landing = math.inf, 0
-        at_kink = lo == self.kinked
+        lo = self.s
+        length, before, landing = self._longest(goal), math.inf, 0
+        fresh = lo == self.kinked
         while True:
             step_done(0)
-            if length < SHORTEST * goal or len(panels) > MOST:
+            if length < SHORTEST * goal or len(self.panels) > MOST:
                 raise ContactError(self._unresolved())
             panel = self._solved(lo, length)
             if panel is None:
@@ -248,37 +248,50 @@ class March:
             missed = self._missed(panel, goal)
             if missed > NEGLIGIBLE and missed <= NO_LESS * before:
                 before, landing = missed, 0
-                length *= CUT if not at_kink else max((NEGLIGIBLE / missed) ** STEEPLY, LEAST_CUT)
+                length *= max((NEGLIGIBLE / missed) ** STEEPLY, LEAST_CUT) if fresh else CUT
                 continue
             if missed > UNRESOLVED:
                 raise ContactError(self._unresolved())
             break
-        self._next = GROWN * length if before < math.inf and not at_kink else math.inf
         self._accept(panel)
-        if at_kink:
-            self._refuse_many(goal)
         return panel
 
-    def _solved(self, lo: float, length: float) -> UnevenPanel | None:
-        panels = self.history.panels
-        last = panels[-1] if panels else None
-        rate = float(last.rates.sum()) if last else self.rate
-        middle = last.middle + last.whole_shift if last else self.middle
-        power = 0.0 if last else self.power
-        empty = UnevenPanel(lo, lo + length, power, middle, np.zeros(1), np.array([rate]))
-        sides = Side(self.edges[0].values, 1.0), Side(self.edges[1].values, -1.0)
-        return collocated(self.history, empty, sides)
+    def _longest(self, goal: float) -> float:
+        """How long a panel is tried."""
+        lo = self.s
+        length, rate = goal - lo, self.rate
+        if self.panels:
+            last = self.panels[-1]
+            rate = float(last.turn(np.array(last.length)))
+        if lo > self.kinked:
+            length = min(length, math.expm1(FOLDS) * (lo - self.kinked))
+        for edge in self.edges:
+            length = min(length, BEYOND * edge.end / (1.0 + edge.sign * rate))
+        return length
 
-    def _missed(self, panel: UnevenPanel, goal: float) -> float:
+    def _solved(self, lo: float, length: float) -> Panel | None:
+        last = self.panels[-1] if self.panels else None
+        behind, power = (lo - self.kinked or math.inf, 0.0) if last else (math.inf, self.power)
+        middle = last.middle + last.whole_shift if last else self.middle
+        rate = float(last.turn(np.array(last.length))) if last else self.rate
+        degree = 1 if self.exponent else DEGREE
+        series = np.zeros(degree)
+        empty = Panel(lo, lo + length, power, behind, middle, series, series)
+        shifts = chebyshev.transform(rate * empty.ahead(chebyshev.points(degree)))
+        sides = tuple(Side(edge.values, edge.sign) for edge in self.edges)
+        return collocated(self.flat, self.panels, replace(empty, shifts=shifts), sides)
+
+    def _missed(self, panel: Panel, goal: float) -> float:
         """What the last coefficients of both series carry, in parts of the load and of the goal."""
+        if self.exponent:
+            return 0.0
         size, length = np.abs(panel.series), panel.length
         tail = float(size[-3:].max())
         load = tail * length ** (1.0 + panel.power) if tail > DECAYED * size.max() else 0.0
-        turned = float(np.abs(panel.rates[-3:]).max())
-        turned = turned * length / goal if turned > DECAYED else 0.0
-        return max(load / self._scale, turned)
+        turned = float(np.abs(panel.shifts[-3:]).max())
+        return max(load / self._scale, turned / goal if turned > DECAYED * length else 0.0)
 
-    def _crossing(self, panel: UnevenPanel) -> float:
+    def _crossing(self, panel: Panel) -> float:
         """How far ahead an edge meets its next kink, the length of the panel if none does."""
         ahead = panel.length
         for edge in self.edges:
@@ -287,7 +300,7 @@ class March:
                 continue
 
             def beyond(d: float, edge: Edge = edge, far: float = far) -> float:
-                moved = float(panel.moved(np.zeros(1), np.array([d]))[0])
+                moved = float(panel.moved(np.array(0.0), np.array(d)))
                 return d + edge.sign * moved - far
 
             ends = -far, beyond(panel.length)
@@ -295,30 +308,15 @@ class March:
             ahead = min(ahead, found)
         return ahead
 
-    def _accept(self, panel: UnevenPanel) -> None:
-        history = self.history
+    def _accept(self, panel: Panel) -> None:
         self.load += panel.load(math.inf)
-        history.panels.append(panel)
+        self.panels.append(panel)
         for edge in self.edges:
             edge.moved(panel.spread(edge.sign))
             if not edge.stays and abs(edge.end) <= 10.0 * LANDED * panel.hi:
                 edge.passed()
                 self.kinked = panel.hi
                 self.kinks.append(panel.hi)
-
-    def _refuse_many(self, goal: float) -> None:
-        """Raises ContactError where so many panels a kink as so far are too many by far."""
-        n, passed = len(self.history.panels), len(self.kinks)
-        breaks = self.edges[0].slope.breaks
-        ahead = sum(abs(breaks - self.middle) < goal) - passed
-        if passed < TELLING or n + ahead * n / passed < SURELY * MOST:
-            return
-        raise ContactError(
-            f"the contact of dissimilar bodies grows over {passed + ahead} places where h'' or h' "
-            f"jumps, as at the points of a trace, and takes {n} steps over the first {passed}: its "
-            f"growth is solved in {MOST} steps at most; smooth the profile, give fewer points of "
-            f"it, lower the load, {NEGLECT}"
-        )
 
     @property
     def stopped(self) -> Edge | None:
@@ -337,12 +335,12 @@ class March:
         )
 
 
-def refuse_turning(panel: UnevenPanel, ahead: float, before: float, flat: FlatFunctions) -> None:
+def refuse_turning(panel: Panel, ahead: float, before: float, flat: FlatPunch) -> None:
     """Raises ContactError where an end of the stick zone would move back, or P' < 0."""
     even = ahead * (np.arange(LOOKS) + 1.0) / LOOKS
     start = ahead * NEAR_START if panel.power else np.zeros(1)
     places = np.append(start, even)
-    excess, load = np.abs(panel.rate(places)) - flat.c, panel(even)
+    excess, load = np.abs(panel.turn(places)) - flat.c, panel(even)
     turned = np.flatnonzero(excess >= 0.0)
     if turned.size:
         k = int(turned[0])
@@ -350,13 +348,13 @@ def refuse_turning(panel: UnevenPanel, ahead: float, before: float, flat: FlatFu
         if k:
             ends = float(excess[k - 1]), float(excess[k])
             first = false_position(
-                lambda d: abs(float(panel.rate(np.array([d]))[0])) - flat.c,
+                lambda d: abs(float(panel.turn(np.array(d)))) - flat.c,
                 float(places[k - 1]),
                 first,
                 ends,
                 never,
             )
-        turn = float(panel.rate(np.array([first]))[0])
+        turn = float(panel.turn(np.array(first)))
         raise ContactError(_turning(panel.lo + first, before + panel.load(first), turn, flat.c))
     if (load < -FALLING * np.abs(load).max()).any():
         raise ContactError(
