@@ -195,7 +195,7 @@ class LoadedContact:
     def kept(self) -> tuple[tuple[float, float], Any]:
         """What sticks, and the state that its slip gradient was locked in by."""
         before = self.loaded.before
-        earlier = self.pressed
+        earlier: Any = self.pressed
         if before is not None and before.before is not None:
             earlier = replace(self, loaded=before)
         return self.stick[0], earlier
@@ -333,7 +333,7 @@ def pressed_marks(pressed: CoupledContact | UnevenContact) -> tuple[float, ...]:
     return tuple(sorted({axis, *(axis + s * y for y in pressed.marks[:-1] for s in (-1.0, 1.0))}))
 
 
-def locked_in(pressed: CoupledContact | UnevenContact, slope: Any, origin: float) -> Any:
+def locked_in(pressed: Any, slope: Any, origin: float) -> Any:
     """γ under P alone as a function of the place about the origin."""
     from .gradient import SlipGradient  # noqa: PLC0415 -- of symmetric profiles alone
 

@@ -253,7 +253,7 @@ def guess(base: Loaded, Q: float, strain: float) -> Zones | None:
         if sliding is not None:
             states = [(1.0 - part, base.fields, old)]
             states.append((part, Fields(sliding), sliding.pieces.ends))
-    x1, x2 = sum(part * ends for part, _, ends in states)
+    x1, x2 = np.sum([part * ends for part, _, ends in states], axis=0).tolist()
     cuts = cuts_between(x1, x2)
     x = 0.5 * (cuts[1:] + cuts[:-1])
     p, q = np.zeros(len(x)), np.zeros(len(x))

@@ -33,7 +33,19 @@ CLOSE = 1e-5  # parts that are one, where zones are told from known ones
 NARROW = 1e-5  # of an interval: the power there is taken for that farther in
 SMALL = 0.03  # of a step: where powers may be told from later ones
 TURNED = 1e-4  # of the power: what slip against q may take from it
-RETURNED = 1.0 - 1e-5  # the part at which zones are told where a loop closes at the end
+TOWARDS_RETURN = (
+    0.5,
+    0.8,
+    0.9,
+    0.95,
+    0.98,
+    0.99,
+    0.995,
+    0.998,
+    0.999,
+    0.9995,
+    0.9999,
+)  # parts before a loop is closed at the end
 APART = 1e-6  # of the step: marks that are passed nearer to its ends are not divided at
 
 
@@ -88,7 +100,9 @@ class Way:
     @cached_property
     def divided(self) -> tuple[float, ...]:
         """Parts between which the power is smooth, with 0 and 1."""
-        insort(self.known, (RETURNED if self.returns else 1.0, self._ending))
+        ending = self._ending
+        if not self.returns:
+            insort(self.known, (1.0, ending))
         if not (self.turned or self.returns):
             insort(self.known, (0.0, self.previous.zones))
         first, last = self._beginning, self._ending.ends
@@ -108,10 +122,12 @@ class Way:
         """The zones at the end, where a loop that is closed there has not yet been left."""
         if not self.returns:
             return self.after.zones
-        state = self._found(RETURNED)
-        if state is None:
-            raise _unknown()
-        return Zones(state.pieces.left, state.pieces.widths, state.pieces.signs)
+        for part in TOWARDS_RETURN:
+            state = self._found(part)
+            if state is None:
+                raise _unknown()
+            self._keep(part, state)
+        return self.known[-1][1]
 
     @cached_property
     def _beginning(self) -> Array:
