@@ -33,6 +33,7 @@ CLOSE = 1e-5  # parts that are one, where zones are told from known ones
 NARROW = 1e-5  # of an interval: the power there is taken for that farther in
 SMALL = 0.03  # of a step: where powers may be told from later ones
 TURNED = 1e-4  # of the power: what slip against q may take from it
+# Parts of a step before a loop is closed at its end
 TOWARDS_RETURN = (
     0.5,
     0.8,
@@ -45,7 +46,7 @@ TOWARDS_RETURN = (
     0.999,
     0.9995,
     0.9999,
-)  # parts before a loop is closed at the end
+)
 APART = 1e-6  # of the step: marks that are passed nearer to its ends are not divided at
 
 
