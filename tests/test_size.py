@@ -18,7 +18,7 @@ LINES = {
     "cli": 910,
     "contact": 2800,
     "examples": 10,
-    "friction": 13310,
+    "friction": 13370,
     "io": 4680,
     "live": 1190,
     "numerics": 2210,

@@ -166,7 +166,7 @@ class DissimilarCycle(SteadyCycle):
         return at_B - at_A
 
     @property
-    def shear_change(self) -> Density:  # type: ignore[override]
+    def shear_change(self) -> Density:
         """q_A - q_B, a `Density` in units of stress."""
         at_A, at_B = (solution.shear for solution in self._solutions)
         return superposed((1.0, at_A), (-1.0, at_B))

@@ -127,6 +127,7 @@ def test_a_cycle_of_steel_on_titanium_is_certified_at_every_point():
     )
     points = [(100.0, 20.0, 0.0), (100.0, 5.0, 0.0), (100.0, -20.0, 0.0)]
     history = sie.follow(pad, sie.Path([(100.0, 0.0, 0.0), *points]))
+    assert all(point.energy_lost >= 0.0 for point in history)
     assert all(point.check().ok for point in history)
     assert history[3].tangential_load == -20.0
 
@@ -238,6 +239,18 @@ def test_energy_does_not_depend_on_how_a_load_is_divided():
     whole, parts = followed(0.45), followed(0.2, 0.45)
     assert parts[2].energy_lost == pytest.approx(whole[1].energy_lost, rel=1e-6)
     assert ends(parts[2]) == pytest.approx(ends(whole[1]), abs=1e-10)
+
+
+@pytest.mark.slow
+def test_energy_of_a_step_in_which_stick_passes_earlier_ends_is_that_of_its_parts():
+    whole, parts = followed(0.5, -0.5), followed(0.5, 0.1, -0.2, -0.4, -0.5)
+    assert parts[5].energy_lost == pytest.approx(whole[2].energy_lost, rel=1e-6)
+
+
+def test_slip_within_the_stick_zone_is_refused():
+    history = [(P, 0.0, 0.0), (P, 0.15 * P, 0.0), (P, 0.15 * P, 0.2)]
+    with pytest.raises(sie.ContactError, match="dundurs = 0"):
+        sie.follow(dissimilar(None, normal_load=P), sie.Path(history))
 
 
 @pytest.mark.slow

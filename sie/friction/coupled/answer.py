@@ -110,7 +110,7 @@ class LoadedContact(View):
     def kept(self) -> tuple[tuple[float, float], Any]:
         """What sticks, and the state that its slip gradient was locked in by."""
         before = self.loaded.before
-        earlier = self.pressed
+        earlier: Any = self.pressed
         if before is not None and before.before is not None:
             earlier = replace(self, loaded=before)
         return self.stick[0], earlier

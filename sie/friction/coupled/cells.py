@@ -51,6 +51,8 @@ def zones_on_cells(cells: Carried, dQ: float, strain: float) -> Zones | None:
     signs, change = _signs(cells, dQ, strain)
     if signs.all():
         return None
+    stuck = np.flatnonzero(signs == 0)
+    signs[stuck[0] : stuck[-1]] = 0  # slip inside the stick zone is not solved
     stretches = _runs(signs)
     ends = [float(cells.cuts[a]) for a, _, _ in stretches] + [float(cells.cuts[-1])]
     kinds = [sign for _, _, sign in stretches]

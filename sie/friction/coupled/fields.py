@@ -228,9 +228,12 @@ class Fields:
     def whole(self) -> tuple[Places, Array]:
         """The nodes of all shifts, piece by piece in ascending order, and rows of p, q and γ."""
         rules, rows = self._rules
-        numbers = [np.arange(len(rule.x))[None] * SHIFTS + k for k, rule in enumerate(rules)]
+        numbers = [
+            SHIFTS * np.arange(len(rule.x), dtype=float)[None] + k for k, rule in enumerate(rules)
+        ]
         pieces = range(len(self.state.pieces.lengths))
         order = np.concatenate([self._merged(rules, numbers, piece)[0] for piece in pieces])
+        order = order.astype(int)
         every = Places(*(np.stack(c, axis=1).ravel()[order] for c in zip(*rules, strict=True)))
         fields = np.stack(rows, axis=2).reshape(3, -1)[:, order]
         return every._replace(weight=every.weight / SHIFTS), fields

@@ -181,7 +181,7 @@ def _descended(
             slopes, fresh = _slopes(trial, u, missed), True
         if not np.isfinite(slopes).all():
             return None
-        step = np.linalg.lstsq(slopes, -missed, rcond=None)[0]
+        step = np.asarray(np.linalg.lstsq(slopes, -missed, rcond=None)[0], dtype=float)
         step *= min(1.0, FOLDS / float(np.abs(step).max()))
         shortened = _shortened(trial, u, step, size)
         if shortened is None:

@@ -112,7 +112,7 @@ class State:
         stuck = t.chosen(sticks)
         source = (self.of_slope(stuck) - beta * self.question.gamma(stuck.x)) / (1.0 - beta**2)
         L, M = L[:, sticks], M / (1.0 - beta**2)
-        D = np.linalg.solve(np.eye(len(d0)) - L @ M, L @ source + d0)
+        D = np.asarray(np.linalg.solve(np.eye(len(d0)) - L @ M, L @ source + d0), dtype=float)
         p = M @ D + source
         mass = np.empty(len(t.x))
         mass[sticks], mass[~sticks] = p, slip

@@ -27,8 +27,8 @@ Array = NDArray[np.float64]
 CLOSED = 1e-12  # of f P: loads that are the same
 TOLERATED = 1e-9  # of the largest f p, and of the largest slip: what the verdict forgives
 AWAY = 0.05  # of the stick zone: how far its ends go about, times the root of the part of f P
-BEYOND, MOST_OTHERS = 0.02, 6  # of the way from a mark to the edge; starts beyond marks
-HALVINGS = 3  # of a step whose end is not found at once
+BEYOND, MOST_OTHERS = 0.02, 4  # of the way from a mark to the edge; starts beyond marks
+HALVINGS = 2  # of a step whose end is not found at once
 
 
 @dataclass(frozen=True, eq=False)
@@ -253,7 +253,7 @@ def guess(base: Loaded, Q: float, strain: float) -> Zones | None:
         if sliding is not None:
             states = [(1.0 - part, base.fields, old)]
             states.append((part, Fields(sliding), sliding.pieces.ends))
-    x1, x2 = sum(part * ends for part, _, ends in states)
+    x1, x2 = np.sum([part * ends for part, _, ends in states], axis=0).tolist()
     cuts = cuts_between(x1, x2)
     x = 0.5 * (cuts[1:] + cuts[:-1])
     p, q = np.zeros(len(x)), np.zeros(len(x))
@@ -279,8 +279,8 @@ def beyond_marks(near: Zones | None, marks: tuple[float, ...]) -> Iterator[Zones
     x1, e1, e2, x2 = near.ends.tolist()
     lefts = [mark - BEYOND * (mark - x1) for mark in marks[::-1] if x1 < mark < e1]
     rights = [mark + BEYOND * (x2 - mark) for mark in marks if e2 < mark < x2]
-    pairs = [(e1, right) for right in rights] + [(left, e2) for left in lefts]
-    pairs += list(zip(lefts[-1:], rights[-1:], strict=False))
+    pairs = list(zip(lefts[-1:], rights[-1:], strict=False))
+    pairs += [(e1, right) for right in rights[::-1]] + [(left, e2) for left in lefts[::-1]]
     for first, last in pairs[:MOST_OTHERS]:
         yield zones_between(np.array([x1, first, last, x2]), near.signs)
 

@@ -31,7 +31,22 @@ PROMISED = 3e-7  # of the energy of a part of a step: what must be reached
 FLATNESS = 3  # power of the distance from a load where the power is not smooth
 CLOSE = 1e-5  # parts that are one, where zones are told from known ones
 NARROW = 1e-5  # of an interval: the power there is taken for that farther in
-TURNED = 1e-4  # of the largest rate of slip: what may go against q
+SMALL = 0.03  # of a step: where powers may be told from later ones
+TURNED = 1e-4  # of the power: what slip against q may take from it
+# Parts of a step before a loop is closed at its end
+TOWARDS_RETURN = (
+    0.5,
+    0.8,
+    0.9,
+    0.95,
+    0.98,
+    0.99,
+    0.995,
+    0.998,
+    0.999,
+    0.9995,
+    0.9999,
+)
 APART = 1e-6  # of the step: marks that are passed nearer to its ends are not divided at
 
 
@@ -56,17 +71,24 @@ class Way:
     after       that after it
     base        what is locked in
     known       zones that were found, by the part, ascending
+    lost        the part up to which there is no state after a turn
     """
 
     previous: Loaded
     after: Loaded
     base: Loaded
     known: list[tuple[float, Zones]] = field(default_factory=list)
+    lost: list[float] = field(default_factory=lambda: [0.0])
 
     @property
     def turned(self) -> bool:
         """Whether the loads turned at the beginning."""
         return self.base is self.previous
+
+    @property
+    def returns(self) -> bool:
+        """Whether a loop closes at the end: then zones jump to those that were there before."""
+        return self.after.base is not None
 
     @cached_property
     def marks(self) -> tuple[float, ...]:
@@ -79,8 +101,10 @@ class Way:
     @cached_property
     def divided(self) -> tuple[float, ...]:
         """Parts between which the power is smooth, with 0 and 1."""
-        insort(self.known, (1.0, self._ending))
-        if not self.turned and self.after.base is None:
+        ending = self._ending
+        if not self.returns:
+            insort(self.known, (1.0, ending))
+        if not (self.turned or self.returns):
             insort(self.known, (0.0, self.previous.zones))
         first, last = self._beginning, self._ending.ends
         kinks = self.after.question.slope.kinks
@@ -97,15 +121,14 @@ class Way:
     @cached_property
     def _ending(self) -> Zones:
         """The zones at the end, where a loop that is closed there has not yet been left."""
-        if self.after.base is None:
+        if not self.returns:
             return self.after.zones
-        near = self.guess(1.0)
-        starts = [near, *beyond_marks(near, self.marks)] if near else []
-        found = (settled(self.question(1.0), zones, self.marks, ROUGHLY) for zones in starts)
-        state = next((state for state in found if state is not None), None)
-        if state is None:
-            raise _unknown()
-        return Zones(state.pieces.left, state.pieces.widths, state.pieces.signs)
+        for part in TOWARDS_RETURN:
+            state = self._found(part)
+            if state is None:
+                raise _unknown()
+            self._keep(part, state)
+        return self.known[-1][1]
 
     @cached_property
     def _beginning(self) -> Array:
@@ -149,6 +172,8 @@ class Way:
 
         After a turn widths grow about as powers of the part.
         """
+        if not self.known:
+            return None
         closest = sorted(self.known, key=lambda known: abs(known[0] - part))[:2]
         (a, one), (b, other) = closest[0], closest[-1]
         if a == part:
@@ -157,7 +182,10 @@ class Way:
             return self.guess(part)
         outside = self.turned and part < min(a, b)
         weight = math.log(part / a) / math.log(b / a) if outside else (part - a) / (b - a)
-        x1, x2 = one.ends[[0, -1]] + weight * (other.ends[[0, -1]] - one.ends[[0, -1]])
+        edges, share = other.ends[[0, -1]], 1.0 - weight
+        if outside:
+            edges, share = self.previous.zones.ends[[0, -1]], part / a
+        x1, x2 = edges + share * (one.ends[[0, -1]] - edges)
         slips, more = (np.log([known.widths[0], known.widths[-1]]) for known in (one, other))
         left, right = np.exp(slips + weight * (more - slips)).tolist()
         if left + right >= x2 - x1:
@@ -180,30 +208,42 @@ class Way:
             return
         insort(self.known, (part, Zones(pieces.left, pieces.widths, pieces.signs)))
 
-    def power(self, part: float) -> float:
-        """∫ f p |dg| dx at a part of the step, per part."""
-        question = self.question(part)
-        found = (settled(question, zones, self.marks, ROUGHLY) for zones in self._starts(part))
-        state = next((state for state in found if state is not None), None)
+    def power(self, part: float) -> float | None:
+        """∫ f p |dg| dx at a part of the step, per part.
+
+        None soon after a turn where there is no state, as contact that is gained sticks first.
+        """
+        if self.turned and part < self.lost[0]:
+            return None
+        state = self._found(part)
+        if state is None and self.turned and part < SMALL:
+            self.lost[0] = part
+            return None
         if state is None or state.pieces.signs != self._ending.signs:
             raise _unknown()
         self._keep(part, state)
         return power(state, *self.after.step)
+
+    def _found(self, part: float) -> State | None:
+        """The state at a part of the step, roughly."""
+        question = self.question(part)
+        found = (settled(question, zones, self.marks, ROUGHLY) for zones in self._starts(part))
+        return next((state for state in found if state is not None), None)
 
 
 def power(state: State, dQ: float, strain: float) -> float:
     """∫ f p |dg| dx of a rate."""
     rates = state.rates(dQ, strain)
     slip = slip_along(state, rates.at, rates.gamma - strain)
-    if slip.min() < -TURNED * slip.max():
+    lost = rates.at.weight * state.question.friction * state.pressure_in_slip(rates.at) * slip
+    if lost[lost < 0.0].sum() < -TURNED * lost.sum():
         raise _unknown()
-    p = state.pressure_in_slip(rates.at)
-    return float(rates.at.weight @ (state.question.friction * p * slip))
+    return float(lost.sum())
 
 
 def _summed(way: Way, first: float, last: float) -> float:
     """The integral of the power over a part of a step."""
-    rough, values = (first > 0.0 or way.turned, last < 1.0), dict[float, float]()
+    rough, values = (first > 0.0 or way.turned, last < 1.0 or way.returns), dict[float, float]()
     sums: list[float] = []
     for n in INTERVALS:
         sums.append((last - first) * _sum_of_rule(way, (first, last), rough, values, n))
@@ -232,10 +272,25 @@ def _sum_of_rule(
     inside = ((s > NARROW) | (not rough[0])) & ((s < 1.0 - NARROW) | (not rough[1]))
     for part in s[inside][::-1].tolist():
         if part not in values:
-            values[part] = way.power(ends[0] + (ends[1] - ends[0]) * part)
-    known = sorted(values)
-    powers = np.interp(s, known, [values[part] for part in known])
-    return float(weight * slope @ powers)
+            power = way.power(ends[0] + (ends[1] - ends[0]) * part)
+            if power is not None:
+                values[part] = power
+    return float(weight * slope @ _filled(s, values, ends[0] == 0.0 and way.turned))
+
+
+def _filled(s: Array, values: dict[float, float], turned: bool) -> Array:
+    """Powers, of which those that are not known are told from the others.
+
+    After a turn they go on as a power of the part.
+    """
+    known = np.array(sorted(values))
+    powers = np.array([values[part] for part in known.tolist()])
+    filled: Array = np.interp(s, known, powers)
+    if turned and len(known) > 1:
+        lower = (s < known[0]) & (s > 0.0)
+        exponent = math.log(powers[1] / powers[0]) / math.log(known[1] / known[0])
+        filled[lower] = powers[0] * (s[lower] / known[0]) ** max(exponent, 0.0)
+    return filled
 
 
 def _flattened(v: Array, at_first: bool, at_last: bool) -> tuple[Array, Array]:
