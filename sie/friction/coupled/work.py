@@ -27,7 +27,7 @@ from .step import Loaded, beyond_marks, guess, slip_along
 Array = NDArray[np.float64]
 
 INTERVALS = (2, 4, 8, 16, 32)  # of the rule, one after the other
-PROMISED = 3e-7  # of the energy of a part of a step: what must be reached
+PROMISED = 3e-7  # of the energy of a step: what must be reached
 FLATNESS = 3  # power of the distance from a load where the power is not smooth
 CLOSE = 1e-5  # parts that are one, where zones are told from known ones
 NARROW = 1e-5  # of an interval: the power there is taken for that farther in
@@ -58,9 +58,11 @@ def work(previous: Loaded, after: Loaded) -> float:
     base = after.base or after.before
     if base is None or after is previous:
         return 0.0
-    way = Way(previous, after, base)
-    parts = way.divided
-    return sum(_summed(way, *ends) for ends in pairwise(parts))
+    way, total = Way(previous, after, base), 0.0
+    # the longest first: of a short part fewer digits count
+    for first, last in sorted(pairwise(way.divided), key=lambda ends: ends[0] - ends[1]):
+        total += _summed(way, first, last, total)
+    return total
 
 
 @dataclass(frozen=True, eq=False)
@@ -241,13 +243,13 @@ def power(state: State, dQ: float, strain: float) -> float:
     return float(lost.sum())
 
 
-def _summed(way: Way, first: float, last: float) -> float:
-    """The integral of the power over a part of a step."""
+def _summed(way: Way, first: float, last: float, total: float) -> float:
+    """The integral of the power over a part of a step, beside that over others."""
     rough, values = (first > 0.0 or way.turned, last < 1.0 or way.returns), dict[float, float]()
     sums: list[float] = []
     for n in INTERVALS:
         sums.append((last - first) * _sum_of_rule(way, (first, last), rough, values, n))
-        if len(sums) > 1 and _error(sums) <= PROMISED * sums[-1]:
+        if len(sums) > 1 and _error(sums) <= PROMISED * (sums[-1] + total):
             return sums[-1]
     raise _unknown()
 
