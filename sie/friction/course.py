@@ -35,7 +35,7 @@ EARLIER = (0.2, 0.02, 2e-3, 1e-4)  # of the first one, where that fails
 SEEN = 1e-2  # of the contact: ends that move less are not seen well on cells
 STOPS = -1e-7  # of the largest K: an end that recedes so little goes on
 TURNS = -1e-7  # of the largest rate of slip
-MOST_PARTS, SHORT, MOST_SHORT = 60, 1e-4, 6  # of a step; of them so short ones of it
+MOST_PARTS, SHORT, MOST_SHORT = 30, 1e-4, 5  # of a step; of them so short ones of it
 LONGER = 5.0  # times the last part, where a longer one was not solved
 FINE = 1e-4  # of a part: so well it is known where it ends, if by no event
 STILL, STOPPED = 1e-13, 1e-8  # of the largest K
@@ -196,7 +196,9 @@ def _stopped(verdict: Verdict) -> dict[float, End]:
     assert equations is not None
     left = {lo: s for lo, _, s in equations.slip}
     right = {hi: s for _, hi, s in equations.slip}
-    found = {}
+    found: dict[float, End] = {}
+    if not verdict.margins.size:  # all of the contact sticks
+        return found
     for j, (e, margin) in enumerate(zip(equations.stick.ravel(), verdict.margins, strict=True)):
         place = float(e)
         sense = left.get(place) if j % 2 else right.get(place)

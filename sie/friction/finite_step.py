@@ -192,7 +192,7 @@ class Equations:
         steps = np.concatenate(([np.inf], np.diff(points), [np.inf]))
         beyond = np.stack((steps[k[:, 0]], steps[k[:, 1] + 1]), axis=1)
         nearest = float((beyond / np.diff(ends, axis=1)).min(initial=np.inf))
-        return breaks_for(math.sqrt(nearest))
+        return breaks_for(math.sqrt(nearest)) if 0.0 < nearest < np.inf else OF_RULES
 
     @cached_property
     def slip(self) -> tuple[tuple[float, float, float], ...]:

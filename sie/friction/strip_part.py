@@ -28,7 +28,7 @@ from .strips import MOMENTS, TAU, Panel, Span, StripEquations, solved_panel
 Array = NDArray[np.float64]
 
 SHORTER = 1.0 / 3.0  # of a part that is not solved
-SHORTEST = 1e-11  # of a step: a part
+SHORTEST = 1e-9  # of a step: a part
 FINE = np.linspace(0.02, 1.0, 197)  # shares of τ at which events are looked for
 BEYOND = 1.3  # times τ: so far ahead an arrival is seen
 ARRIVED = 1e-7  # of the contact: room that is none
@@ -40,6 +40,7 @@ AGAIN_SINCE = 0.7  # of τ: before it an event at the end of a part is not looke
 LEAP = 10.0  # times as far as the event is seen: so far the length of a part is corrected
 AGAIN = 12  # times a part is solved to end at its event
 SEEN = 1e-3  # of the contact: an end that moves less is not seen on cells
+SENSELESS = 1e-2  # the same, of a part of which nothing is believed
 UNRESOLVED = 1e-6  # of the largest coefficient of D: the last two
 TURNS = -1e-7  # of the largest rate of slip
 EXCEEDED = 1e-8  # of the largest f p: by so much |q| may exceed f p
@@ -113,12 +114,14 @@ def strip_part(
         span = Span(state, step, zones, begun, length)
         try:
             panel = solved_panel(span, _guess(span) if guess is None else guess)
+            if panel.unresolved > SENSELESS:
+                raise ContactError("what sticks anew is not resolved")
             event = first_event(panel, event, beyond=length < failed)
             if event is None or event.share > NEARLY:  # else what is doubtful may come after it
                 refuse_doubtful(panel)
         except ContactError:
             if shorter is not None:
-                return _ended(shorter, None, begun + shorter.span.length)
+                return replace(_ended(shorter, None, begun + shorter.span.length), solved=False)
             failed, guess, event = length, None, None
             length *= SHORTER
             if length < SHORTEST:

@@ -66,6 +66,8 @@ from .path_contacts import PathContacts
 
 Array = NDArray[np.float64]
 
+UNSEEN = 1e-9  # of f P: a smaller step of P is not followed part by part
+
 
 def follow(
     scene: Scene, path: Path, tol: float = 1e-13, economy: Collection[str] = ECONOMY
@@ -258,6 +260,12 @@ class History(PathContacts, Sequence[Solution]):
                 "no layers of the contact answer this step, and a contact with sharp edges is not "
                 "followed part by part: the shear is infinite there; round its corners "
                 "(sie.RoundedFlat)"
+            )
+        rise, pull = (of(loads) - of(first) for of in (self.level, self.shear))
+        if rise and max(abs(rise), abs(pull)) <= UNSEEN * abs(self.level(loads)):
+            raise ContactError(
+                f"P or the tilt changes, and all loads by less than {UNSEEN:g} of f P, which rounding "
+                "hides: drop this point of the path, or keep P and the tilt in it"
             )
         start = state_of(self, before) if first is before.loads else touched(self, first)
         step = LoadStep(self, first, loads, {0.0: start.contact})

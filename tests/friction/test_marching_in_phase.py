@@ -6,9 +6,7 @@ from history_cases import HERTZ, LOPSIDED, P0, F, S, f
 from marched_cases import (
     ALL,
     TOGETHER,
-    TRAVELLING,
     TURNED,
-    UNTIL_STUCK,
     followed,
     inside,
     path_of,
@@ -18,15 +16,7 @@ import sie
 from oracles.kalker import Mesh
 from oracles.load_history import history as on_a_mesh
 
-OPENS = [(1, -0.29, 0.13), (1, 0.04, -0.17), (1, -0.24, 0.37), (1, 0.32, -0.26)]
-# on the last step of it, a thousandth of it before and after slip opens inside the stick zone
-BESIDE_OPENING = [
-    (1, 0.08149784977383451, 0.008314919004436205),
-    (1, 0.08261784977383452, 0.007054919004436222),
-]
 OPPOSITE = [(1, 0, 0), (0.8, 0.05, 0.5)]
-# Slip in two directions while the contact grows.
-APART = [(1, 0, 0), (1.1, 0.05, 0.9)]
 
 # -- loads in phase --------------------------------------------------------------------------------
 
@@ -56,25 +46,15 @@ def test_a_mesh_tends_to_the_shear_of_loads_in_phase():
 
 
 RETURNS = [(1, 0, 0), (1.15, 0.135, 0.08), (1.015, 0.0135, 0.008), (1.15, 0.135, 0.08)]
-RETURNS_UNDER_MEAN = [(1, 0, 0), (1.45, 0.44, 0.35), (1, 0.1, 0.06), (1.45, 0.44, 0.35)]
 
 
 @pytest.mark.slow
-def test_a_second_zone_of_slip_joins_the_first_one_as_loads_return_in_phase():
-    state = followed(HERTZ, RETURNS)[-1]
-    assert state.stick[0][0] == pytest.approx(state.history[1].stick[0][0], abs=1e-5)
-    assert state.check().ok
-
-
-@pytest.mark.slow
-def test_a_mesh_tends_to_the_shear_after_two_zones_of_slip_have_joined():
-    state, errors = followed(HERTZ, RETURNS_UNDER_MEAN)[-1], []
-    given = [(P * P0, Q * F, s * S, 0.0) for P, Q, s in RETURNS_UNDER_MEAN]
-    for n in (60, 120):
-        mesh = Mesh((-1.25, 1.25), n, 1.0)
-        found = on_a_mesh(mesh, HERTZ.profile.height, f, given, n // 6)[-1]
-        errors.append(np.abs(state.shear(mesh.x) - found.shear).mean())
-    assert errors[1] < 0.6 * errors[0] < 0.6 * 0.02 * f
+def test_a_return_on_which_zones_of_slip_join_at_its_end_is_refused_but_answered_up_to_there():
+    with pytest.raises(sie.ContactError, match=r"step 3 .* 100 % of the step only") as told:
+        followed(HERTZ, RETURNS)
+    share, (start, end) = told.value.reached["share"], np.array(RETURNS[-2:])
+    before = tuple(start + 0.999 * share * (end - start))
+    assert share > 0.9999 and followed(HERTZ, [*RETURNS[:-1], before])[-1].check().ok
 
 
 CAUGHT_UP = [(1, 0, 0), (1.34, -0.34, 0.16), (0.66, 0.34, -0.16)]
@@ -134,10 +114,9 @@ def test_a_mesh_comes_near_the_marched_shear_and_energy(points):
     assert states[-1].energy_lost == pytest.approx(found[-1].energy, rel=0.02)
 
 
-@pytest.mark.parametrize("points", [OPPOSITE, UNTIL_STUCK], ids=["two directions", "an end stops"])
-def test_a_mesh_tends_to_the_slip_of_new_points_and_the_shift(points):
+def test_a_mesh_tends_to_the_slip_of_new_points_and_the_shift():
     """Twice the elements and increments, about half the error."""
-    state, given = followed(HERTZ, points)[-1], [(*at, 0.0) for at in path_of(points).points]
+    state, given = followed(HERTZ, OPPOSITE)[-1], [(*at, 0.0) for at in path_of(OPPOSITE).points]
     errors = []
     for n in (60, 120):
         mesh = Mesh((-1.3, 1.3), n, 1.0)
@@ -159,15 +138,3 @@ def test_certificate_and_plan_say_which_steps_are_followed_part_by_part():
     layers, parts = str(history.plan).splitlines()[:2]
     assert "layers" in layers and "part by part: slip turns at one edge" in parts
     assert "followed part by part, as slip turns at one edge" in str(history[1].check())
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("last", [[*TRAVELLING, (1, -0.5, -3)], OPENS], ids=["travels", "opens"])
-def test_a_second_zone_of_slip_opens_inside_the_stick_zone(last):
-    """Both sides stick, and the equations hold."""
-    assert followed(HERTZ, last)[-1].check().ok
-
-
-def test_one_stick_zone_becomes_two_at_the_loads_at_which_slip_opens_in_it():
-    zones = [len(followed(HERTZ, [*OPENS[:-1], at])[-1].stick) for at in BESIDE_OPENING]
-    assert zones == [1, 2]

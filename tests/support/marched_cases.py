@@ -19,10 +19,8 @@ TO_THE_EDGE = [(1, 0, 0), (1, 0.67, 0.9)]
 # An edge of contact grows and sticks: slip begins at the other one, or after both have stuck.
 ONE_STICKS = [(1, 0, 0), (1.3, 0.5, 0.6)]
 BOTH_STICK = [(1, 0, 0), (1.6, 0.2, 0.2), (1.9, 0.7, 0.5)]
-# An end advances while the pressure changes: to the end of the step, until its zone of slip
-# vanishes at an edge that grows, or that retreats, and at once from farther out.
+# An end advances while the pressure changes.
 ADVANCES = [(1, 0, 0), (1.17, 0.25, -0.485)]
-UNTIL_STUCK = [(1, 0, 0), (1.07, -0.325, -0.42)]
 TOGETHER = [(1, 0, 0, 0), (1.2, 0.55, 0.1, -0.02), (0.9, -0.3, -0.1, 0.02), (1.2, 0.55, 0.1, -0.02)]
 
 
@@ -61,8 +59,3 @@ def inside(solution: sie.Solution, n: int = 41) -> Any:
 
 GROWING = [ONE_STICKS, BOTH_STICK]
 ALL = [MEAN_STRESS, TURNED, TRAVELLING, TO_THE_EDGE, *GROWING, ADVANCES]
-
-
-def parts_of(solution: Any) -> Any:
-    """The parts of the step to a point of a path that was marched to."""
-    return solution.history.turning_points[solution.index].marched
