@@ -37,8 +37,9 @@ from .course import Part
 from .finite_step import Equations, Zones, newton
 from .gained_slip import GainedSlip
 from .loading import LoadStep
+from .onset import onset
 from .rates import Rates
-from .state import SAME, Contact, State, intervals
+from .state import SAME, Contact, Ends, Slips, State, intervals
 from .strip_part import StripPart
 from .strips import TAU
 
@@ -52,7 +53,7 @@ APART = 1e-4  # of a part: cuts that are closer are one
 CLOSE = 1e-2  # of a part: between times so close to each other values may be interpolated
 ACCURATE = 1e-8  # of the energy: pieces of time are halved until it is known to so much
 REFUSED = 1e-7  # of the energy: it is refused if it is known to less
-MOST_PIECES = 40
+MOST_PIECES, MOST_FAILED = 24, 30  # where a time cannot be solved, as next to a leap
 
 
 def work(part: Part | StripPart, step: LoadStep) -> float:
@@ -145,13 +146,32 @@ class Way:
     step: LoadStep
     span: tuple[float, float]
     known: dict[float, Equations]
+    retreating: NDArray[np.int_]  # which edges retreat
+    start: Array  # the coordinates at the start; none if the number of zones changes
     values: dict[float, float] = field(default_factory=dict)
     allowed: float = 0.0  # error of a value
+    failed: int = 0  # how often no zones were found
 
     @classmethod
     def back(cls, part: Part, step: LoadStep) -> Way:
         """Through a part, from its end on."""
-        return cls(part.before, step, (part.begun, part.until), {part.until: part.equations})
+        zones = onset(part.before, step.rates, step.friction)
+        start = zones.stick if len(zones.stick) == len(part.state.stick) else ()
+        old, new = part.before.contact.patches, part.state.contact.patches
+        inward = (
+            np.array([[1.0, -1.0]]) * (np.array(new) - np.array(old))
+            if len(old) == len(new)
+            else ()
+        )
+        retreating = np.flatnonzero(np.ravel(inward) > 0.0)
+        coordinates = smooth_coordinates(start, zones.slip, np.ravel(old)[retreating])
+        known = {part.until: part.equations}
+        return cls(part.before, step, (part.begun, part.until), known, retreating, coordinates)
+
+    def coordinates(self, now: Equations) -> Array:
+        """The smooth coordinates of zones on the way."""
+        edges = np.ravel(now.after.patches)[self.retreating]
+        return smooth_coordinates(now.zones.stick, now.slip, edges)
 
     def integral(self, a: float, b: float) -> tuple[float, float]:
         """∫ dt ∫ f dp/dt s Δg dx between two shares, and its error."""
@@ -177,6 +197,8 @@ class Way:
             try:
                 self.equations(share)
             except ContactError:
+                if self.failed > MOST_FAILED:
+                    raise
                 return between, doubt
         if share not in self.values:
             now = self.known[share]
@@ -200,6 +222,7 @@ class Way:
             found = (self._passed(after, guess) for guess in self._guesses(share))
             one = next((now for now in found if now is not None), None)
             if one is None:
+                self.failed += 1
                 raise ContactError(
                     f"the energy lost is not known: no zones of slip are found at {share:.6g} of "
                     "the step; the state at its end is not concerned"
@@ -223,8 +246,10 @@ class Way:
         nearest = sorted(self.known, key=lambda other: abs(other - share))
         count = len(self.known[nearest[0]].zones.stick)
         alike = [k for k in nearest if len(self.known[k].zones.stick) == count]
+        if self.start.size == 2 * count:
+            alike = sorted([*alike, self.span[0]], key=lambda other: abs(other - share))
         for several in (3, 2, 1):
-            if len(alike) >= several:
+            if len(alike) >= several and any(k in self.known for k in alike[:several]):
                 zones = self._continued(alike[:several], share)
                 if zones is not None:
                     yield zones
@@ -237,12 +262,13 @@ class Way:
 
     def _continued(self, shares: list[float], share: float) -> Zones | None:
         """The zones by a polynomial through those at some shares."""
-        known = [smooth_coordinates(self.known[k]) for k in shares]
+        known = [self.coordinates(self.known[k]) if k in self.known else self.start for k in shares]
         found = np.zeros(len(known[0]))
         for k, value in zip(shares, known, strict=True):
             others = [other for other in shares if other != k]
             found += value * np.prod([(share - other) / (k - other) for other in others])
-        return _zones_at(found, self.known[shares[0]], self.step.at(share))
+        like = next(self.known[k] for k in shares if k in self.known)
+        return _zones_at(found, like, self.step.at(share), self.retreating)
 
 
 def rates_of(now: Equations, step: LoadStep) -> Rates:
@@ -257,28 +283,30 @@ def rates_of(now: Equations, step: LoadStep) -> Rates:
     )
 
 
-def smooth_coordinates(now: Equations) -> Array:
-    """S sqrt(d) for ends beside a slip zone of length d at an edge, and the places of others."""
-    left, right = ({zone[k]: zone for zone in now.slip} for k in (0, 1))
-    edges = np.array(now.after.patches).ravel()
-    found = now.stick.ravel().copy()
-    for j, e in enumerate(now.stick.ravel()):
-        lo, hi, s = (left if j % 2 else right)[e]
+def smooth_coordinates(stick: Ends, slip: Slips, edges: Array) -> Array:
+    """S sqrt(d) for ends beside a slip zone of length d at one of these edges, places of others."""
+    left, right = ({zone[k]: zone for zone in slip} for k in (0, 1))
+    ends = np.array(stick).ravel()
+    found = ends.copy()
+    for j, e in enumerate(ends):
+        lo, hi, s = (left if j % 2 else right).get(e, (e, e, 0.0))
         if (hi if j % 2 else lo) in edges:
             found[j] = s * np.sqrt(hi - lo)
     return found
 
 
-def _zones_at(coordinates: Array, like: Equations, contact: Contact) -> Zones | None:
+def _zones_at(
+    coordinates: Array, like: Equations, contact: Contact, retreating: NDArray[np.int_]
+) -> Zones | None:
     """The zones of coordinates, beside the same patches; None where they are none."""
     ends, signs, patches = coordinates.copy(), list(like.zones.signs), like.after.patches
     for j, e in enumerate(like.stick.ravel()):
         zones = [k for k, zone in enumerate(like.slip) if zone[j % 2 == 0] == e]
         outer = like.slip[zones[0]][j % 2]
-        for old, new in zip(patches, contact.patches, strict=True):
-            if outer == old[j % 2]:
+        for k in retreating:
+            if outer == np.ravel(patches)[k]:
                 inward = -1.0 if j % 2 else 1.0
-                ends[j] = new[j % 2] + inward * coordinates[j] ** 2
+                ends[j] = np.ravel(contact.patches)[k] + inward * coordinates[j] ** 2
                 signs[zones[0]] = 1.0 if coordinates[j] > 0.0 else -1.0
     edges = np.array(contact.patches)
     inside = ((edges[:, :1] < ends) & (ends < edges[:, 1:])).any(axis=0).all()
@@ -299,14 +327,14 @@ def _cuts(way: Way, shares: list[float]) -> list[float]:
         first, last = way.known[sooner], way.known[later]
         if len(first.zones.stick) != len(last.zones.stick):
             continue
-        ends = smooth_coordinates(first), smooth_coordinates(last)
+        ends = way.coordinates(first), way.coordinates(last)
         for j, (a, b) in enumerate(zip(_places(first), _places(last), strict=True)):
             if (
                 j < len(ends[0])
                 and first.zones.signs != last.zones.signs
                 and ends[0][j] * ends[1][j] < 0.0
             ):
-                found.append(_root(lambda now, j=j: smooth_coordinates(now)[j], way, sooner, later))
+                found.append(_root(lambda now, j=j: way.coordinates(now)[j], way, sooner, later))
             inside = (way.before.marks - a) * (b - way.before.marks) > near**2
             for mark in way.before.marks[inside]:
                 found.append(

@@ -35,6 +35,7 @@ ARRIVED = 1e-7  # of the contact: room that is none
 NEARLY = 0.9999  # of τ: an event before it shortens the part
 ON_MARK = 3e-9  # of the contact: an end that recedes and is so close to a mark is on it
 AT_THE_END = 1e-9  # of a part: an event so close to its end is there
+SOON = 1e-5  # of a step: in a part so short an advancing end meets nothing
 SMALL = 1e-2  # of the room: an end advances so far, at a guess
 AGAIN_SINCE = 0.7  # of τ: before it an event at the end of a part is not looked for again
 LEAP = 10.0  # times as far as the event is seen: so far the length of a part is corrected
@@ -177,6 +178,8 @@ def _guess(span: Span) -> Array:
 
     for j in span.which(Motion.ADVANCES):
         place = resting_place(zones, rates, j)
+        if place is None and span.length > SOON:
+            raise ContactError("an advancing end meets an edge or another stick zone before")
         if place is None:
             place = final[j] + SMALL * (zones.outer(j) - final[j])
         zones = zones.moved(j, replace(zones.ends[j], place=place))
