@@ -18,7 +18,7 @@ LINES = {
     "cli": 900,
     "contact": 2980,
     "examples": 10,
-    "friction": 15250,
+    "friction": 15340,
     "io": 4680,
     "live": 750,
     "numerics": 2230,
