@@ -47,7 +47,7 @@ STOPS = -1e-7  # of the largest K: an end that recedes so little goes on
 TURNS = -1e-7  # of the largest rate of slip
 MOST_PARTS, SHORT, MOST_SHORT = 30, 1e-4, 5  # of a step; of them so short ones of it
 LONGER = 5.0  # times the last part, where a longer one was not solved
-FINE = 1e-4  # of a part: so well it is known where it ends, if by no event
+FINE = 1e-2  # of a part: so well it is known where it ends, if by no event
 STILL, STOPPED = 1e-13, 1e-8  # of the largest K
 
 
@@ -245,16 +245,31 @@ def _within(now: Verdict, last: Verdict) -> bool:
 
 
 def _tested(state: State, step: LoadStep, begun: float, shares: Array) -> list[Verdict]:
-    """The verdicts on zones at some shares, found from the last to the first."""
-    found: list[Verdict] = []
-    zones = _as_they_set_out(state, step, float(shares[-1] - begun))
-    for share in shares[::-1]:
-        verdict = _verdict(state, step, float(share), zones)
-        if verdict.why and zones is not None:
-            verdict = _verdict(state, step, float(share), None)
-        zones = verdict.equations.zones if verdict.equations is not None else None
-        found.append(verdict)
+    """The verdicts on zones at some shares, found from the last to the first.
+
+    Where an end advances at the last one and at the first one, that at the first is enough.
+    """
+    last = _continued(
+        state, step, float(shares[-1]), _as_they_set_out(state, step, float(shares[-1] - begun))
+    )
+    if last.why == ADVANCES:
+        first = _continued(state, step, float(shares[0]), last.equations.zones)
+        if first.why == ADVANCES:
+            return [first]
+    found = [last]
+    for share in shares[-2::-1]:
+        equations = found[-1].equations
+        guess = equations.zones if equations is not None else None
+        found.append(_continued(state, step, float(share), guess))
     return found[::-1]
+
+
+def _continued(state: State, step: LoadStep, share: float, guess: Zones | None) -> Verdict:
+    """The verdict from a guess; from cells where it fails for another reason than an end's way."""
+    verdict = _verdict(state, step, share, guess)
+    if verdict.why and verdict.why != ADVANCES and guess is not None:
+        verdict = _verdict(state, step, share, None)
+    return verdict
 
 
 def _as_they_set_out(state: State, step: LoadStep, length: float) -> Zones | None:

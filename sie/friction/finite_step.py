@@ -117,12 +117,13 @@ class Gap:
 
     def from_all(self, rule: Rule) -> Complex:
         """z - t as a matrix, t the places of a rule."""
-        from_lo, from_hi = rule.apart_from(self.lo), rule.apart_from(self.hi)
-        return np.where(
-            self.near_lo[:, None],
-            self.from_lo[:, None] - from_lo,
-            self.from_hi[:, None] - from_hi,
-        )
+        found = np.empty((len(self.weight), len(rule.lo)), dtype=complex)
+        for rows, e, apart in (
+            (self.near_lo, self.lo, self.from_lo),
+            (~self.near_lo, self.hi, self.from_hi),
+        ):
+            found[rows] = apart[rows, None] - rule.apart_from(e)
+        return found
 
 
 def _at_end(near: Array, h: Array, side: float) -> float:

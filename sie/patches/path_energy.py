@@ -3,7 +3,7 @@
 Where only P and Q change, the layers that slip have their energy from the capacities of the
 contacts under all loads (`friction.dissipation`, `patches.dissipation`), those of all steps at
 once. With a bulk stress or a tilt it is that of states, f p times the slip at constant P and tilt,
-and an integral over time where the pressure changes (`friction.moving_work`).
+and an integral over time where the pressure changes (`friction.step_energy`).
 """
 
 from __future__ import annotations
@@ -18,8 +18,8 @@ from sie.friction.dissipation import Dissipation, dissipated
 from sie.friction.load_history import changing_contact
 from sie.friction.load_history.turning_point import TurningPoint
 from sie.friction.memory import SlippedLayer
-from sie.friction.step_energy import work
 from sie.friction.slip_state import Slip
+from sie.friction.step_energy import work
 from sie.progress_bar import reported, step_done
 
 from .dissipation import PatchDissipation

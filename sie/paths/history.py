@@ -264,8 +264,8 @@ class History(PathContacts, Sequence[Solution]):
         rise, pull = (of(loads) - of(first) for of in (self.level, self.shear))
         if rise and max(abs(rise), abs(pull)) <= UNSEEN * abs(self.level(loads)):
             raise ContactError(
-                f"P or the tilt changes, and all loads by less than {UNSEEN:g} of f P, which rounding "
-                "hides: drop this point of the path, or keep P and the tilt in it"
+                f"P or the tilt changes, and all loads by less than {UNSEEN:g} of f P, which "
+                "rounding hides: drop this point of the path, or keep P and the tilt in it"
             )
         start = state_of(self, before) if first is before.loads else touched(self, first)
         step = LoadStep(self, first, loads, {0.0: start.contact})
