@@ -18,7 +18,7 @@ LINES = {
     "cli": 900,
     "contact": 2980,
     "examples": 10,
-    "friction": 15340,
+    "friction": 15420,
     "io": 4680,
     "live": 750,
     "numerics": 2230,
@@ -31,7 +31,7 @@ LINES = {
     "sweeps": 1080,
     "traction": 2790,
 }
-FILES = 284
+FILES = 287
 
 
 def lines_of(folder):
