@@ -14,7 +14,6 @@ import pytest
 import sie
 from sie.contact.edges import Search
 from sie.friction.coupled.flat import flat_punch
-from sie.friction.coupled.functions import flat_functions
 from validation.harness.timing import compared
 from validation.topics.speed import closed_form
 
@@ -206,7 +205,6 @@ def test_cauchy_equation_by_transforms(benchmark, n):
 def test_dissimilar_rounded_flat_in_partial_slip(benchmark, dundurs, friction):
     def solved():
         flat_punch.cache_clear()
-        flat_functions.cache_clear()
         solution = sie.solve(scene(sie.RoundedFlat(0.5, 1.0), dundurs=dundurs, friction=friction))
         return solution.stick, solution.pressure(X)
 

@@ -36,7 +36,7 @@ def _(mo):
 
 @app.cell
 def _(mo):
-    nodes = mo.ui.slider(2, 64, value=8, label="nodes n")
+    nodes = mo.ui.slider(2, 64, value=8, label="nodes n", show_value=True)
     shape = mo.ui.dropdown(["parabola", "rounded flat", "wedge"], value="parabola", label="punch")
     mo.hstack([nodes, shape])
     return nodes, shape
@@ -100,7 +100,7 @@ def _(mo):
 
 
 @app.cell
-def _(np, sie, teaching):
+def _(mo, np, sie, teaching):
     centres = np.linspace(-0.5, 0.5, 11)
     misfits = [
         teaching.solve(lambda s, m=m: (m + s) + 0.2, n=8, index=-1)[2] for m in centres.tolist()
@@ -109,7 +109,7 @@ def _(np, sie, teaching):
     tilted = sie.solve(
         sie.Scene(profile=sie.Parabola(1.0), modulus=2.0, poisson=0.3, half_width=1.0, tilt=0.2)
     )
-    print(by_misfit, tilted.centre)
+    mo.md(f"centre by the misfit {by_misfit:.12f}, by `sie` {tilted.centre:.12f}")
     return by_misfit, tilted
 
 
@@ -126,7 +126,7 @@ def _(mo):
 
 @app.cell
 def _(mo):
-    share = mo.ui.slider(0.0, 0.99, step=0.01, value=0.6, label="Q/(f P)")
+    share = mo.ui.slider(0.0, 0.99, step=0.01, value=0.6, label="Q/(f P)", show_value=True)
     share
     return (share,)
 

@@ -5,8 +5,15 @@ import subprocess
 import sys
 from pathlib import Path
 from subprocess import DEVNULL
+from types import MappingProxyType
 
 from docutils import nodes
+from docutils.parsers.rst import directives
+from sphinx.util.docutils import SphinxDirective
+
+sys.path.insert(0, str(Path(__file__).parent))  # for draw_sketches
+
+import draw_sketches
 
 import sie
 from sie.live.answer import saved_answers
@@ -20,6 +27,7 @@ release = version = sie.__version__
 extensions = [
     "myst_nb",
     "numpydoc",
+    "sphinx_design",
     "sphinx-mathjax-offline",
     "sphinx.ext.autosummary",
     "sphinx.ext.viewcode",
@@ -27,15 +35,14 @@ extensions = [
 ]
 exclude_patterns = [
     "_build",
-    "gallery/*.py",
-    "gallery/*.rst",
-    "built-gallery/*.ipynb",
-    "built-gallery/*.py",
+    "gallery/**",
+    "built-gallery/**/*.ipynb",
+    "built-gallery/**/*.py",
 ]
 root_doc = "index"
 nitpicky = False
 
-myst_enable_extensions = ["amsmath", "deflist", "dollarmath"]
+myst_enable_extensions = ["amsmath", "colon_fence", "deflist", "dollarmath"]
 myst_heading_anchors = 3
 nb_execution_mode = "force"
 nb_execution_raise_on_error = True
@@ -61,7 +68,20 @@ html_title = "plane-contact"
 html_static_path = ["_static"]
 html_css_files = ["site.css"]
 html_show_sourcelink = False
+# A page without pages below it has no bar for them; the landing page has none at all.
+ALONE = (
+    "index",
+    "tutorial",
+    "lesson-1",
+    "lesson-1-sheet",
+    "lesson-1-key",
+    "validation",
+    "accuracy",
+)
+html_sidebars = {page: [] for page in (*ALONE, "not-covered", "bibliography")}
 html_theme_options = {
+    "secondary_sidebar_items": {"**": ["page-toc"], "index": [], "lesson-1-sheet": []},
+    "header_links_before_dropdown": 8,
     "show_prev_next": True,
     "navbar_align": "left",
     "show_toc_level": 2,
@@ -70,6 +90,27 @@ html_theme_options = {
     "footer_start": ["copyright"],
     "footer_end": [],
 }
+
+
+SKETCHES = Path(__file__).parent / "_static" / "sketches"
+
+
+class Sketch(SphinxDirective):
+    """A drawing of draw_sketches.py with its caption, light or dark as the page is."""
+
+    required_arguments = 1
+    option_spec = MappingProxyType({"alt": directives.unchanged_required})
+    has_content = True
+
+    def run(self):
+        up = "../" * self.env.docname.count("/")
+        drawn = nodes.container()  # the theme hides a caption beside an image of the other theme
+        for theme in draw_sketches.THEMES:
+            uri = f"{up}_static/sketches/{self.arguments[0]}-{theme}.svg"
+            drawn += nodes.image(uri=uri, alt=self.options["alt"], classes=[f"only-{theme}"])
+        caption = nodes.caption()
+        caption += self.parse_inline(" ".join(self.content))[0]
+        return [nodes.figure("", drawn, caption, classes=["sketch"])]
 
 
 SECTION = re.compile(r"-{3,}$")
@@ -107,6 +148,16 @@ def _mark_numbers(app, doctree):
             entry["classes"].append("number")
 
 
+def _describe_pictures(app, doctree):
+    """A picture that a cell draws is described by the first sentence before it."""
+    said = ""
+    for node in doctree.findall(lambda node: isinstance(node, nodes.paragraph | nodes.image)):
+        if isinstance(node, nodes.paragraph):
+            said = node.astext()
+        elif not node.get("alt"):
+            node["alt"] = re.split(r"(?<=[.:?]) ", " ".join(said.split()))[0]
+
+
 def _save_live_page(app, failure):
     """The page of `sie live` with its answers inside, beside the site's own pages."""
     if failure is None and app.builder.name == "html":
@@ -126,7 +177,10 @@ def _validate(app, failure):
 
 
 def setup(app):
+    draw_sketches.draw_all(SKETCHES)
+    app.add_directive("sketch", Sketch)
     app.connect("doctree-read", _mark_numbers)
+    app.connect("doctree-read", _describe_pictures)
     app.connect("build-finished", _save_live_page)
     app.connect("build-finished", _validate)
     app.connect("autodoc-process-docstring", _as_restructured_text, priority=100)

@@ -34,7 +34,7 @@ class ContactError(Exception):
     ...     sie.solve(sie.Scene(profile=hollow, modulus=1.0, normal_load=0.01)).edges
     ... except sie.ContactError as error:
     ...     print(type(error).__name__, error.reached)
-    LoadError {'load': 0.0}
+    LoadError {'falls': 'left'}
     """
 
     def __init__(self, message: str, **reached: Any) -> None:
@@ -64,22 +64,22 @@ class LoadError(ContactError):
 
 
 class InequalityError(ContactError):
-    """One contact would need tension inside it (p < 0) or overlap outside it (gap < 0).
+    """One patch of dissimilar bodies that slide would need tension (p < 0) or overlap (gap < 0).
 
     Notes
     -----
-    `reached` has the edges and the place x of the violation, and the intervals of it as `tension`
-    or `overlap`.
+    `reached` has the edges, and the intervals of the violation as `tension` or `overlap`.
 
     Examples
     --------
     >>> import sie
-    >>> hollow = sie.Flat(2.0) + sie.Polynomial((0.0, 0.0, -0.1))
+    >>> wells = sie.Polynomial((0.0, 0.0, -0.25, 0.0, 0.25))
+    >>> sliding = {"dundurs": 0.2, "friction": 0.3, "sliding": 1}
     >>> try:
-    ...     sie.solve(sie.Scene(profile=hollow, modulus=1.0, normal_load=0.3)).edges
+    ...     sie.solve(sie.Scene(profile=wells, modulus=1.0, normal_load=0.19, **sliding)).edges
     ... except sie.InequalityError as error:
-    ...     print(error.reached["edges"])
-    (-2.0, 2.0)
+    ...     print(len(error.reached["tension"]))
+    1
     """
 
 

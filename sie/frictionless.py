@@ -1,6 +1,7 @@
 """The contact of a scene under its normal load: the stages of the work, and its edges and loads.
 
-It is one patch, several, or one that repeats with the period of the profile.
+Where the slope of the profile rises, the contact is one patch by theorem (`contact.convexity`). All
+other contacts are found as patches, and one patch among them is solved as such.
 """
 
 from __future__ import annotations
@@ -11,13 +12,15 @@ from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
-from .contact.inequalities import slope_rises, slope_rises_far, verify_inequalities
+from .contact.convexity import may_have_merged, rises, rises_beside, turns_away
 from .contact.known_contact import Normal
-from .contact.normal import falls_somewhere, normal_contact, of_one_patch, one_series
+from .contact.normal import normal_contact, not_one_patch, of_one_patch, one_series
 from .contact.pressure import pressure
-from .errors import ContactError, InequalityError, LoadError, ResolutionError
+from .contact.window import window_of
+from .errors import ContactError, InequalityError
 from .problem.request import ECONOMY
 from .problem.scene import Scene
+from .profiles.lowest_points import lowest_points
 from .profiles.placed_traces import explained, smoothing_remedy
 from .profiles.row import asks_for_patches
 from .profiles.slope import Slope
@@ -30,6 +33,8 @@ if TYPE_CHECKING:  # patches are imported where one patch is no answer
 
 # of a patch: the pressure on more of them is more exact as that of several patches
 MOST_PANELS = 128
+MERGED = "in one patch, merged from several"
+SAME = 1e-6  # of a half-width: patches that differ by more from one patch are others
 
 
 class Frictionless:
@@ -50,68 +55,112 @@ class Frictionless:
         return self._contact()
 
     def _contact(self) -> Normal | SeveralPatches | FullContact:
-        """The contact without shear, verified where the profile may not be convex."""
-        if asks_for_patches(self.scene.profile):
-            return self._in_patches()
-        if self._of_waves is not None:
-            return self.unverified if self._is_one_patch else self._of_waves
+        """The contact without shear."""
         try:
-            return self.one_patch()
-        except (InequalityError, LoadError, ResolutionError) as error:
-            # Without a lowest point patches are no answer either, unless another tilt is found
-            bottomless = "falls" in error.reached and self.scene.moment is None
-            if self._may_be_in_patches and not bottomless:
-                return self._in_patches(error)
-            raise explained(error, self.scene.profile) from None
+            if self.convex:
+                return self.unverified
+            if self.scene.epsilon:
+                return self._verified
+            return self._of_half_width if self.scene.half_width is not None else self._in_patches
         except ContactError as error:
             raise explained(error, self.scene.profile) from None
-
-    def one_patch(self) -> Normal:
-        """The contact if it is one patch.
-
-        Returns
-        -------
-        Normal
-            Its edges, load, moment and tilt.
-
-        Raises
-        ------
-        ContactError
-            If it is not one patch.
-        """
-        if not (self.scene.profile.convex and "convexity" in self.economy):
-            _ = self.inequalities
-        return self.unverified
-
-    def _in_patches(self, one_patch: ContactError | None = None) -> SeveralPatches | FullContact:
-        """Contact in several patches; `one_patch` is why it is not one."""
-        from .patches.answer import several_patches
-
-        try:
-            return several_patches(self.scene)
-        except ContactError as error:
-            told = one_patch if isinstance(one_patch, LoadError) and not error.reached else error
-            if self.scene.half_width is not None:  # which patches have not, but for its limit
-                told = one_patch if one_patch and "widest" in one_patch.reached else error
-            raise explained(told, self.scene.profile) from None
 
     @property
-    def _may_be_in_patches(self) -> bool:
-        scene = self.scene
-        return not scene.epsilon and not scene.profile.convex
+    def convex(self) -> bool:
+        """Whether the profile is known to be convex, or its slope rises where it was looked at."""
+        known = self.scene.profile.convex and "convexity" in self.economy
+        return known or self.rises
+
+    @cached_property
+    def rises(self) -> bool:
+        """Whether the slope rises from place to place of the indenter."""
+        profile, series = self.scene.profile, self._of_one_series
+        if asks_for_patches(profile):
+            return False
+        if series is not None:
+            contact = series.edges.contact
+            return rises_beside((contact.x1, contact.x2), series.slope(profile))
+        window = window_of(self.scene)
+        return rises(profile.pieces, (window.lo, window.hi))
+
+    @property
+    def _in_patches(self) -> Normal | SeveralPatches | FullContact:
+        """The contact as patches; as one patch where a profile without walls touches in one."""
+        from .patches.answer import several_patches
+
+        slope = self.scene.profile.pieces.tilted(self.scene.tilt)
+        if not slope.functions and self.scene.moment is None:
+            lowest_points(slope)  # raises LoadError where there are none, and no contact
+        found = several_patches(self.scene)
+        if asks_for_patches(self.scene.profile) or len(found.patches) > 1:
+            return found
+        patch = cast("SeveralPatches", found)  # a contact without edges is periodic
+        panels = len(patch.found.operator.panels.piece)
+        many = bool(slope.functions) and panels > MOST_PANELS
+        if many or turns_away(slope, patch.patches[0]):
+            return found
+        return of_one_patch(patch.edges, self.scene, self.tol, self.economy)
+
+    @property
+    def _of_half_width(self) -> Normal:
+        """The one patch of a half-width, if its load makes it the only one."""
+        found = self.unverified
+        edges = found.edges
+        loaded = replace(self.scene, half_width=None, normal_load=edges.normal_load)
+        patches = Frictionless(loaded, self.tol, self.economy).patches
+        apart = np.abs(np.subtract(patches, edges.contact[:2])).max()
+        merged = turns_away(self.scene.profile.pieces, patches[0])
+        if len(patches) > 1 or merged or apart > SAME * edges.contact.r:
+            raise not_one_patch(self.scene)
+        return found
+
+    @property
+    def _verified(self) -> Normal:
+        """The contact of dissimilar bodies that slide, which is solved in one patch only."""
+        from .certificate.pressure_check import certificate
+        from .contact.least_gaps import TOLERATED, shown
+
+        found = self.unverified
+        density = pressure(found, self.scene, self.tol, self.economy)
+        measured = certificate(density, found.slope(self.scene.profile), self.tol)
+        if min(measured.lowest_pressure, measured.lowest_gap) < -TOLERATED:
+            where = shown(measured.tension or measured.overlap)
+            raise InequalityError(
+                f"one patch of contact {density.interval} would need tension, or overlap, at "
+                f"{where}, and dissimilar bodies that slide are solved in one patch only; smooth "
+                "the profile, or give dundurs = 0 to neglect β",
+                edges=density.interval,
+                tension=measured.tension,
+                overlap=measured.overlap,
+            )
+        return found
 
     @property
     def as_one_patch(self) -> Normal:
         """The contact, for what is solved on one patch only. Raises ContactError for several."""
-        found = self.normal
-        if isinstance(found, Normal):
-            return found
-        number, period = len(found.patches), self.scene.profile.period
-        where = f"in {number} patches" if number > 1 else "in one patch, merged from several"
+        if isinstance(self.normal, Normal):
+            return self.normal
+        number = len(self.normal.patches)
+        raise self._not_grown(f"in {number} patches" if number > 1 else MERGED)
+
+    @property
+    def grown_as_one_patch(self) -> Normal:
+        """The contact, for what is solved on one patch from the first touch on.
+
+        Raises ContactError where several have touched, or may have.
+        """
+        found = self.as_one_patch
+        contact = found.edges.contact
+        if may_have_merged(found.slope(self.scene.profile), (contact.x1, contact.x2)):
+            raise self._not_grown(MERGED)
+        return found
+
+    def _not_grown(self, where: str) -> ContactError:
+        period = self.scene.profile.period
         remedy = smoothing_remedy(self.scene.profile) or "give a convex profile"
         if np.isfinite(period):
             where, remedy = f"that repeats every {period:.6g}", "give the profile without period"
-        raise ContactError(
+        return ContactError(
             f"contact {where}: what is asked for is solved in one patch that grows from the first "
             f"touch on; {remedy}, set friction = 0, or give dundurs = 0 to neglect β"
         )
@@ -141,7 +190,13 @@ class Frictionless:
         ContactError
             If no patches are certified.
         """
-        plain = replace(
+        from .patches.answer import several_patches
+
+        return several_patches(self._without_shear(load, tilt))
+
+    def _without_shear(self, load: float, tilt: float) -> Scene:
+        """The scene without shear under another load and tilt."""
+        return replace(
             self.scene,
             normal_load=load,
             half_width=None,
@@ -152,35 +207,11 @@ class Frictionless:
             sliding=0,
             bulk_stress=0.0,
         )
-        from .patches.answer import several_patches
-
-        return several_patches(plain)
 
     @cached_property
     def _of_one_series(self) -> Normal | None:
         """The contact in which one series resolves the slope of a function."""
         return one_series(self.scene, self.tol, self.economy)
-
-    @cached_property
-    def _of_waves(self) -> SeveralPatches | FullContact | None:
-        """The contact of a function whose slope falls: patches are then sought at once."""
-        scene = self.scene
-        may_be = self._may_be_in_patches and scene.profile.pieces.functions and scene.normal_load
-        if not may_be or self._of_one_series is not None or not falls_somewhere(scene):
-            return None
-        from .patches.answer import several_patches
-
-        try:
-            return several_patches(scene)
-        except ContactError:  # where they do not settle, one patch may be the answer
-            return None
-
-    @property
-    def _is_one_patch(self) -> bool:
-        if self._of_waves is None or len(self._of_waves.patches) > 1:
-            return False
-        found = cast("SeveralPatches", self._of_waves)  # no function has a period of its own
-        return any(found.edges.sharp) or len(found.found.operator.panels.piece) <= MOST_PANELS
 
     @property
     def _several(self) -> SeveralPatches | FullContact | None:
@@ -189,31 +220,13 @@ class Frictionless:
 
     @cached_property
     def unverified(self) -> Normal:
-        """The contact that carries the load and the moment.
-
-        Bodies may overlap there, or be in tension.
-        """
-        if self._of_one_series is not None:
-            return self._of_one_series
-        if self._of_waves and self._is_one_patch and not any(self._of_waves.edges.sharp):
-            return of_one_patch(self._of_waves.edges, self.scene, self.tol, self.economy)
-        return normal_contact(self.scene, self.tol, self.economy)
+        """The contact that carries the load and the moment if it is one patch."""
+        return self._of_one_series or normal_contact(self.scene, self.tol, self.economy)
 
     @cached_property
     def density(self) -> SlopeDensity:
-        """The pressure of this contact."""
-        return pressure(self.unverified, self.scene, self.tol, self.economy)
-
-    @cached_property
-    def inequalities(self) -> bool:
-        """True where p >= 0 and gap >= 0; otherwise InequalityError is raised."""
-        found, density = self.unverified, self.density
-        slope = found.slope(self.scene.profile)
-        series = found.series is not None and slope_rises_far(density.contact, slope)
-        rises = series or slope_rises(density, slope)
-        if not ("convexity" in self.economy and rises):
-            verify_inequalities(density, slope)
-        return True
+        """The pressure of the contact in one patch."""
+        return pressure(cast(Normal, self.normal), self.scene, self.tol, self.economy)
 
     @property
     def _slope(self) -> Slope:
@@ -279,7 +292,8 @@ class Frictionless:
     @property
     def moment(self) -> float:
         """Moment of the pressure ∫p x dx about x = 0, force per length times length."""
-        return self.normal.edges.moment
+        several = self._several
+        return self.normal.edges.moment if several is None else several.moment
 
     @property
     def tilt(self) -> float:

@@ -5,8 +5,9 @@
 
 from .cauchy.equation import CauchyEquation
 from .certificate.trace_noise import TraceReport
+from .paths.dissimilar_cycle import steady_cycle
 from .paths.history import History, follow
-from .paths.steady_state import SteadyCycle, steady_cycle
+from .paths.steady_state import SteadyCycle
 from .planning import Plan, plan
 from .stress.fatigue import CriticalPlane
 from .stress.fretting import Cycle

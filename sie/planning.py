@@ -128,7 +128,8 @@ def plan(
     steps = (
         *normal(scene, economy),
         _tilt(scene),
-        *_pressure(scene, "pressure" in stages, economy),
+        _pressure(scene, "pressure" in stages, economy),
+        _convexity(scene, economy),
         _coupling(scene),
         _slip(scene, "tangential" in stages, economy),
         _corrective(scene, economy),
@@ -162,7 +163,7 @@ def _of_one_problem(scene: Scene, names: tuple[str, ...], stages: set[str]) -> I
     if scene.bonded:
         first, pressure = _full_stick(scene), "its real part"
         inequalities = "bonded surfaces can pull, and touch all over"
-    elif scene.tangential_load:
+    elif scene.tangential_load or scene.tau:
         first, pressure = _pressed_then_sheared(scene, names), "with the edges"
         inequalities = "the certificate measures p >= 0 and |q| <= f p"
     else:
@@ -206,7 +207,7 @@ def _pressed_then_sheared(scene: Scene, names: tuple[str, ...]) -> tuple[Step, .
     how = f"β = {scene.beta:.4g}: p and q are one problem; first under P alone"
     return (
         Step("coupling", True, how, "pressed"),
-        Step("slip gradient", True, "that of P alone, kept in stick", "tangential_search"),
+        Step("slip gradient", True, "that of P alone, kept in stick", "locked_in"),
         Step("zones", True, "four edges, of contact and stick zone, by Newton", "coupled"),
         Step("edges", True, "found with the zones", "normal"),
         _if_asked("energy", "energy" in names, "the power of friction, summed over states"),
@@ -288,17 +289,9 @@ def _tilt(scene: Scene) -> Step:
     return Step("tilt", not given, f"given: {scene.tilt:g}" if given else how)
 
 
-def _pressure(scene: Scene, asked: bool, economy: Collection[str]) -> tuple[Step, Step]:
-    """The steps of the pressure and of its inequalities."""
-    name, how = "inequalities", _expansion(scene, economy)
-    if scene.profile.convex and "convexity" in economy:
-        convex = "the profile is convex: p > 0 and gap > 0 follow"
-        return _if_asked("pressure", asked, how, "pressure"), Step(name, False, convex, name)
-    why = NO_ECONOMY if scene.profile.convex else "the profile is not known to be convex"
-    verified = Step(name, True, f"{why}: p >= 0 and gap >= 0 are verified", name)
-    if asked:
-        return Step("pressure", True, how, "pressure"), verified
-    return Step("pressure", True, f"needed for the inequalities: {how}"), verified
+def _pressure(scene: Scene, asked: bool, economy: Collection[str]) -> Step:
+    how = _expansion(scene, economy)
+    return _if_asked("pressure", asked, how, "pressure")
 
 
 def _expansion(scene: Scene, economy: Collection[str]) -> str:
@@ -313,6 +306,17 @@ def _expansion(scene: Scene, economy: Collection[str]) -> str:
     if upright_law(scene, economy) is not None:
         return "two series of a power law"
     return "exact panels on the pieces in the contact; one DCT if no break falls inside"
+
+
+def _convexity(scene: Scene, economy: Collection[str]) -> Step:
+    name, stage, profile = "convexity", "rises", scene.profile
+    if asks_for_patches(profile):
+        return Step(name, False, "not asked: patches are found whatever the profile", stage)
+    if profile.convex and "convexity" in economy:
+        return Step(name, False, "the profile is known to be convex: one patch, p > 0", stage)
+    unknown = "the profile is not known to be convex"
+    why = "economy is switched off" if profile.convex else unknown
+    return Step(name, True, f"{why}: one patch where h' rises, otherwise as patches", stage)
 
 
 # -- then the shear --------------------------------------------------------------------------------

@@ -7,7 +7,7 @@ contact without shear is in `frictionless`, the stress in the body in `stress_an
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Sequence
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING, Any, cast
@@ -19,10 +19,10 @@ from . import arguments
 from .contact.known_contact import Edges, Normal
 from .contact.normal import contact_under
 from .contact.pressure import pressure
-from .errors import ContactError, InequalityError, LoadError
+from .errors import ContactError
 from .frictionless import Frictionless
 from .numerics.interval import Interval
-from .problem.coverage import held_moment, refuse_uncovered, uneven_under_shear
+from .problem.coverage import held_moment, refuse_uncovered
 from .problem.request import ECONOMY, sheared
 from .problem.scene import Scene
 from .stages import changed_scene, kept_stages
@@ -36,11 +36,9 @@ if TYPE_CHECKING:  # what a stage needs is imported when it is computed
     from .cauchy.density import JacobiDensity
     from .certificate.result import Certificate, ShearCertificate
     from .certificate.trace_noise import TraceReport
-    from .friction.coupled.contact import CoupledContact
-    from .friction.coupled.sheared import ShearedContact
-    from .friction.coupled.tangential import TangentialSearch
+    from .friction.coupled.answer import LoadedContact
+    from .friction.coupled.pressed import Pressed
     from .friction.coupled.traction import OnHalves
-    from .friction.coupled.uneven_contact import UnevenContact
     from .friction.full_stick import Component
     from .friction.goodman.slip import GoodmanSlip
     from .friction.slip_state import Slip, Step
@@ -95,7 +93,7 @@ class Solution(Frictionless, StressAnswers):
         if self.scene.bonded:
             return Normal(self.bonded[0], False)
         if self.scene.coupled:
-            return Normal(self.coupled[0], not self.scene.tangential_load)
+            return Normal(self.coupled[0], not (self.scene.tangential_load or self.scene.tau))
         return super()._contact()
 
     @cached_property
@@ -106,17 +104,22 @@ class Solution(Frictionless, StressAnswers):
         return full_stick_contact(self.scene, self.tol)
 
     @cached_property
-    def coupled(self) -> tuple[Edges, CoupledContact | UnevenContact | ShearedContact]:
+    def coupled(self) -> tuple[Edges, Pressed | LoadedContact]:
         """The edges and the state of dissimilar bodies in partial slip."""
-        if self.scene.tangential_load:
-            from .friction.coupled.load_path import sheared_contact
+        scene = self.scene
+        if not (scene.tangential_load or scene.tau):
+            return self.pressed
+        state = self.locked_in.under(scene.tangential_load, scene.tau)
+        return replace(state.edges, tilt=scene.tilt), state
 
-            edges, state = sheared_contact(self._upright, self.tangential_search)
-            return replace(edges, tilt=self.scene.tilt), state
-        return self.pressed
+    def go_on_from(self, before: Pressed | LoadedContact | None) -> None:
+        """Goes on from another state under the same P, and not from that under P alone."""
+        if before is not None and hasattr(before, "under"):
+            state = before.under(self.scene.tangential_load, self.scene.tau)
+            self.__dict__["coupled"] = replace(state.edges, tilt=self.scene.tilt), state
 
     @cached_property
-    def pressed(self) -> tuple[Edges, CoupledContact | UnevenContact]:
+    def pressed(self) -> tuple[Edges, Pressed]:
         """The same under the normal load alone."""
         from .friction.coupled.normal import coupled_contact
 
@@ -124,7 +127,7 @@ class Solution(Frictionless, StressAnswers):
         if not scene.profile.convex:
             P, b = scene.normal_load, scene.half_width
             plain = Scene(profile=scene.profile, modulus=scene.Estar, normal_load=P, half_width=b)
-            _ = Frictionless(plain, self.tol).as_one_patch
+            _ = Frictionless(plain, self.tol).grown_as_one_patch
         edges, state = coupled_contact(scene, self._frictionless)
         lever = edges.normal_load * edges.contact.r
         if scene.moment is not None and abs(edges.moment - scene.moment) > BALANCED * lever:
@@ -138,17 +141,11 @@ class Solution(Frictionless, StressAnswers):
         return replace(scene, profile=scene.profile.tilted(scene.tilt), tilt=0.0)
 
     @cached_property
-    def tangential_search(self) -> TangentialSearch:
-        """The search for the zones of dissimilar bodies under any tangential load after that."""
-        from .friction.coupled.tangential import tangential_search
-        from .friction.coupled.uneven_contact import UnevenContact
+    def locked_in(self) -> LoadedContact:
+        """The same with what it locks in, from which Q and bulk stress lead to other states."""
+        from .friction.coupled.answer import pressed_contact
 
-        pressed = self.pressed[1]
-        if isinstance(pressed, UnevenContact):
-            raise uneven_under_shear(self.scene)
-        return tangential_search(
-            self._upright, pressed, lambda scene: self._frictionless(scene).edges
-        )
+        return pressed_contact(self.pressed[1])
 
     def _frictionless(self, scene: Scene) -> Normal:
         return Frictionless(scene, self.tol).unverified
@@ -171,10 +168,8 @@ class Solution(Frictionless, StressAnswers):
 
         Raises
         ------
-        InequalityError
-            If one patch of contact would need tension, or would overlap the body elsewhere.
-        LoadError
-            If the profile carries no such load in one patch.
+        ContactError
+            If the profile carries no such load.
         """
         if self.scene.bonded:
             from .friction.full_stick import Component
@@ -257,16 +252,36 @@ class Solution(Frictionless, StressAnswers):
         if self._several is None:
             from .friction.partial_slip import slip
 
-            try:
-                return slip(self.load_step(*loads, near), one_sign)
-            except (InequalityError, LoadError):  # the stick zones may be several
-                if self.scene.profile.convex:
-                    raise
+            step = self.load_step(*loads, near)
+            if self.convex or self._sticks_in_one_patch(step):
+                return slip(step, one_sign)
         from .patches.friction import PatchSlip
 
         state = PatchSlip(self.scene, self.in_patches, loads, under)
         _ = state.corrective
         return state
+
+    def _sticks_in_one_patch(self, step: Step) -> bool:
+        """Whether the stick zone of slip in one direction is one patch; there may be none."""
+        from .friction.partial_slip import corrective_loads
+
+        f, Q = self.scene.friction, step.Q
+        slides = not 0.0 < abs(Q) < f * step.normal_load
+        if slides or math.pi * step.pressure.contact.r * abs(step.tau) > abs(Q):
+            return True
+        loads = corrective_loads(step, math.copysign(1.0, Q))
+        return isinstance(self._contact_under(*loads).normal, Normal)
+
+    def _contact_under(self, load: float, tilt: float) -> Frictionless:
+        """The contact of the profile under another load and tilt, kept."""
+        if (load, tilt) not in self._others:
+            plain = self._without_shear(load, tilt)
+            self._others[load, tilt] = Frictionless(plain, self.tol, self.economy)
+        return self._others[load, tilt]
+
+    @cached_property
+    def _others(self) -> dict[tuple[float, float], Frictionless]:
+        return {}
 
     def load_step(self, Q: float, tau: float, near: Interval | None = None) -> Step:
         """The load Q and the strain τ on this contact of one patch.
@@ -289,26 +304,20 @@ class Solution(Frictionless, StressAnswers):
         from .friction.slip_state import Step
 
         scene, tol, economy, normal = self.scene, self.tol, self.economy, self.as_one_patch
-        under = partial(
+        under: Callable[[float, float], Normal] = partial(
             contact_under, scene=scene, tol=tol, economy=economy, near=near, seen=normal.seen
         )
+        if not self.convex:
+            under = lambda load, tilt: self._contact_under(load, tilt).as_one_patch  # noqa: E731
         on = partial(pressure, scene=scene, tol=tol, economy=economy)
         return Step(scene, normal, self.slope_density, Q, tau, tol, economy, under, on)
 
     @cached_property
     def dissipated(self) -> float:
         """The energy dissipated by slip."""
-        from .friction.coupled.energy import tangential_energy
-        from .friction.coupled.load_path import found_state
         from .friction.dissipation import dissipated
 
-        if not self.scene.coupled:
-            return dissipated(self.tangential)
-        pressed = self.pressed[1].energy
-        if not self.scene.tangential_load:
-            return pressed
-        state = cast("ShearedContact", self.coupled[1])
-        return pressed + tangential_energy(state, partial(found_state, self.tangential_search))
+        return self.coupled[1].energy if self.scene.coupled else dissipated(self.tangential)
 
     @cached_property
     def certificate(self) -> Certificate | PatchCertificate:
@@ -346,7 +355,7 @@ class Solution(Frictionless, StressAnswers):
             return of_memory(cast("GoodmanSlip", self.tangential), self.scene, self.tol)
         from .certificate.shear_check import shear_certificate
 
-        p: Density = self.in_patches.pressure if of_pressures else self.pressure
+        p: Density = self.pressure
         tol = min((c.tol for c in of_pressures), default=self.tol)
         state, slope = self.tangential, self._slope
         return shear_certificate(state, p, self._loads, slope, tol=tol, of_pressures=of_pressures)
@@ -388,7 +397,7 @@ class Solution(Frictionless, StressAnswers):
             when they are smaller than the rounding of the edges; 0 below 1e-15 of the half-width,
             where that is full stick.
         """
-        if self.scene.coupled and not self.scene.tangential_load:
+        if self.scene.coupled and not (self.scene.tangential_load or self.scene.tau):
             width = self.pressed[1].slip_width
             return width, width
         x1, x2 = self.edges
@@ -509,10 +518,7 @@ class Solution(Frictionless, StressAnswers):
         """
         self._refuse_unknown_slip()
         if self.scene.coupled:
-            from .friction.coupled.shift import tangential_shift
-
-            sheared = self.scene.tangential_load != 0.0
-            return tangential_shift(cast("ShearedContact", self.coupled[1])) if sheared else 0.0
+            return self.coupled[1].shift
         return self.tangential.shift if self.sheared else 0.0
 
     def _refuse_unknown_slip(self) -> None:

@@ -29,11 +29,9 @@ SHEAR = NORMAL | {*TANGENTIAL, "dundurs", "coupling"}
 OF_SHEAR = ("bonded", "coupled", "tangential", "dissipated", "certificate", "coupling_notes")
 PRESSED = (NORMAL - {"coupled"}) | {"friction", "dundurs", "coupling"}
 STAGES = {
-    **dict.fromkeys(
-        ("unverified", "density", "inequalities", "normal", "in_patches", "pressure"), NORMAL
-    ),
+    **dict.fromkeys(("rises", "unverified", "density", "normal", "in_patches", "pressure"), NORMAL),
     **dict.fromkeys(OF_SHEAR, SHEAR),
-    **dict.fromkeys(("pressed", "tangential_search"), PRESSED),
+    **dict.fromkeys(("pressed", "locked_in"), PRESSED),
 }
 
 if TYPE_CHECKING:

@@ -1,5 +1,5 @@
-"""What runs, and how hard hypothesis tries: "default" in minutes for the whole of the tests, "deep"
-for a long run by hand.
+"""What runs, and how hard hypothesis tries: "default" in two minutes for the whole of the tests,
+"many" where the slow ones run too (.ci/run), "deep" for a long run by hand.
 
 `python -m pytest` leaves out what is marked slow, `python -m pytest -m ""` runs everything. The
 first cases of a slow test with many, `@pytest.mark.slow(but=2)`, are its fast siblings.
@@ -16,6 +16,11 @@ from collections import Counter
 import pytest
 from hypothesis import HealthCheck, Phase, settings
 
+# Before NumPy is imported: each worker of pytest-xdist has a core of its own, and threads of linear
+# algebra that wait for each other took it from the others, up to a hundred times as long.
+for threads in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
+    os.environ.setdefault(threads, "1")
+
 COMMON = {
     "deadline": None,
     "suppress_health_check": [HealthCheck.too_slow],
@@ -26,7 +31,8 @@ COMMON = {
 # Shrinking a contact can take minutes; the example found is small enough to read
 QUICK = (Phase.explicit, Phase.reuse, Phase.generate)
 
-settings.register_profile("default", max_examples=30, phases=QUICK, **COMMON)
+settings.register_profile("default", max_examples=10, phases=QUICK, **COMMON)
+settings.register_profile("many", max_examples=40, phases=QUICK, **COMMON)
 settings.register_profile("deep", max_examples=2000, **COMMON)
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "default"))
 

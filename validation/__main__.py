@@ -18,7 +18,7 @@ from pathlib import Path
 
 from sie.files import write_files
 from validation import readme
-from validation.harness.report import Section, machine, number, page, way_to_code
+from validation.harness.report import Section, machine, number, page
 from validation.harness.running import run
 
 # Modules of this package, in the order of the page.
@@ -85,7 +85,7 @@ def contents(
         "topics": {s.name: s.found.as_json() for s in sections},
     }
     text = json.dumps(numbers, indent=1, ensure_ascii=False, allow_nan=False) + "\n"
-    html = page(sections, seconds, given.quick, way_to_code(given.out))
+    html = page(sections, seconds, given.quick)
     files = {
         given.out / "report.html": html.encode(),
         given.out / "report.json": text.encode(),

@@ -1,7 +1,7 @@
-"""The README's table of accuracy and speed, written by `python -m validation --readme`.
+"""The tables of accuracy and speed in the README and on the page of the validation.
 
-The numbers are those of that run. They are kept in validation/readme.json, so that a test can
-compare the two.
+`python -m validation --readme` writes them, with the numbers of that run. These are kept in
+validation/readme.json, so that a test can compare them.
 """
 
 from __future__ import annotations
@@ -16,7 +16,8 @@ from validation import cases
 from validation.topics import pressure, speed
 
 ROOT = Path(__file__).parent.parent
-README, KEPT = ROOT / "README.md", Path(__file__).parent / "readme.json"
+KEPT = Path(__file__).parent / "readme.json"
+README, PAGE = ROOT / "README.md", ROOT / "docs" / "validation.md"
 BEGIN, END = (
     "<!-- from validation/readme.json by `python -m validation --readme` -->\n",
     "<!-- end -->\n",
@@ -24,6 +25,7 @@ BEGIN, END = (
 FORMATS = ("{}", "{:.1e}", "{:.1e}", "{:.1e}", "{}", "{:.2f} ms", "{:.1f}")
 HEADER = (*pressure.HEADER, "solve + 1001 p", "ratio")
 SHOWN = cases.QUICK
+IN_README = ("parabola", "rounded", "eight")  # the least, the paper's, the slowest
 TOPICS = ("pressure", "speed")  # that the table is made of
 
 
@@ -50,7 +52,7 @@ def first_of_each_kind(report: Mapping[str, Any], name: str, title: str) -> dict
     table = next(r for r in topic if r["kind"] == "table" and r["title"] == title)
     first: dict[str, list[Any]] = {}
     for row in table["rows"]:
-        first.setdefault(re.split(r"-[Pr]=", row[0])[0], row)
+        first.setdefault(kind(row[0]), row)
     return first
 
 
@@ -66,20 +68,32 @@ def markdown(rows: list[list[Any]]) -> str:
     return "".join("| " + " | ".join(line) + " |\n" for line in lines)
 
 
+def tables(rows: list[list[Any]]) -> dict[Path, str]:
+    """The table of each document: some rows in the README, all on the page of the validation."""
+    few = [row for row in rows if kind(row[0]) in IN_README]
+    return {README: markdown(few), PAGE: markdown(rows)}
+
+
+def kind(case: str) -> str:
+    """The kind of case that a row is about: its name without a load or a width."""
+    return re.split(r"-[Pr]=", case)[0]
+
+
 def with_table(text: str, table: str) -> str:
-    """The README with another table between its marks."""
+    """A document with another table between its marks."""
     before, rest = text.split(BEGIN)
     return before + BEGIN + table + END + rest.split(END)[1]
 
 
 def files(report: Mapping[str, Any]) -> dict[Path, bytes]:
-    """The files to be written: the README, and the numbers of its table."""
+    """The files to be written: the documents, and the numbers of their tables."""
     found = rows(report)
     kept = (
         json.dumps({"machine": report["machine"], "rows": found}, indent=1, ensure_ascii=False)
         + "\n"
     )
-    return {
-        KEPT: kept.encode(),
-        README: with_table(README.read_text(encoding="utf-8"), markdown(found)).encode(),
+    documents = {
+        path: with_table(path.read_text(encoding="utf-8"), table).encode()
+        for path, table in tables(found).items()
     }
+    return {KEPT: kept.encode(), **documents}

@@ -59,6 +59,7 @@ class _Sheared(Protocol):
     values       p and q in contact
     kept         a zone that stuck since an earlier state, and that; None if it always did
     slip_zones   (lo, hi, sign of q)
+    strain_kept  what a bulk stress changed γ in that zone by
     least_slip   the least slip in its direction, over the largest; positive by the friction law
     kind         the slip in words
     """
@@ -67,6 +68,8 @@ class _Sheared(Protocol):
     def values(self) -> InContact: ...
     @property
     def kept(self) -> tuple[tuple[float, float], Any]: ...
+    @property
+    def strain_kept(self) -> float: ...
     @property
     def slip_zones(self) -> tuple[tuple[float, float, float], ...]: ...
     @property
@@ -153,7 +156,7 @@ def _change_of_gradient(state: _Sheared, nodes: Nodes, beta: float) -> tuple[flo
     at = nodes.looked_at.inside(lo, hi)
     if not at.x.size:
         at = nodes.at(lo + (hi - lo) * (np.arange(LOOKS) + 0.53) / LOOKS)
-    changed, rounding = nodes.gradient(at, beta), float(nodes.rounding(at)[1])
+    changed, rounding = nodes.gradient(at, beta) - state.strain_kept, float(nodes.rounding(at)[1])
     if before is None:
         return float(np.abs(changed).max()), rounding
     earlier = Nodes(before.values)

@@ -25,7 +25,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie.contact.edge_integrals import EdgeIntegrals, edge_integrals
-from sie.contact.inequalities import intervals_below, relative_gaps
+from sie.contact.least_gaps import intervals_below, relative_gaps
 from sie.contact.small_strains import notes, regular_points
 from sie.numerics.interval import EPS, Interval
 from sie.profiles.look import FINER
@@ -95,6 +95,7 @@ def _measured(density: SlopeDensity, slope: Slope, tol: float) -> Certificate:
         overlap=intervals_below(outside, gaps),
         resolution=resolution,
         edges=_load_on_edges(density, resolved, rule) / (math.pi * r * (bounded_peak or peak)),
+        root=0.5 + abs(density.epsilon),
         notes=unresolved(abscissae)
         + notes(np.concatenate((H, H_at_edges)), bounded_peak / (2.0 * density.half_modulus)),
     )

@@ -16,12 +16,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie.numerics import chebyshev
+from sie.numerics.gauss_jacobi import gauss_jacobi
 from sie.numerics.graded_rule import GRADING, NODES, balanced, graded, on_panels
 from sie.numerics.interval import EPS, Interval, angles, inner, position
 from sie.profiles.power_law import PowerSlope
 from sie.profiles.resolution import refined
 from sie.profiles.slope import Slope
-from sie.traction.piece_quadrature import edge_rule
 
 Array = NDArray[np.float64]
 
@@ -82,7 +82,7 @@ def composite_rule(
     if epsilon:
         length = np.diff(edges)
         for k, power, start in ((0, -2.0 * epsilon, edges[0]), (-1, 2.0 * epsilon, edges[-1])):
-            g, w = edge_rule(NODES, power)
+            g, _, w = gauss_jacobi(NODES, 0.0, power)
             angle[k] = abs(start - length[k] * g)
             weight[k] = length[k] * w / g**power
     x = position(contact, angle)

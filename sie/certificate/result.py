@@ -4,20 +4,25 @@ from __future__ import annotations
 
 import math
 import textwrap
+from collections.abc import Iterable
 from dataclasses import dataclass
 from html import escape
 from typing import Any
 
 from sie.arguments import as_numbers
-from sie.contact.inequalities import TOLERATED, Intervals, shown
+from sie.contact.least_gaps import TOLERATED, Intervals, shown
 from sie.numerics.interval import EPS
 
 PROMISE = (
     "At a distance d from the nearer edge the pressure is wrong by at most 3 (error + edges "
-    "sqrt(r/d)) of its peak, or of p(x) where that is larger, but for errors below 1e-15 of the "
-    "peak, for what one ulp of x changes, and for what a function does on less than 5e-4 of the "
-    "contact. With a sharp edge that holds for p sqrt(1 - (x/r)²), x from the centre."
+    "sqrt(r/d)) of its peak."
 )
+BESIDES = (
+    "Where p(x) is larger than the peak it is so much of p(x); with a sharp edge read p sqrt(1 - "
+    "(x/r)²) for p, x from the centre. Not counted: errors below 1e-15 of the peak, what one ulp "
+    "of x changes, and what a function does on less than 5e-4 of the contact."
+)
+NEARER = (1.0, 1e2, 1e4)  # r over the distances from an edge at which the promise is spelled out
 WIDE = 79  # columns of a terminal
 LEAST = 8.0 * EPS  # rounding of single pressures, which the integrals average out ...
 # what one ulp of x does may add up to this multiple in a principal value next to a corner
@@ -35,10 +40,10 @@ class Certificate:
     """The measures of accuracy of an answer.
 
     Numbers are relative: to the peak pressure (residual, inequalities), to P and P r (equilibrium).
-     At a distance d from the nearer edge the pressure is wrong by at most 3 (error + edges
-    sqrt(r/d)) of its peak, or of p(x) where that is larger, but for errors below 1e-15 of the peak,
-    for what one ulp of x changes, and for what a function does on less than 5e-4 of the contact.
-    With a sharp edge that holds for p sqrt(1 - (x/r)²), x from the centre.
+    At a distance d from the nearer edge the pressure is wrong by at most 3 (error + edges
+    sqrt(r/d)) of its peak. Where p(x) is larger than the peak it is so much of p(x); with a sharp
+    edge read p sqrt(1 - (x/r)²) for p, x from the centre. Not counted: errors below 1e-15 of the
+    peak, what one ulp of x changes, and what a function does on less than 5e-4 of the contact.
 
     Parameters
     ----------
@@ -66,11 +71,9 @@ class Certificate:
         distance r from them.
     notes : tuple of str
         Sentences on strains that are not small; they do not count for `ok`.
-
-    Notes
-    -----
-    Where dissimilar bodies slide, with exponents 1/2 ± ε at the edges, the root is (r/d)^(1/2 +
-    |ε|).
+    root : float
+        The power of r/d in the promise: 1/2, and 1/2 + |ε| where dissimilar bodies slide, with
+        exponents 1/2 ± ε at the edges.
     """
 
     residual: float
@@ -87,6 +90,7 @@ class Certificate:
     resolution: float = 0.0
     edges: float = 0.0
     notes: tuple[str, ...] = ()
+    root: float = 0.5
 
     @property
     def error(self) -> float:
@@ -120,30 +124,39 @@ class Certificate:
     def _repr_html_(self) -> str:
         return f"<pre>{escape(str(self))}</pre>"
 
+    def wrong_by(self, nearer: float) -> float:
+        """What the promise is at a distance r/nearer from an edge, as a part of the peak."""
+        return 3.0 * (self.error + self.edges * nearer**self.root)
+
     def __str__(self) -> str:
-        rows: tuple[tuple[str, str], ...] = (
-            ("integral equation (1), residual / peak", f"{self.residual:.1e}"),
-            ("error of the pressure that would leave it / peak", f"{self.implied:.1e}"),
-            ("equilibrium of forces, |∫p - P| / P", f"{self.force:.1e}"),
-            ("equilibrium of moments, |∫px - M| / (P r)", f"{self.moment:.1e}"),
-            ("lowest pressure in contact / peak", f"{self.lowest_pressure:+.1e}"),
-            ("lowest gap outside / indentation scale", f"{self.lowest_gap:+.1e}"),
-            ("of this, rounding of x itself", f"{self.abscissae:.1e}"),
-            ("function against its resolution, as p / peak", f"{self.resolution:.1e}"),
-            ("edges, as p / peak at a distance r from them", f"{self.edges:.1e}"),
-            ("estimated relative error of the pressure", f"{self.error:.1e}"),
-        )
-        for name, intervals in (("p < 0", self.tension), ("gap < 0", self.overlap)):
-            rows += ((f"{name} for {shown(intervals)}", ""),) if intervals else ()
+        """The verdict first, then what it means, then its parts."""
         verdict = (
             f"certified to {max(self.tol, EXPLAINED * self.abscissae):.0e}"
             if self.ok
             else f"NOT certified to {self.tol:.0e}"
         )
+        meaning: list[tuple[str, str]] = [
+            (f"  at d = r{f'/{nearer:g}' if nearer > 1.0 else ''}", f"{self.wrong_by(nearer):.1e}")
+            for nearer in NEARER
+        ]
+        rows: list[tuple[str, str]] = [
+            ("error: estimated relative error of the pressure", f"{self.error:.1e}"),
+            ("edges, as p / peak at a distance r from them", f"{self.edges:.1e}"),
+            ("integral equation (1), residual / peak", f"{self.residual:.1e}"),
+            ("error of the pressure that would leave it / peak", f"{self.implied:.1e}"),
+            ("equilibrium of forces, |∫p - P| / P", f"{self.force:.1e}"),
+            ("equilibrium of moments, |∫px - M| / (P r)", f"{self.moment:.1e}"),
+            ("function against its resolution, as p / peak", f"{self.resolution:.1e}"),
+            ("lowest pressure in contact / peak", f"{self.lowest_pressure:+.1e}"),
+            ("lowest gap outside / indentation scale", f"{self.lowest_gap:+.1e}"),
+            ("of these, rounding of x itself", f"{self.abscissae:.1e}"),
+        ]
+        for name, intervals in (("p < 0", self.tension), ("gap < 0", self.overlap)):
+            rows += [(f"{name} for {shown(intervals)}", "")] if intervals else []
         rows += self.shear.rows if self.shear is not None else ()
-        lines = [f"{name:<48} {value:>9}".rstrip() for name, value in rows]
         remarks = self.shear.remarks if self.shear is not None else ()
-        return "\n".join([*lines, *remarks, verdict, *textwrap.wrap(PROMISE, WIDE), *self.notes])
+        told = [*textwrap.wrap(PROMISE, WIDE), *table(meaning), *textwrap.wrap(BESIDES, WIDE)]
+        return "\n".join([verdict, *told, "", *table(rows), *remarks, *self.notes])
 
 
 @dataclass(frozen=True)
@@ -223,6 +236,11 @@ class ShearCertificate:
         if self.advancing:
             return (f"slip: {self.kind}",)
         return (f"slip: {self.kind}, in total displacements: {RETREAT}",)
+
+
+def table(rows: Iterable[tuple[str, str]]) -> list[str]:
+    """Measures with their values, one a line."""
+    return [f"{name:<48} {value:>9}".rstrip() for name, value in rows]
 
 
 def unresolved(abscissae: float) -> tuple[str, ...]:

@@ -227,7 +227,10 @@ def _live(arguments: argparse.Namespace) -> int:
         if not arguments.no_browser:
             webbrowser.open(address)
 
-    serve(file.scene if file is not None else None, arguments.port, announce)
+    if file is None:
+        serve(None, arguments.port, announce)
+    else:
+        serve(file.scene, arguments.port, announce, file.units)
     return CERTIFIED
 
 

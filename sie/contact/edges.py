@@ -49,7 +49,6 @@ MISSED = 1e-6  # of the load: a search that ends with more has not found a conta
 # distance, and so many steps settle it.
 NEAR, NEAR_STEPS = 0.25, 5
 HUGE = 1e300
-PLACES = 64.0  # fewer places in a half-width do not show the pressure
 UNEVEN = 1e-30  # the left side is not sought nearer than this fraction of the right one
 
 
@@ -62,6 +61,11 @@ class Found(NamedTuple):
     contact: Interval
     sharp: tuple[bool, bool] = (False, False)
     integrals: EdgeIntegrals | None = None
+
+    def mirrored(self) -> Found:
+        """The same of h(-x)."""
+        k = self.integrals
+        return Found(self.contact.mirrored(), self.sharp[::-1], k.mirrored() if k else None)
 
 
 @dataclass
@@ -236,11 +240,7 @@ class Search:
         self.evaluations += flipped.evaluations
         if left is None:
             return Found(Interval(*self.slope.domain), (True, True))
-        return Found(
-            left.contact.mirrored(),
-            left.sharp[::-1],
-            left.integrals.mirrored() if left.integrals else None,
-        )
+        return left.mirrored()
 
     def _right_edge(self, load: float) -> Found | None:
         """The contact whose right edge is smooth, and whose left edge may be sharp.
@@ -344,6 +344,18 @@ class Search:
                 load=carried * self.half_modulus,
             )
         return Found(contact, (left_sharp, False), k)
+
+    def near(self, contact: Interval, sharp: tuple[bool, bool], load: float) -> Found:
+        """The contact under a load near one that is known; that one where no step comes nearer."""
+        if all(sharp):
+            return Found(contact, sharp)
+        if sharp[1]:
+            flipped = replace(self, slope=self.slope.mirrored(), epsilon=-self.epsilon)
+            return flipped.near(contact.mirrored(), (True, False), load).mirrored()
+        closer, k, settled = self.polish.both(
+            contact, load / self.half_modulus, sharp[0], self.touch()
+        )
+        return Found(closer, sharp, k) if settled else Found(contact, sharp)
 
     # -- a prescribed half-width -------------------------------------------------------------------
 

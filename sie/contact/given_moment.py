@@ -17,9 +17,9 @@ from sie.numerics.root_finding import Bracket, Place, logarithmic_root
 
 from .edge_integrals import EdgeIntegrals, edge_integrals
 from .edge_refinement import MAX_POLISHING, ROUNDINGS
-from .edges import PLACES, Found, Search
+from .edges import Found, Search
 from .first_guess import first_guess
-from .known_contact import Edges
+from .known_contact import PLACES, Edges
 
 NEAR_CENTRE = 4.0  # half-widths from a centre an origin loses no digits
 # The search for a centre: the first step over the half-width, and what the next are longer by.
@@ -40,10 +40,6 @@ def under_load(search: Search, load: float, moment: float) -> Edges | None:
         # A straight part of the profile carries nothing
         return (r * k.I1, 0.5 * r * r * (k.JR + k.JL)) if rounding < k.I1 else (0.0, 0.0)
 
-    def tilted(contact: Interval, tilt: float) -> EdgeIntegrals:
-        search.evaluations += 1
-        return edge_integrals(search.slope.tilted(tilt), contact, keep_zero=search.keep_zero)
-
     lost = LoadError(
         f"the moment {moment:.6g} puts the load at x = M/P = {lever:.6g}, where rounding of "
         "the slope is more than the load shows: "
@@ -61,7 +57,17 @@ def under_load(search: Search, load: float, moment: float) -> Edges | None:
     guess = interval_about(lever, r)
     if not sum(search.polish.rounding(guess, search.integrals(guess), target)) <= target:
         raise lost
-    found = search.polish.balanced(guess, target, lever, tilted)
+    return near(search, guess, load, moment)
+
+
+def near(search: Search, guess: Interval, load: float, moment: float) -> Edges | None:
+    """The same from a contact that is near; None where steps from there find none."""
+
+    def tilted(contact: Interval, tilt: float) -> EdgeIntegrals:
+        search.evaluations += 1
+        return edge_integrals(search.slope.tilted(tilt), contact, keep_zero=search.keep_zero)
+
+    found = search.polish.balanced(guess, load / search.half_modulus, moment / load, tilted)
     if found is None:
         return None
     contact, k, tilt = found

@@ -2,16 +2,27 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
 
+from sie import arguments
+from sie.errors import LoadError
 from sie.numerics.interval import Interval
+from sie.problem.scene import Scene
 from sie.profiles.base import Profile
 from sie.profiles.slope import Slope
 
 Array = NDArray[np.float64]
+
+PLACES = 64.0  # fewer places in a half-width do not show the pressure
+SIZE = 1e120  # bounds a half-width and a pressure, whose squares are multiplied again
+MOMENT = 1e304  # bounds a moment
+NEARER = (
+    "choose other units, or lessen what moves the contact away from x = 0, tilt, moment or shift"
+)
 
 
 @dataclass(frozen=True)
@@ -53,3 +64,34 @@ def with_breaks(slope: Slope, places: tuple[float, ...]) -> Slope:
     for x in places:
         slope = slope.split_at(x)
     return slope
+
+
+def refuse_unresolved(edges: Edges, scene: Scene) -> None:
+    """Raises LoadError where doubles cannot hold the contact."""
+    refuse_narrow(edges.contact.x1, edges.contact.x2)
+    refuse_out_of_scale(edges.contact.r, edges.normal_load, scene.Estar)
+
+
+def refuse_narrow(x1: float, x2: float) -> None:
+    """Raises LoadError for a contact in which doubles are too few to show the pressure."""
+    apart = math.ulp(max(abs(x1), abs(x2)))
+    if not 0.5 * (x2 - x1) >= PLACES * apart:
+        raise LoadError(
+            f"the contact at x = {0.5 * (x1 + x2):.6g} is {x2 - x1:.6g} wide, where doubles are "
+            f"{apart:.2g} apart: raise the load, {NEARER}"
+        )
+
+
+def refuse_out_of_scale(r: float, load: float, Estar: float) -> None:
+    """Raises LoadError for a contact of half-width r with sizes whose products are no doubles."""
+    sizes = (
+        ("half-width", r, SIZE),
+        ("mean traction", 0.5 * load / r, SIZE),
+        ("E* r²", Estar * r * r, MOMENT),
+    )
+    for name, size, largest in sizes:
+        if not 1.0 / largest <= size <= largest:
+            raise LoadError(
+                f"the contact's {name} is {size:.6g}, whose products leave the range of doubles: "
+                f"{arguments.REMEDY}"
+            )

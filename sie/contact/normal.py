@@ -11,6 +11,7 @@ import math
 from collections.abc import Collection
 from dataclasses import replace
 from functools import partial
+from typing import NoReturn
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,30 +22,22 @@ from sie.numerics.interval import Interval, interval_about
 from sie.problem.request import ECONOMY
 from sie.problem.scene import Scene
 from sie.profiles.base import Profile
-from sie.profiles.look import across, falls, values
 from sie.profiles.power_law import PowerLaw
-from sie.profiles.profile_pieces import one_piece
-from sie.profiles.resolution import refined
+from sie.profiles.resolution import one_piece, refined
 from sie.profiles.slope import Slope
 from sie.profiles.unresolved import between_pieces, between_points, expanded
 
 from . import given_moment
-from .edges import PLACES, Found, Search
-from .known_contact import Edges, Normal, with_breaks
+from .edges import Found, Search
+from .known_contact import NEARER, Edges, Normal, refuse_unresolved, with_breaks
 from .pressure import resolution, slope_series, upright_law
 from .smooth_slope import smooth_contact
 from .tilt_of_moment import refuse_outside, tilt_of_moment
-from .widest_contact import widest_contact
 from .window import FITTED, MOST_GROWN, Window, window_of
 
 Array = NDArray[np.float64]
 
 
-SIZE = 1e120  # bounds a half-width and a pressure, whose squares are multiplied again
-MOMENT = 1e304  # bounds a moment
-NEARER = (
-    "choose other units, or lessen what moves the contact away from x = 0, tilt, moment or shift"
-)
 # Tests of a function between the points that resolved it, each with the breaks that the last added.
 LOOKS = 4
 
@@ -80,11 +73,12 @@ def of_one_patch(edges: Edges, scene: Scene, tol: float, economy: Collection[str
     for _ in range(LOOKS):
         lo, hi = edges.contact.x1, edges.contact.x2
         margin, ends = 0.5 * (FITTED - 1.0) * (hi - lo), scene.profile.domain
-        declared = with_breaks(scene.profile.pieces, found.seen)
-        window = max(lo - margin, ends[0]), min(hi + margin, ends[1])
-        resolved = refined(declared, *window, resolution(tol))
+        resolved = with_breaks(scene.profile.pieces, found.seen)
+        if resolved.functions:
+            window = max(lo - margin, ends[0]), min(hi + margin, ends[1])
+            resolved = refined(resolved, *window, resolution(tol))
         found = replace(found, edges=_closer(edges, scene, resolved, economy))
-        more = _unseen(found, resolved, scene, tol, economy)
+        more = _unseen(found, resolved, scene, tol, economy) if resolved.functions else ()
         if not more:
             break
         found = replace(found, seen=found.seen + more)
@@ -96,15 +90,14 @@ def of_one_patch(edges: Edges, scene: Scene, tol: float, economy: Collection[str
 
 
 def _closer(edges: Edges, scene: Scene, slope: Slope, economy: Collection[str]) -> Edges:
-    """The edges by their conditions on a resolved slope; as they are where one is sharp."""
-    if any(edges.sharp):
-        return edges
+    """The edges by their conditions on a resolved slope."""
+    load, smooth = edges.normal_load, not any(edges.sharp)
+    if scene.moment is not None and smooth:
+        search = _search(scene, slope, economy)
+        return given_moment.near(search, edges.contact, load, scene.moment) or edges
     search = _search(scene, slope.tilted(edges.tilt), economy)
-    try:
-        found = search.polished(edges.contact, edges.normal_load / search.half_modulus, False)
-    except (LoadError, OverflowError):
-        found = None
-    return edges if found is None else search.finished(found, edges.normal_load, edges.tilt)
+    found = search.finished(search.near(edges.contact, edges.sharp, load), load, edges.tilt)
+    return found if scene.moment is None else replace(found, moment=scene.moment)
 
 
 def one_series(scene: Scene, tol: float, economy: Collection[str]) -> Normal | None:
@@ -121,14 +114,8 @@ def one_series(scene: Scene, tol: float, economy: Collection[str]) -> Normal | N
             return None
     if found is None or (not profile.convex and _unseen_by_series(found, profile, tol)):
         return None
-    _refuse_unresolved(found.edges, scene)
+    refuse_unresolved(found.edges, scene)
     return found
-
-
-def falls_somewhere(scene: Scene) -> bool:
-    """Whether the slope falls from place to place where the search for the contact begins."""
-    slope, window = scene.profile.pieces, window_of(scene)
-    return bool(falls(values(slope, across(slope, (window.lo, window.hi)))).any())
 
 
 def _within_scale(
@@ -154,35 +141,8 @@ def _within_scale(
         raise LoadError(
             f"the search for the contact left the range of doubles, under {_asked(scene)}: {NEARER}"
         ) from None
-    _refuse_unresolved(found.edges, scene)
+    refuse_unresolved(found.edges, scene)
     return found
-
-
-def _refuse_unresolved(edges: Edges, scene: Scene) -> None:
-    """Raises LoadError where doubles cannot hold the contact."""
-    (x1, x2), r, P = edges.contact[:2], edges.contact.r, edges.normal_load
-    apart = math.ulp(max(abs(x1), abs(x2)))
-    if not r >= PLACES * apart:
-        raise LoadError(
-            f"the contact at x = {edges.contact.m:.6g} is {2.0 * r:.6g} wide, where doubles are "
-            f"{apart:.2g} apart: {NEARER}"
-        )
-    refuse_out_of_scale(r, P, scene.Estar)
-
-
-def refuse_out_of_scale(r: float, load: float, Estar: float) -> None:
-    """Raises LoadError for a contact of half-width r with sizes whose products are no doubles."""
-    sizes = (
-        ("half-width", r, SIZE),
-        ("mean traction", 0.5 * load / r, SIZE),
-        ("E* r²", Estar * r * r, MOMENT),
-    )
-    for name, size, largest in sizes:
-        if not 1.0 / largest <= size <= largest:
-            raise LoadError(
-                f"the contact's {name} is {size:.6g}, whose products leave the range of doubles: "
-                f"{arguments.REMEDY}"
-            )
 
 
 def _asked(scene: Scene) -> str:
@@ -198,14 +158,18 @@ def _contact(
     if law is not None and _asks_for_no_tilt(scene, law.axis):
         return Normal(_of_power_law(law, scene), True)
     if not profile.pieces.functions:
-        return _searched(scene, profile.pieces, economy)
+        return _searched(scene, profile.pieces, economy) or _without_smooth_edges(scene)
     looks = 0 if profile.convex or seen is not None else LOOKS
     if "transform" in economy:
         slope = with_breaks(profile.pieces, seen or ())
         smooth = _smooth(scene, slope, tol, "symmetry" in economy)
         if smooth is not None and not (looks and _unseen_by_series(smooth, profile, tol)):
             return smooth
-    return _in_window(scene, tol, economy, seen or (), looks)
+    try:
+        return _in_window(scene, tol, economy, seen or (), looks)
+    except LoadError:
+        _refuse_infinite_ends(profile.pieces)
+        raise
 
 
 def _in_window(
@@ -217,16 +181,14 @@ def _in_window(
     """
     profile, window, tilt = scene.profile, window_of(scene), 0.0
     while True:
-        try:
-            slope = with_breaks(profile.pieces, seen)
-            resolved = refined(slope, window.lo, window.hi, resolution(tol))
-            found = _searched(scene, resolved, economy, tilt)
-        except LoadError as error:
-            # a wider window does not make one patch of those that carry the moment
-            several = "tilt" in error.reached and not (profile.convex or scene.epsilon)
-            if several or not window.may_carry_more(float(error.reached.get("load", 0.0))):
-                _refuse_infinite_ends(profile.pieces)
-                raise
+        while not window.holds(_lever(scene)) and window.may_grow:
+            window.grow()
+        slope = with_breaks(profile.pieces, seen)
+        resolved = refined(slope, window.lo, window.hi, resolution(tol))
+        found = _searched(scene, resolved, economy, tilt)
+        if found is None:
+            if not window.may_grow:
+                _without_smooth_edges(scene)
             window.grow()
             continue
         edges = found.edges
@@ -245,6 +207,20 @@ def _in_window(
             seen += more
             if profile.axis is not None:
                 seen += tuple(2.0 * profile.axis - x for x in more)
+
+
+def not_one_patch(scene: Scene) -> LoadError:
+    return LoadError(
+        f"half_width = {scene.half_width:.6g} is not that of one patch of contact, and the load of "
+        "several patches is not sought from it: give normal_load instead"
+    )
+
+
+def _lever(scene: Scene) -> float | None:
+    """Where the load acts, if that is given."""
+    if scene.moment is None or scene.normal_load is None:
+        return None
+    return scene.moment / scene.normal_load
 
 
 def _refuse_wider(window: Window, scene: Scene) -> None:
@@ -372,8 +348,14 @@ def contact_under(
     )
 
 
-def _searched(scene: Scene, slope: Slope, economy: Collection[str], start: float = 0.0) -> Normal:
-    """The edges for a resolved slope; the tilt of a given moment is searched from `start`."""
+def _searched(
+    scene: Scene, slope: Slope, economy: Collection[str], start: float = 0.0
+) -> Normal | None:
+    """The edges for a resolved slope; the tilt of a given moment is searched from `start`.
+
+    None where a half-width and a moment leave no contact with smooth edges, and the indenter no
+    others.
+    """
     axis = scene.profile.axis if "symmetry" in economy else None
     edges_at = partial(_edges_at, scene=scene, slope=slope, economy=economy)
     load, moment = scene.normal_load, scene.moment
@@ -382,21 +364,20 @@ def _searched(scene: Scene, slope: Slope, economy: Collection[str], start: float
     else:
         if load is not None:
             refuse_outside(moment, load, slope.domain, scene.profile.domain)
-        search = _search(scene, slope, economy)
-        edges = _of_moment(scene, search, axis) or tilt_of_moment(
-            edges_at,
-            moment,
-            search,
-            scene.half_width is not None,
-            start,
-            may_jump=_may_jump(scene),
-        )
+        search, given = _search(scene, slope, economy), scene.half_width is not None
+        smooth = _of_moment(scene, search, axis)
+        asked = given and not scene.epsilon and not moment == axis == 0.0
+        if smooth is None and asked and np.isinf(scene.profile.domain).all():
+            return None
+        edges = smooth or tilt_of_moment(edges_at, moment, search, given, start)
     return Normal(edges, axis is not None and edges.tilt == scene.epsilon == 0.0)
 
 
-def _may_jump(scene: Scene) -> bool:
-    """Whether the moment may jump with the tilt: where it does, several patches are sought."""
-    return scene.normal_load is not None and scene.epsilon == 0.0 and not scene.profile.convex
+def _without_smooth_edges(scene: Scene) -> NoReturn:
+    raise LoadError(
+        f"no contact of half-width {scene.half_width:.6g} with smooth edges was found that "
+        f"has the moment {scene.moment:.6g}: give a smaller moment, or a larger half_width"
+    )
 
 
 def _search(scene: Scene, slope: Slope, economy: Collection[str]) -> Search:
@@ -417,16 +398,13 @@ def _edges_at(tilt: float, scene: Scene, slope: Slope, economy: Collection[str])
                 f"a sharp-edged contact of half-width {scene.half_width:.6g} carries any "
                 "load: give normal_load instead of half_width"
             )
-        return search.finished(found, None, tilt)
+        edges = search.finished(found, None, tilt)
+        if not edges.normal_load > 0.0:
+            raise not_one_patch(scene)
+        return edges
     load = scene.normal_load
     assert load is not None
-    try:
-        found = search.general(load) if search.axis is None else search.symmetric(load)
-    except LoadError:
-        widest = None if scene.profile.convex else widest_contact(search, load)
-        if widest is None:
-            raise
-        found = widest
+    found = search.general(load) if search.axis is None else search.symmetric(load)
     return search.finished(found, load, tilt)
 
 
@@ -441,10 +419,4 @@ def _of_moment(scene: Scene, search: Search, axis: float | None) -> Edges | None
         return None if on_axis else given_moment.under_load(search, load, moment)
     if r is None or moment == axis == 0.0:
         return None
-    edges = given_moment.of_half_width(search, r, moment)
-    if edges is None and np.isinf(scene.profile.domain).all():
-        raise LoadError(
-            f"no contact of half-width {r:.6g} with smooth edges was found that "
-            f"has the moment {moment:.6g}: give a smaller moment, or a larger half_width"
-        )
-    return edges
+    return given_moment.of_half_width(search, r, moment)

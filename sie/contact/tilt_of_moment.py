@@ -15,8 +15,6 @@ from .known_contact import Edges
 
 MAX_TILTS = 100  # tried, whether or not the profile can be tilted by so much
 HUGE = 1e300  # stands for an open end of the bracket
-# times what the slopes at both ends of a bracket allow: a moment that changes by more jumps
-JUMP = 100.0
 MISSED = 1e-9  # of the load times its farthest lever: a moment missed by more was not carried
 
 
@@ -47,18 +45,14 @@ def tilt_of_moment(
     search: Search,
     at_fixed_width: bool,
     tilt: float,
-    *,
-    may_jump: bool,
 ) -> Edges:
     """The edges at the tilt whose pressure has the moment, by Newton's method in a bracket.
 
-    M falls as the tilt grows; the search starts at `tilt`. It ends where the moment `may_jump`, as
-    it does from one wave of a profile to another, and does.
+    M falls as the tilt grows; the search starts at `tilt`.
     """
     bracket = Bracket((-math.inf, 0.0), (math.inf, 0.0))
     edges = best = edges_at(tilt)
     left, missed = MAX_TILTS, [math.inf, math.inf]
-    ends: dict[bool, tuple[float, float, float]] = {}
     while left > 0:
         excess = edges.moment - moment
         if abs(excess) <= abs(best.moment - moment):
@@ -67,9 +61,6 @@ def tilt_of_moment(
         if abs(excess) <= 2.0 * EPS * _reach(edges):
             break
         falls = _fall_of_moment(edges, search, at_fixed_width)
-        ends[excess > 0.0] = tilt, edges.moment, falls
-        if may_jump and _jumps(ends):
-            break
         missed.append(abs(excess))
         astray = missed[-1] > 0.5 * missed[-3]  # to and fro across a part that is nearly flat
         wanted = tilt + excess / falls if falls > 0.0 else math.inf
@@ -91,14 +82,6 @@ def tilt_of_moment(
             tilt=best.tilt,
         )
     return best
-
-
-def _jumps(ends: dict[bool, tuple[float, float, float]]) -> bool:
-    """Whether the moment jumps between both ends (tilt, moment, -dM/d(tilt)) of a bracket."""
-    if len(ends) < 2:
-        return False
-    (low, more, one), (high, less, other) = ends[True], ends[False]
-    return more - less > JUMP * max(one, other) * (high - low)
 
 
 def _carried(

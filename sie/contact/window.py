@@ -14,7 +14,6 @@ WINDOW = 1.6
 FITTED = 1.25  # ... to the contact times this.
 WINDOW_GROWTH = 8.0
 MOST_GROWN, MOST_SHRUNK = 12, 120
-GROWS = 1.5  # a window so much wider must carry so much more, or no wider one will be tried
 WINDOW_SIZES = np.geomspace(1e-140, 1e140, 561)
 
 
@@ -25,7 +24,6 @@ class Window:
     ends       the ends of the indenter
     grown      how often the window grew, and shrunk: how often it was fitted to a contact
     settled    whether it grew after it was fitted: then the profile is not convex, and it stays
-    carried    the largest load that the window carried when a search for the contact failed
     """
 
     lo: float
@@ -34,18 +32,19 @@ class Window:
     grown: int = 0
     shrunk: int = 0
     settled: bool = False
-    carried: float = 0.0
 
     @property
     def is_open(self) -> tuple[bool, bool]:
         """Whether each end of the window is inside the indenter."""
         return self.lo > self.ends[0], self.hi < self.ends[1]
 
-    def may_carry_more(self, carried: float) -> bool:
-        """Whether a wider window may carry the load of which this one carries so much."""
-        before, self.carried = self.carried, carried
-        enough = not (before and carried <= GROWS * before)
-        return any(self.is_open) and self.grown < MOST_GROWN and enough
+    @property
+    def may_grow(self) -> bool:
+        return any(self.is_open) and self.grown < MOST_GROWN
+
+    def holds(self, x: float | None) -> bool:
+        """Whether the place x, if there is one, is in the window."""
+        return x is None or self.lo < x < self.hi
 
     def grow(self) -> None:
         middle, half = 0.5 * (self.lo + self.hi), 0.5 * WINDOW_GROWTH * (self.hi - self.lo)

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from sie.errors import ContactError
 
-from .finite_step import Chord, Zones
+from .equations import Chord, Zones
 from .state import SAME, Contact, State, intervals, united
 
 Array = NDArray[np.float64]

@@ -18,17 +18,10 @@ from numpy.typing import NDArray
 from sie.errors import ContactError
 from sie.numerics.root_finding import false_position
 
+from .admissible import EXCEEDED
 from .cells import zones_on_cells
-from .finite_step import (
-    EXCEEDED,
-    Equations,
-    Zones,
-    balanced,
-    newton,
-    on_earlier_zones,
-    solved,
-    without_idle,
-)
+from .equations import Equations, Zones
+from .finite_step import balanced, newton, on_earlier_zones, solved, without_idle
 from .loading import LoadStep
 from .onset import End, Motion, Onset, onset, set_out
 from .rates import Rates

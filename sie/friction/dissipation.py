@@ -30,8 +30,8 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
+from sie.contact.convexity import rises
 from sie.contact.edges import Found
-from sie.contact.inequalities import slope_rises
 from sie.contact.known_contact import Normal
 from sie.contact.pressure import pressure
 from sie.errors import LoadError
@@ -61,7 +61,8 @@ def dissipated(state: Slip) -> float:
     if not isinstance(state, Slipping):
         return state.energy
     step = state.step
-    if step.tau or not (step.scene.profile.convex or slope_rises(step.pressure, step.slope)):
+    one_patch = step.scene.profile.convex or rises(step.slope, step.pressure.interval)
+    if step.tau or not one_patch:
         return state.integrals.work  # a smaller load need not touch in one patch
     heat = Dissipation(step.scene, step.normal, step.tol, step.economy)
     fronts = [SlippedLayer(0.0, abs(step.Q), 1.0)]

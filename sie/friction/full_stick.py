@@ -22,8 +22,7 @@ from numpy.typing import ArrayLike, NDArray
 from sie import arguments
 from sie.cauchy.density import JacobiDensity
 from sie.cauchy.equation import CauchyEquation
-from sie.contact.known_contact import Edges
-from sie.contact.normal import refuse_out_of_scale
+from sie.contact.known_contact import Edges, refuse_out_of_scale
 from sie.errors import ContactError
 from sie.numerics.interval import Interval
 from sie.problem.scene import Scene

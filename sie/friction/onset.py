@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from sie.errors import ContactError
 from sie.numerics.root_finding import false_position
 
-from .finite_step import Zones
+from .equations import Zones
 from .rates import LoadRates, Rates
 from .state import State
 

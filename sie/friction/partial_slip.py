@@ -114,14 +114,15 @@ def _one_signed(step: Step, sign: float) -> OneSignedSlip:
 
     It follows from the normal problem of the tilted profile under the reduced load.
     """
-    scene, P, f, Q = step.scene, step.normal_load, step.scene.friction, step.Q
+    found = step.contact_under(*corrective_loads(step, sign))
+    return OneSignedSlip(step.pressure, step.slope, step.scene.friction, step, sign, found)
+
+
+def corrective_loads(step: Step, sign: float) -> tuple[float, float]:
+    """The load and the tilt under which the stick zone of slip in the direction `sign` touches."""
+    P, f, Q = step.normal_load, step.scene.friction, step.Q
     load = max(remaining(f, P, Q) if sign * Q >= 0.0 else P + abs(Q) / f, HARDLY * P)
-    tilt = step.normal.edges.tilt + _tilt_of_strain(step, sign)
-    found = step.contact_under(load, tilt)
-    state = OneSignedSlip(step.pressure, step.slope, f, step, sign, found)
-    if not (scene.profile.convex and "convexity" in step.economy):
-        _ = state.corrective  # verified at once
-    return state
+    return load, step.normal.edges.tilt + _tilt_of_strain(step, sign)
 
 
 def _fitting(step: Step, sign: float) -> OneSignedSlip | None:

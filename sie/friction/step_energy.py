@@ -34,7 +34,8 @@ from sie.numerics.root_finding import false_position
 
 from .cells import zones_on_cells
 from .course import Part
-from .finite_step import Equations, Zones, newton
+from .equations import Equations, Zones
+from .finite_step import newton
 from .gained_slip import GainedSlip
 from .loading import LoadStep
 from .onset import onset

@@ -17,8 +17,8 @@ from numpy.typing import NDArray
 
 from sie.errors import ContactError
 
+from .admissible import built
 from .cells import zones_on_cells
-from .finite_step import built
 from .loading import LoadStep
 from .onset import End, Motion, Onset, resting_place, set_out
 from .rates import Rates

@@ -31,7 +31,7 @@ from sie.errors import ContactError
 from sie.numerics import chebyshev
 from sie.numerics.graded_panels import Rule
 
-from .finite_step import Equations, Zones
+from .equations import Equations, Zones
 from .loading import LoadStep
 from .onset import Motion, Onset
 from .rates import Rates

@@ -1,243 +1,212 @@
-"""What the page shows of one setting: numbers and curves, or the sentence of a refusal.
-
-All is relative to a base: one of four indenters on a half-plane with E* = R = 1, or the scene of a
-file. The load is a multiple of the base's. Tilt and bulk stress are multiples of what its mean
-pressure would need: slope p̄/E*, stress p̄. The sliders start from the values of the file.
-"""
+"""What the page shows of one setting: numbers and curves, or the sentence of a refusal."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass, replace
-from functools import cached_property
+import base64
+from collections.abc import Callable
+from dataclasses import asdict, replace
 from itertools import product
-from math import sqrt
 from typing import Any
 
 import numpy as np
 
+from sie import Solution
 from sie.arguments import with_short_words
 from sie.errors import ContactError
-from sie.problem.scene import Scene
-from sie.profiles.shapes import RoundedFlat
-from sie.solution import Solution, solve
+from sie.io.scene_file import Units
 
 from . import teaching
-from .controls import ACROSS, BANDS, DOWN, LIVE, OF_FILE, ROUNDED, SAVED, SHAPES, Control, shapes
+from .controls import ROUNDED, SAVED, SHAPES
+from .frame import Array, frame_of, inside, mises, surface, tops, words
+from .setting import Setting, sliders, solution_of
 
-LOAD = 0.4  # of the four indenters, over E* R
-POINTS = 161
-MARGIN, DEPTH = 1.8, 1.8  # half of the picture's width, and its depth, over the half-width
 NODES = (4, 8, 16, 32, 64, 128)
-SHOWN = 0.9  # of the points lie below the top of the picture of an infinite traction
+ALL_DIGITS = 1e-12  # of the textbook's error: what is left is rounding
+GROUND = 81  # points of the surface
+LEVELS = 1000  # of heights, over that of the frame
 
 Answer = dict[str, Any]
 
 
-@dataclass(frozen=True)
-class Setting:
-    """Where the sliders stand.
-
-    Raises
-    ------
-    ValueError
-        From `of_words`, for a name or a number that the page does not send.
-    """
-
-    shape: str = ROUNDED
-    ratio: float = 0.5
-    load: float = 1.0
-    tilt: float = 0.0
-    friction: float = 0.5
-    share: float = 0.6
-    bulk: float = 0.0
-    beta: float = 0.0
-    file: Scene | None = None
-
-    @classmethod
-    def of_words(cls, words: Mapping[str, str], file: Scene | None = None) -> Setting:
-        """The setting that a query of the page names; what it leaves out keeps its start."""
-        numbers = {control.name: control for control in sliders(file)}
-        given: dict[str, Any] = {name: control.start for name, control in numbers.items()}
-        for name, word in words.items():
-            if name == "shape":
-                if word not in shapes(file):
-                    raise ValueError(f'there is no shape "{word}"')
-                given[name] = word
-            elif name in numbers:
-                given[name] = numbers[name].nearest(float(word))
-            else:
-                raise ValueError(f'there is no slider "{name}"')
-        return cls(**{"shape": shapes(file)[0], **given, "file": file})
-
-    @cached_property
-    def base(self) -> Scene:
-        """The scene that the sliders change: a load, no friction and no tilt."""
-        if self.shape == OF_FILE and self.file is not None:
-            return self.file
-        P = LOAD * self.load
-        if self.shape == ROUNDED:
-            # b² E*/R is a multiple of P for a given a/b.
-            unit = Scene(
-                profile=RoundedFlat(self.ratio, 1.0), modulus=1.0, poisson=0.3, half_width=1.0
-            )
-            b = sqrt(P / solve(unit).normal_load)
-            return Scene(
-                profile=RoundedFlat(self.ratio * b, 1.0), modulus=1.0, poisson=0.3, normal_load=P
-            )
-        return Scene(profile=SHAPES[self.shape], modulus=1.0, poisson=0.3, normal_load=P)
-
-    @cached_property
-    def scene(self) -> Scene:
-        """The scene under the sliders; that of the file where none was moved."""
-        base, times = self.base, self.load if self.shape == OF_FILE else 1.0
-        if self.shape == OF_FILE and self == Setting.of_words({}, self.file):
-            return base
-        rest, mean = _at_rest(base)
-        P = rest * times
-        changes: dict[str, Any] = {
-            "normal_load": P,
-            "half_width": None,
-            "friction": self.friction,
-            "tangential_load": self.friction * self.share * P,
-            "bulk_stress": self.bulk * mean,
-            "sliding": 0,
-        }
-        if base.moment is not None:
-            changes["moment"] = base.moment * times  # the load keeps its place
-        if self.tilt:
-            changes |= {"moment": None, "tilt": base.tilt + self.tilt * mean / base.Estar}
-        if self.beta != base.beta:
-            changes["dundurs"] = self.beta
-        return replace(base, **changes)
-
-
-def sliders(file: Scene | None) -> tuple[Control, ...]:
-    """The sliders of the served page, which start from the values of the file.
-
-    Raises
-    ------
-    ValueError
-        For a bonded punch, which has no coefficient of friction.
-    ContactError
-        If the file's normal problem has no answer.
-    """
-    if file is None:
-        return LIVE
-    if file.bonded:
-        raise ValueError(
-            "friction = inf has no place on a slider: give a finite friction, or use sie solve"
-        )
-    P, mean = _at_rest(file)
-    limit = file.friction * P
-    start = {
-        "friction": file.friction,
-        "share": float(file.sliding or (file.tangential_load / limit if limit else 0.0)),
-        "bulk": file.bulk_stress / mean,
-        "beta": file.beta,
-    }
-    known = {"beta": (0.0,)} if file.body is not None else {}  # two bodies have a β of their own
-    return tuple(
-        replace(c, values=known.get(c.name, c.values)).starting(start.get(c.name, c.start))
-        for c in LIVE
-    )
-
-
-def _at_rest(base: Scene) -> tuple[float, float]:
-    """The load and the mean pressure without friction."""
-    solution = solve(replace(base, friction=0.0, tangential_load=0.0, bulk_stress=0.0, sliding=0))
-    return solution.normal_load, solution.normal_load / (2.0 * solution.half_width)
-
-
-def answer(setting: Setting, part: str) -> Answer:
+def answer(setting: Setting, part: str, units: Units | None = None) -> Answer:
     """The page's data for a setting, ready for JSON; {"refusal": sentence} where there is none.
 
     Parameters
     ----------
     setting : Setting
         Where the sliders stand.
-    part : {"contact", "stress"}
-        The tractions and their certificate, or what lies below them, which takes longer.
+    part : {"contact", "stress", "strength"}
+        The tractions and their certificate; the picture of the stress below; where the body yields
+        first and cracks, which takes longest.
+    units : Units, optional
+        Labels of the file's units.
     """
     try:
-        return PARTS[part](solve(setting.scene))
+        return PARTS[part](setting, solution_of(setting), words(setting.shape, units))
     except (ContactError, ValueError) as refusal:
+        if part == "contact" and not setting.untouched:
+            return {"refusal": _in_the_sliders_words(setting)}
         return {"refusal": with_short_words(str(refusal))}
 
 
-def _contact(solution: Solution) -> Answer:
-    lo, hi = solution.edges
-    # Closer together at the edges
-    x = (lo + hi) / 2 + (hi - lo) / 2 * np.sin(np.linspace(-np.pi / 2, np.pi / 2, POINTS))
-    pressure, shear = solution.pressure(x), solution.shear(x)
-    finite = np.isfinite(pressure) & np.isfinite(shear)
-    x, pressure, shear = x[finite], pressure[finite], shear[finite]
-    top = 1.05 * float(pressure.max() if finite.all() else np.quantile(pressure, SHOWN))
-    friction = solution.scene.friction
+def _in_the_sliders_words(setting: Setting) -> str:
+    """Which slider alone, set to 0, would give an answer."""
+    labels = {control.name: control.label for control in sliders(setting.file)}
+    zeros: dict[str, dict[str, Any]] = {
+        name: {name: 0.0} for name in ("bulk", "beta", "tilt", "share") if getattr(setting, name)
+    }
+    ways = [
+        f"“{labels[name]}” to 0"
+        for name, zero in zeros.items()
+        if _answered(replace(setting, **zero))
+    ]
+    remedy = f"Set {' or '.join(ways)}." if ways else "Move the sliders nearer to their start."
+    return f"These settings together have no answer. {remedy}"
+
+
+def _answered(setting: Setting) -> bool:
+    try:
+        solution_of(setting).shear  # noqa: B018 -- solved when it is read
+    except (ContactError, ValueError):
+        return False
+    return True
+
+
+def _contact(setting: Setting, solution: Solution, word: dict[str, str]) -> Answer:
+    frame = frame_of(setting.shape, setting.file)
+    x, pressure, shear = inside(solution)
+    ground = np.union1d(np.linspace(frame.lo, frame.hi, GROUND), solution.edges)
+    punch, body = (height / frame.height * LEVELS for height in surface(solution, ground))
+    P, Q, friction = solution.normal_load, solution.tangential_load, solution.scene.friction
     certificate = solution.check()
-    nodes, errors = _textbook(solution)
-    zones = ", ".join(f"[{lo:.6g}, {hi:.6g}]" for lo, hi in solution.stick)
     return {
-        "x": _rounded(x), "p": _rounded(pressure), "q": _rounded(shear),
-        "fp": _rounded(friction * pressure), "tops": _rounded((top, (friction or 1.0) * top)),
-        "stick": [_rounded(zone) for zone in solution.stick],
-        "n": nodes, "errors": errors, "certificate": _number(certificate.error),
+        "frame": {name: _number(value) for name, value in asdict(frame).items()},
+        "axes": {
+            "x": word["length"].format("x"), "height": word["length"].format("height"),
+            "p": word["stress"].format("p"), "q": word["stress"].format("q"),
+            "mises": word["stress"].format("Mises stress"),
+        },
+        "x": _rounded(x), "p": _rounded(pressure), "q": _rounded(shear), "f": _number(friction),
+        "tops": _rounded(tops(solution, pressure, shear)),
+        "ground": _rounded(ground), "punch": _levels(punch), "body": _levels(body),
+        "zones": _zones(solution),
+        "loads": {
+            "P": _number(setting.load), "at": _number(solution.moment / P),
+            "Q": _number(Q / (friction * P) if friction else 0.0),
+            "bulk": _number(solution.scene.bulk_stress / setting.mean_pressure),
+        },
+        "textbook": _textbook(solution), "certificate": _number(certificate.error),
         "numbers": [
-            ["contact", ", ".join(f"[{lo:.10g}, {hi:.10g}]" for lo, hi in solution.patches)],
-            ["load P, shear Q", f"{solution.normal_load:.6g}, {solution.tangential_load:.6g}"],
-            ["tilt, moment", f"{solution.tilt:.6g}, {solution.moment:.6g}"],
-            ["stick", zones or "none: full sliding"],
-            ["error of p / peak", f"{certificate.error:.1e}"],
+            [word["length"].format("contact"), _intervals(solution.patches, 10)],
+            *_flat_part(setting, solution),
+            [word["force"].format("load P, shear Q"), f"{P:.6g}, {Q:.6g}"],
+            ["tilt; P acts at x =", f"{solution.tilt:.6g}; {solution.moment / P:.6g}"],
+            [word["length"].format("stick"), _sticking(solution)],
+            ["error of p over its peak", f"{certificate.error:.1e}"],
             ["certificate", "met" if certificate.ok else "NOT met"],
         ],
     }  # fmt: skip
 
 
-def _stress(solution: Solution) -> Answer:
-    lo, hi = solution.edges
-    middle, r = (lo + hi) / 2, (hi - lo) / 2
-    columns = np.linspace(middle - MARGIN * r, middle + MARGIN * r, ACROSS)
-    rows = np.linspace(0.0, DEPTH * r, DOWN)
-    mises = solution.stress(columns[None, :], rows[:, None]).mises
-    # A peak at one point would leave one band for all others.
-    top = float(np.quantile(mises[np.isfinite(mises)], 0.995))
-    bands = np.clip(np.nan_to_num(mises) / top * BANDS, 0, BANDS - 1).astype(int)
+def _flat_part(setting: Setting, solution: Solution) -> list[list[str]]:
+    if setting.shape != ROUNDED:
+        return []
+    return [["flat part a/b", f"{setting.flat / solution.half_width:.6g}"]]
+
+
+def _sticking(solution: Solution) -> str:
+    if not solution.scene.friction:
+        return "no friction"
+    return _intervals(solution.stick, 6) or "none: all slips"
+
+
+def _intervals(zones: Any, digits: int) -> str:
+    return ", ".join(f"[{lo:.{digits}g}, {hi:.{digits}g}]" for lo, hi in zones)
+
+
+def _zones(solution: Solution) -> list[tuple[float, float, str]]:
+    """The ends of the zones of the contact: stick, slip or, without friction, smooth."""
+    rest = "slip" if solution.scene.friction else "smooth"
+    zones = [(lo, hi, "stick") for lo, hi in solution.stick]
+    for lo, hi in solution.patches:
+        marks = [lo, *(end for zone in solution.stick if lo <= zone[0] <= hi for end in zone), hi]
+        zones += [(a, b, rest) for a, b in zip(marks[::2], marks[1::2], strict=True) if b > a]
+    return [(_number(lo), _number(hi), kind) for lo, hi, kind in zones]
+
+
+def _stress(setting: Setting, solution: Solution, word: dict[str, str]) -> Answer:
+    values, top = mises(solution, frame_of(setting.shape, setting.file))
+    levels = np.clip(np.rint(values / top * 255), 0, 255).astype(np.uint8)
+    # Differences along both axes pack into less than the levels themselves.
+    steps = np.diff(np.diff(levels, axis=1, prepend=np.uint8(0)), axis=0, prepend=np.uint8(0))
+    return {"steps": base64.b64encode(steps.tobytes()).decode(), "top": _number(top)}
+
+
+def _strength(setting: Setting, solution: Solution, word: dict[str, str]) -> Answer:
     weakest, tension = solution.elastic_limit(), solution.peak_tension()
-    place = f"({weakest.x:.4g}, {weakest.y:.4g})"
+    at = f"at ({weakest.x:.4g}, {weakest.y:.4g})"
+    first = f"{weakest.ratio:.6g} {at}" if weakest.ratio > 0.0 else f"0 {at}: infinite stress"
     tensile = f"{tension.value:.6g} at x = {tension.x:.6g}" if tension.value > 0.0 else "none"
     return {
-        "bands": bands.ravel().tolist(), "top": _number(top),
-        "frame": _rounded((columns[0], columns[-1], rows[-1])),
         "weakest": [_rounded(where) for where in weakest.places],
         "numbers": [
-            ["first yield P/(b k)", f"{weakest.ratio:.6g} at {place}"],
-            ["largest tension", tensile],
+            ["first yield P/(b k) at (x, y)", first],
+            [word["stress"].format("largest tension"), tensile],
         ],
-    }  # fmt: skip
+    }
 
 
-PARTS = {"contact": _contact, "stress": _stress}
+PARTS: dict[str, Callable[[Setting, Solution, dict[str, str]], Answer]] = {
+    "contact": _contact,
+    "stress": _stress,
+    "strength": _strength,
+}
 
 
-def _textbook(solution: Solution) -> tuple[list[int], list[float]]:
-    """The counts of nodes n and the textbook's largest error at its nodes, over the peak.
+def _textbook(solution: Solution) -> Answer:
+    """The textbook's largest error at its n nodes, over the peak, and what it teaches.
 
-    Empty where its equation is another: several patches, sharp edges, dissimilar bodies.
+    Only the sentence where its equation is another: several patches, sharp edges, β.
     """
-    if len(solution.patches) > 1 or any(solution.sharp) or solution.scene.beta != 0.0:
-        return [], []
+    other = ""
+    if len(solution.patches) > 1:
+        other = f"has one interval; here are {len(solution.patches)}"
+    elif any(solution.sharp):
+        other = "has p = 0 at the edges; at a sharp corner p is infinite"
+    elif solution.scene.beta != 0.0:
+        other = "has no term with β"
+    if other:
+        return {"lesson": f"No curve for this contact: the textbook's equation {other}."}
+    errors = [max(_error(solution, n), 1e-17) for n in NODES]
+    return {"n": NODES, "errors": _rounded(errors), "lesson": _lesson(errors)}
+
+
+def _error(solution: Solution, n: int) -> float:
     lo, hi = solution.edges
     middle, r = (lo + hi) / 2, (hi - lo) / 2
     slope, half_modulus = solution.scene.profile.slope, solution.scene.Estar / 2
-    errors = []
-    for n in NODES:
-        t, p, _ = teaching.solve(
-            lambda s: half_modulus * (slope(middle + r * s) + solution.tilt), n, index=-1
-        )
-        exact = solution.pressure(middle + r * t)
-        known = np.isfinite(exact)
-        errors.append(float(np.abs(p - exact)[known].max() / exact[known].max()))
-    return list(NODES), [_number(max(error, 1e-17)) for error in errors]
+    t, p, _ = teaching.solve(
+        lambda s: half_modulus * (slope(middle + r * s) + solution.tilt), n, index=-1
+    )
+    exact = solution.pressure(middle + r * t)
+    known = np.isfinite(exact)
+    return float(np.abs(p - exact)[known].max() / exact[known].max())
+
+
+def _lesson(errors: list[float]) -> str:
+    for n, error in zip(NODES, errors, strict=True):
+        if error < ALL_DIGITS:
+            return (
+                f"The profile is smooth: {n} nodes give all digits. What is left is rounding, "
+                "which grows with n."
+            )
+    power = -np.polyfit(np.log(NODES), np.log(errors), 1)[0]
+    if power < 0.5:
+        return "p is infinite under a kink like a tip: more nodes hardly lower the error."
+    return (
+        f"The profile has a kink: the error falls about like 1/n^{power:.1f}. One more digit takes "
+        f"{10 ** (1 / power):.0f} times as many nodes."
+    )
 
 
 def _number(value: float) -> float:
@@ -248,16 +217,24 @@ def _rounded(values: Any) -> list[float]:
     return [_number(v) for v in np.asarray(values, dtype=float).tolist()]
 
 
+def _levels(values: Array) -> list[int | None]:
+    return [round(v) if np.isfinite(v) else None for v in values.tolist()]
+
+
 def saved_answers() -> dict[str, Answer]:
-    """The answers of all settings of a saved page, by the name that its script gives a setting."""
+    """The answers of a saved page by the name that its script gives a setting.
+
+    Settings without an answer are left out, and the script leaves them out of its sliders.
+    """
     found = {}
     for shape in (ROUNDED, *SHAPES):
-        controls = [c for c in SAVED if c.name != "ratio" or shape == ROUNDED]
+        controls = [c for c in SAVED if c.name != "flat" or shape == ROUNDED]
         for values in product(*(control.values for control in controls)):
             names = (control.name for control in controls)
             given: dict[str, Any] = dict(zip(names, values, strict=True))
             setting = Setting(shape=shape, **given)
-            found[_name(shape, given)] = {part: answer(setting, part) for part in PARTS}
+            if _answered(setting):
+                found[_name(shape, given)] = {part: answer(setting, part) for part in PARTS}
     return found
 
 

@@ -1,4 +1,7 @@
-"""The four pictures of the page as Bokeh figures, empty: the page's script fills their sources."""
+"""The five pictures of the page as Bokeh figures, empty: the page's script fills their sources.
+
+A caption of HTML stands above each: it wraps on a narrow screen.
+"""
 
 from __future__ import annotations
 
@@ -6,9 +9,10 @@ from typing import Any
 
 import numpy as np
 
-from .controls import ACROSS, BANDS, DOWN
-
 TOOLS = "pan,wheel_zoom,box_zoom,reset,save"
+PRESSURE, SHEAR, GHOST, YIELD = "#4477aa", "#ee6677", "#999999", "#ff2255"
+HEIGHT = 300
+DECIMALS = -5  # the smallest power of ten that an axis writes without an exponent
 
 
 def items() -> dict[str, Any]:
@@ -17,6 +21,7 @@ def items() -> dict[str, Any]:
     from bokeh.embed import json_item  # noqa: PLC0415
 
     pictures = {
+        "punch": _punch(),
         "pressure": _pressure(),
         "shear": _shear(),
         "stress": _stress(),
@@ -25,67 +30,107 @@ def items() -> dict[str, Any]:
     return {name: json_item(figure) for name, figure in pictures.items()}
 
 
-def _figure(title: str, x: str, y: str, **given: Any) -> Any:
+def _figure(x: str, y: str, **given: Any) -> Any:
     from bokeh.plotting import figure  # noqa: PLC0415
 
     drawn = figure(
-        title=title,
         x_axis_label=x,
         y_axis_label=y,
-        height=300,
+        height=HEIGHT,
         sizing_mode="stretch_width",
         tools=TOOLS,
+        active_drag=None,  # a finger on the picture scrolls the page
         output_backend="canvas",
         **given,
     )
+    if "y_axis_type" not in given:
+        drawn.yaxis.formatter = _ticks()
     drawn.toolbar.logo = None
     drawn.toolbar.autohide = True
     return drawn
 
 
-def _source(name: str, **columns: list[Any]) -> Any:
+def _ticks() -> Any:
+    from bokeh.models import BasicTickFormatter  # noqa: PLC0415
+
+    return BasicTickFormatter(power_limit_low=DECIMALS)
+
+
+def _ranged(x: str, y: str) -> Any:
+    return _figure(x, y, x_range=(0, 1), y_range=(0, 1))
+
+
+def _source(name: str, *columns: str) -> Any:
     from bokeh.models import ColumnDataSource  # noqa: PLC0415
 
-    return ColumnDataSource(columns, name=name)
+    return ColumnDataSource({column: [] for column in columns}, name=name)
+
+
+def _punch() -> Any:
+    drawn = _ranged("x", "height")
+    drawn.patch("x", "y", source=_source("body", "x", "y"), color="#66aadd", alpha=0.4)
+    drawn.patch("x", "y", source=_source("punch", "x", "y"), color="#888888", alpha=0.6)
+    drawn.multi_line(
+        "xs", "ys", source=_source("zones", "xs", "ys", "color"), color="color", line_width=5
+    )
+    arrows = _source("arrows", "x0", "y0", "x1", "y1", "angle", "color", "label", "x", "y")
+    drawn.segment("x0", "y0", "x1", "y1", source=arrows, color="color", line_width=3)
+    drawn.scatter(
+        "x1", "y1", source=arrows, marker="triangle", angle="angle", size=13, color="color"
+    )
+    drawn.text(
+        "x", "y", text="label", source=arrows, text_color="color", x_offset=5, y_offset=-3,
+        text_font_style="bold",
+    )  # fmt: skip
+    return drawn
 
 
 def _pressure() -> Any:
-    drawn = _figure("pressure", "x", "p", y_range=(0, 1))
-    source = _source("contact", x=[], p=[], q=[], fp=[])
-    drawn.varea("x", y1=0, y2="p", source=source, color="#4477aa", alpha=0.25)
-    drawn.line("x", "p", source=source, color="#4477aa", line_width=2)
+    drawn = _ranged("x", "p")
+    source = _source("contact", "x", "p")
+    drawn.line("x", "p", source=_source("ghost", "x", "p"), color=GHOST, line_width=1.5)
+    drawn.varea("x", y1=0, y2="p", source=source, color=PRESSURE, alpha=0.25)
+    drawn.line("x", "p", source=source, color=PRESSURE, line_width=2)
     return drawn
 
 
 def _shear() -> Any:
-    drawn = _figure("shear; bar: stick; dashed: ± f p", "x", "q", y_range=(-1, 1))
-    source = _source("contact", x=[], p=[], q=[], fp=[], minus=[])
+    drawn = _ranged("x", "q")
+    source = _source("contact", "x", "q", "fp", "minus")
+    drawn.line("x", "q", source=_source("ghost", "x", "q"), color=GHOST, line_width=1.5)
     for bound in ("fp", "minus"):
-        drawn.line("x", bound, source=source, color="#999999", line_dash="dashed")
-    drawn.line("x", "q", source=source, color="#ee6677", line_width=2)
+        drawn.line("x", bound, source=source, color=GHOST, line_dash="dashed")
+    drawn.line("x", "q", source=source, color=SHEAR, line_width=2)
     drawn.segment(
-        x0="lo", x1="hi", y0=0, y1=0, color="#228833", line_width=6,
-        source=_source("stick", lo=[], hi=[]),
+        x0="lo", x1="hi", y0=0, y1=0, color="color", line_width=5,
+        source=_source("bars", "lo", "hi", "color"),
     )  # fmt: skip
     return drawn
 
 
 def _stress() -> Any:
-    from bokeh.models import LinearColorMapper  # noqa: PLC0415
+    from bokeh.models import ColumnDataSource, LinearColorMapper  # noqa: PLC0415
+    from bokeh.models.annotations.legends import ColorBar  # noqa: PLC0415
     from bokeh.palettes import viridis  # noqa: PLC0415
 
-    drawn = _figure("Mises stress; ×: first yield", "x", "depth y", match_aspect=True)
-    drawn.y_range.flipped = True
-    blank = _source(
-        "bands", bands=[np.zeros((DOWN, ACROSS), np.uint8)], x=[0], y=[0], dw=[1], dh=[1]
+    drawn = _ranged("x", "depth y")
+    # The script puts a larger array of the same kind in place of this one.
+    blank = ColumnDataSource(
+        {"levels": [np.zeros((2, 2), np.uint8)], "x": [0], "y": [0], "dw": [0], "dh": [0]},
+        name="levels",
     )
+    colours = viridis(256)
     drawn.image(
-        "bands", x="x", y="y", dw="dw", dh="dh",
-source=blank,
-        color_mapper=LinearColorMapper(palette=viridis(BANDS), low=0, high=BANDS - 1),
+        "levels", x="x", y="y", dw="dw", dh="dh", source=blank,
+        color_mapper=LinearColorMapper(palette=colours, low=0, high=255),
     )  # fmt: skip
+    scale = LinearColorMapper(palette=colours, low=0, high=1)
+    bar = ColorBar(
+        color_mapper=scale, formatter=_ticks(), width=12, padding=4, background_fill_alpha=0
+    )
+    drawn.add_layout(bar, "right")
     drawn.scatter(
-        "x", "y", source=_source("weakest", x=[], y=[]), marker="x", size=12, color="white",
+        "x", "y", source=_source("weakest", "x", "y"), marker="x", size=14, color=YIELD,
         line_width=3,
     )  # fmt: skip
     return drawn
@@ -93,15 +138,11 @@ source=blank,
 
 def _errors() -> Any:
     drawn = _figure(
-        "error of textbook collocation, n nodes", "n", "error of p / peak",
-        x_axis_type="log", y_axis_type="log",
+        "n", "error of p over its peak", x_axis_type="log", y_axis_type="log", x_range=(3, 160),
+        y_range=(1e-17, 1),
     )  # fmt: skip
-    source = _source("errors", n=[], error=[], certificate=[])
-    drawn.line("n", "error", source=source, color="#4477aa", line_width=2)
-    drawn.scatter("n", "error", source=source, color="#4477aa", size=7)
-    drawn.line(
-        "n", "certificate", source=source, color="#228833", line_dash="dashed", line_width=2,
-        legend_label="certificate of this answer",
-    )  # fmt: skip
-    drawn.legend.location = "center"
+    source = _source("errors", "n", "error", "certificate")
+    drawn.line("n", "error", source=source, color=PRESSURE, line_width=2)
+    drawn.scatter("n", "error", source=source, color=PRESSURE, size=7)
+    drawn.line("n", "certificate", source=source, color="#228833", line_dash="dashed", line_width=2)
     return drawn

@@ -11,36 +11,39 @@ from typing import Any
 
 from sie.problem.scene import Scene
 
-from .controls import LIVE, SAVED, Control, shapes
+from .controls import ACROSS, DEPTH, DOWN, LIVE, SAVED, Control, shapes
 from .figures import items
 
-SERVED = (
-    "Move a slider: each picture is solved anew on this machine. "
-    "Lengths are in radii R and stresses in E*, or in the units of the scene file."
-)
+SERVED = "Each answer is solved anew on this machine. "
 KEPT = (
-    "Move a slider: the answers for its steps are kept in this page. "
-    "Lengths are in radii R, stresses in E*. `sie live` solves everything between."
+    "The answers for the sliders' steps are kept in this page; <code>sie live</code> solves "
+    "everything between. "
 )
+IN_RADII = "Lengths are in radii R and stresses in E*."
+OF_A_FILE = "The first punch is that of the scene file, in its units."
+HOME = '<nav><a href="index.html">Home: what this package computes</a></nav>'
+LOADS = "10⁻⁴ E* R"
 
 
 def served(file: Scene | None, sliders: tuple[Control, ...] = LIVE) -> str:
     """The page that asks a server for its answers and for bokeh.js."""
-    return _filled(_about(sliders, file), SERVED, '<script src="bokeh.js"></script>')
+    about = SERVED + (IN_RADII if file is None else OF_A_FILE)
+    load = LOADS if file is None else f"{LOADS}, or the load of the scene file"
+    return _filled(
+        _about(sliders, file),
+        {"about": about, "load": load, "home": "", "bokeh": '<script src="bokeh.js"></script>'},
+    )
 
 
 def saved(answers: dict[str, Any]) -> str:
     """The page with its answers and Bokeh's script inside, which needs no server."""
     about = {**_about(SAVED), "packed": True}
     packed = {"bokeh-script": bokeh_script(), "answers": _json(answers).encode()}
-    return _filled(
-        about,
-        KEPT,
-        "\n".join(
-            f'<script type="text/plain" id="{name}">{_packed(content)}</script>'
-            for name, content in packed.items()
-        ),
+    scripts = "\n".join(
+        f'<script type="text/plain" id="{name}">{_packed(content)}</script>'
+        for name, content in packed.items()
     )
+    return _filled(about, {"about": KEPT + IN_RADII, "load": LOADS, "home": HOME, "bokeh": scripts})
 
 
 def bokeh_script() -> bytes:
@@ -57,19 +60,22 @@ def _about(controls: tuple[Control, ...], file: Scene | None = None) -> dict[str
         "controls": [vars(control) for control in controls],
         "shapes": shapes(file),
         "items": items(),
+        "across": ACROSS,
+        "down": DOWN,
+        "depth": DEPTH,
     }
 
 
-def _filled(about: dict[str, Any], sentence: str, bokeh: str) -> str:
+def _filled(about: dict[str, Any], texts: dict[str, str]) -> str:
     page = _part("page.html")
-    # The script's own "</script>" would end it.
-    for name, text in (
-        ("css", _part("page.css")),
-        ("about", sentence.replace("`sie live`", "<code>sie live</code>")),
-        ("script", _part("page.js")),
-        ("page", _json(about).replace("</", "<\\/")),
-        ("bokeh", bokeh),
-    ):
+    texts = {
+        "css": _part("page.css"),
+        "script": _part("page.js"),
+        # The script's own "</script>" would end it.
+        "page": _json(about).replace("</", "<\\/"),
+        **texts,
+    }
+    for name, text in texts.items():
         page = page.replace("{{" + name + "}}", text)
     return page
 

@@ -1,25 +1,41 @@
-"""The page served on this machine, by the standard library."""
+"""The page served on this machine: one answer at a time, and none that nobody waits for."""
 
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
+from collections import OrderedDict
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from http import HTTPStatus
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
+from threading import Condition
 from typing import Any
 from urllib.parse import parse_qsl, urlsplit
 
 from sie.errors import ContactError
+from sie.io.scene_file import Units
 from sie.problem.scene import Scene
 
-from .answer import PARTS, Setting, answer, sliders
+from .answer import PARTS, answer
 from .page import bokeh_script, served
+from .setting import Setting, sliders
 
 HOST = "127.0.0.1"  # no other machine is answered
+NAMES = (HOST, "localhost")  # a page of another name would be of a site that points here
+PAGES = 64  # that are remembered: a page that is forgotten is answered like a new one
 
 
 class LiveServer(ThreadingHTTPServer):
     """A server of one page and of the answers that it asks for.
+
+    Parameters
+    ----------
+    file : Scene, optional
+        The scene of a file, which is then the first of the punches.
+    port : int, optional
+        0 for any that is free.
+    units : Units, optional
+        Labels of the file's units.
 
     Raises
     ------
@@ -29,8 +45,12 @@ class LiveServer(ThreadingHTTPServer):
         If Bokeh is not installed.
     """
 
-    def __init__(self, file: Scene | None = None, port: int = 0) -> None:
-        self.file = file
+    request_queue_size = 128  # a slider that is dragged asks faster than connections are taken
+
+    def __init__(
+        self, file: Scene | None = None, port: int = 0, units: Units | None = None
+    ) -> None:
+        self.file, self.units, self.turns = file, units, Turns()
         try:
             super().__init__((HOST, port), _Handler)
         except OSError as problem:
@@ -53,6 +73,43 @@ class LiveServer(ThreadingHTTPServer):
         return f"http://{HOST}:{self.server_port}/"
 
 
+class Turns:
+    """Requests that wait for a computation.
+
+    A page numbers its settings: those of a later one leave no use for the answers before.
+    """
+
+    def __init__(self) -> None:
+        self._change = Condition()
+        self._busy = False
+        self._newest: OrderedDict[str, int] = OrderedDict()
+
+    @contextmanager
+    def taken(self, page: str, turn: int) -> Iterator[bool]:
+        """Wait until no other request is worked on; False at once if the page has moved on."""
+        with self._change:
+            self._note(page, turn)
+            self._change.wait_for(lambda: not self._busy or self._late(page, turn))
+            wanted = not self._late(page, turn)
+            self._busy = self._busy or wanted
+        try:
+            yield wanted
+        finally:
+            if wanted:
+                with self._change:
+                    self._busy = False
+                    self._change.notify_all()
+
+    def _note(self, page: str, turn: int) -> None:
+        self._newest[page] = max(turn, self._newest.pop(page, turn))
+        while len(self._newest) > PAGES:
+            self._newest.popitem(last=False)
+        self._change.notify_all()
+
+    def _late(self, page: str, turn: int) -> bool:
+        return turn < self._newest.get(page, turn)
+
+
 class _Handler(BaseHTTPRequestHandler):
     """Answers one request: the page, its script, or a setting's answer."""
 
@@ -61,9 +118,13 @@ class _Handler(BaseHTTPRequestHandler):
     def do_GET(self) -> None:
         """Send what the path names."""
         path = urlsplit(self.path)
+        name = self.headers.get("Host", "").rpartition(":")[0] or self.headers.get("Host", "")
         try:
-            if path.path == "/answer":
-                self._send(HTTPStatus.OK, "application/json", self._answer(path.query))
+            if name not in NAMES:
+                sentence = f"this page is at {self.server.address}, for this machine alone"
+                self._send(HTTPStatus.FORBIDDEN, "text/plain", sentence.encode())
+            elif path.path == "/answer":
+                self._answer(dict(parse_qsl(path.query)))
             elif path.path in self.server.contents:
                 self._send(HTTPStatus.OK, *self.server.contents[path.path])
             else:
@@ -73,17 +134,25 @@ class _Handler(BaseHTTPRequestHandler):
         except (BrokenPipeError, ConnectionResetError):
             pass  # the page has moved on to another setting
 
-    def _answer(self, query: str) -> bytes:
-        words = dict(parse_qsl(query))
-        part = words.pop("part", "contact")
+    def _answer(self, words: dict[str, str]) -> None:
+        """Send a setting's answer, or nothing if the page has moved on to a later setting."""
+        part, page = words.pop("part", "contact"), words.pop("client", "")
+        turn = int(words.pop("turn", "0"))
         if part not in PARTS:
             raise ValueError(f'there is no part "{part}": give one of {", ".join(PARTS)}')
-        return json.dumps(answer(Setting.of_words(words, self.server.file), part)).encode()
+        with self.server.turns.taken(page, turn) as wanted:
+            if not wanted:
+                self._send(HTTPStatus.NO_CONTENT)
+                return
+            setting = Setting.of_words(words, self.server.file)
+            content = json.dumps(answer(setting, part, self.server.units)).encode()
+        self._send(HTTPStatus.OK, "application/json", content)
 
-    def _send(self, status: HTTPStatus, kind: str, content: bytes) -> None:
+    def _send(self, status: HTTPStatus, kind: str = "", content: bytes = b"") -> None:
         self.send_response(status)
-        self.send_header("Content-Type", kind)
-        self.send_header("Content-Length", str(len(content)))
+        if content:
+            self.send_header("Content-Type", kind)
+            self.send_header("Content-Length", str(len(content)))
         self.end_headers()
         self.wfile.write(content)
 
@@ -91,8 +160,10 @@ class _Handler(BaseHTTPRequestHandler):
         """Write nothing: requests are of no interest."""
 
 
-def serve(file: Scene | None, port: int, announce: Callable[[str], None]) -> None:
+def serve(
+    file: Scene | None, port: int, announce: Callable[[str], None], units: Units | None = None
+) -> None:
     """Serve the page until Ctrl-C; `announce` is called with its address."""
-    with LiveServer(file, port) as server:
+    with LiveServer(file, port, units) as server:
         announce(server.address)
         server.serve_forever(poll_interval=0.1)

@@ -35,24 +35,6 @@ def _parity(turns: Any) -> Any:
     return 1.0 - 2.0 * np.abs(turns - 2.0 * np.rint(0.5 * turns))
 
 
-SHORT = 0.1  # angles up to which five terms of the sine are exact to rounding
-MANY = 1024  # angles: fewer take no time
-
-
-def _sine(angle: Any) -> Any:
-    """The sine; of many short angles by its series, several times as fast."""
-    if np.size(angle) < MANY or np.iscomplexobj(angle) or np.abs(angle).max() > SHORT:
-        return np.sin(angle)
-    square = angle * angle
-    series = square * (1.0 / 362880.0)
-    for term in (-1.0 / 5040.0, 1.0 / 120.0, -1.0 / 6.0):
-        series += term
-        series *= square
-    series += 1.0
-    series *= angle
-    return series
-
-
 @dataclass(frozen=True)
 class Chord:
     """Differences and chords of places; `period` is inf on the line."""
@@ -69,7 +51,7 @@ class Chord:
             return step + offset
         turns = np.rint(step / self.period)
         angle = (np.pi / self.period) * ((step - turns * self.period) + offset)
-        return ((self.period / np.pi) * _parity(turns)) * _sine(angle)
+        return ((self.period / np.pi) * _parity(turns)) * np.sin(angle)
 
     def sign(self, step: Any) -> Any:
         """-1 where `difference` takes an odd number of periods out of a step; 1 elsewhere."""

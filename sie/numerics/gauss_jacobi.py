@@ -1,7 +1,8 @@
 """Gauss rules for x^b (1 - x)^a on (0, 1), with the distances of the nodes from both ends.
 
 The nodes are eigenvalues of the matrix of the three-term recurrence (Golub & Welsch 1969), the
-weights are Christoffel's numbers 1/Σ p_k², a sum of squares. SciPy's weights lose three digits.
+weights are Christoffel's numbers 1/Σ p_k², a sum of squares, which add up to a known mass. SciPy's
+lose three digits.
 """
 
 from __future__ import annotations
@@ -52,7 +53,8 @@ def gauss_jacobi(n: int, a: float, b: float) -> Rule:
         mass = math.gamma(a + 1.0) * math.gamma(b + 1.0) / math.gamma(a + b + 2.0)
     else:
         mass = math.exp(math.lgamma(a + 1.0) + math.lgamma(b + 1.0) - math.lgamma(a + b + 2.0))
-    rule = Rule(0.5 * (1.0 + t), 0.5 * (1.0 - t), mass / total)
+    weight = mass / total
+    rule = Rule(0.5 * (1.0 + t), 0.5 * (1.0 - t), weight * (mass / weight.sum()))
     for array in rule:
         array.flags.writeable = False
     return rule

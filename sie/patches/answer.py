@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
 from sie import arguments
-from sie.contact.known_contact import Edges
+from sie.contact.known_contact import Edges, refuse_narrow
 from sie.errors import ContactError, LoadError
 from sie.numerics.interval import Interval
 from sie.problem.scene import Scene
@@ -65,14 +67,19 @@ class SeveralPatches:
     def window(self) -> tuple[float, float]:
         return self.found.operator.pieces.domain
 
+    @cached_property
+    def moment(self) -> float:
+        """The moment of the pressure about x = 0; of a periodic contact that of one period."""
+        return self.pressure.moment if math.isnan(self.edges.moment) else self.edges.moment
+
     @property
     def gap_volume(self) -> float:
         return gap_volume(self.found.operator)
 
     def certificate(self, tol: float) -> PatchCertificate:
-        asked = self.problem.given, self.problem.height
         missed = unseen(self.found, self.problem)
-        found = certificate(self.found, self.pressure, asked, tol, missed)
+        height = self.problem.profile.height
+        found = certificate(self.found, self.pressure, height, tol, missed)
         return replace(found, notes=found.notes + self.notes)
 
 
@@ -98,6 +105,7 @@ def several_patches(scene: Scene) -> SeveralPatches | FullContact:
     except ArithmeticError:
         raise LoadError(OUT_OF_RANGE) from None
     if isinstance(found, SeveralPatches):
+        refuse_narrow(*max(found.patches, key=lambda patch: patch[1] - patch[0]))
         # The certificate forms p/root at distances down to rounding from the narrowest edges.
         narrowest = min(x2 - x1 for x1, x2 in found.patches)
         if not found.problem.given.load < MOST_STEEP * narrowest * narrowest:
@@ -119,7 +127,9 @@ def answered(problem: Problem, found: Found, scene: Scene) -> SeveralPatches:
     state, P, G = found.state, found.state.patches, 0.5 * scene.Estar
     pressure = PatchPressure(found.operator, G, state.tilt, G * problem.given.load)
     singular = (-float(state.charge[0]), float(state.charge[-1]))
-    moment = scene.moment if scene.moment is not None else pressure.moment
+    moment = scene.moment
+    if moment is None:  # of a period it takes as long as the search, and few ask for it
+        moment = math.nan if P.chord.periodic else pressure.moment
     assert scene.normal_load is not None
     edges = Edges(
         Interval(float(P.a[0]), float(P.b[-1])),

@@ -24,11 +24,11 @@ from sie.progress_bar import reported
 
 from .density import PatchPressure
 from .gap import gap
-from .newton import Linear, conditions
+from .newton import Linear, conditions_of
 from .operator import Found, Operator
 from .result import CLOSE, LEAST, PatchCertificate
 from .rule import SHORT, Rule, principal_value
-from .state import Given, Unseen
+from .state import Unseen
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
@@ -47,15 +47,12 @@ NARROWEST = 1e-6  # of the whole contact: of a narrower gap doubles tell too few
 def certificate(
     found: Found,
     pressure: PatchPressure,
-    asked_for: tuple[Given, Height],
+    height: Height,
     tol: float,
     missed: Unseen,
 ) -> PatchCertificate:
-    """Measure an answer, by what was asked in units of E*/2 and the height h.
-
-    `missed` is what the pieces of a function do not show.
-    """
-    (given, height), o, G = asked_for, found.operator, pressure.half_modulus
+    """Measure an answer, by the height h too; `missed` is what the pieces do not show of it."""
+    given, o, G = found.given, found.operator, pressure.half_modulus
     P = o.patches
     rule, places = pressure.rules
     p, at = pressure.at_rule, pressure.at_points(places.points, places.patch, places.piece)
@@ -69,9 +66,9 @@ def certificate(
     if given.moment is not None:
         found_moment = float(rule.weight @ (p * (rule.points.x - middle))) + load * middle
         moment = abs(found_moment - G * given.moment) / (asked * hull)
-    linear = conditions(found.state, o, given)
-    condition = conditioning(found, given, linear)
-    measured_to = max(LEAST, min(EXPLAINED * _rounding(o, linear, given, peak / G), MOST))
+    linear = conditions_of(found)
+    condition = conditioning(found, linear)
+    measured_to = max(LEAST, min(EXPLAINED * _rounding(found, linear, peak / G), MOST))
     return PatchCertificate(
         residual=float(np.abs(total - G * H).max(initial=0.0)) / peak,
         force=abs(load - asked) / asked,
@@ -86,10 +83,7 @@ def certificate(
         overlap=tuple((v.lo, v.hi) for v in (*found.findings.overlap, *missed.overlap)),
         resolution=G * missed.resolution / peak,
         lowest_gap=missed.lowest_gap,
-        notes=(
-            *_notes(condition),
-            *_notes_on_heights(found, linear),
-        ),
+        notes=(*_notes(condition), *_notes_on_heights(found, linear)),
     )
 
 
@@ -122,21 +116,21 @@ def _notes_on_heights(found: Found, linear: Linear) -> tuple[str, ...]:
     return tuple(notes)
 
 
-def conditioning(found: Found, given: Given, linear: Linear) -> float:
+def conditioning(found: Found, linear: Linear) -> float:
     """The largest |d e / d ln P| of an edge e over its patch or gap."""
     state = found.state
-    change = np.abs(linear.growth(state, given.load)) / state.patches.narrower
+    change = np.abs(linear.growth(state, found.given.load)) / state.patches.narrower
     return float(np.nan_to_num(change, nan=np.inf).max(initial=0.0))
 
 
-def _rounding(o: Operator, linear: Linear, given: Given, peak: float) -> float:
+def _rounding(found: Found, linear: Linear, peak: float) -> float:
     """The largest relative change of p, load or moment by rounding of the edges and the slope.
 
     All smooth edges move by half an ulp, as if at random. `peak` is in units of E*/2.
 
     An edge that moves is a point charge, which the conditions of the patches and of the load miss.
     """
-    P = o.patches
+    o, P, given = found.operator, found.state.patches, found.given
     charge = 0.25 * linear.intensity * np.spacing(np.abs(P.edges))
     force = charge * P.chord.apart(np.repeat(P.r, 2))
     pole, _ = P.chord.poles(P.chord.difference(P.c[:, None] - P.edges))

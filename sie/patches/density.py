@@ -9,7 +9,6 @@ with H continued from the nearest piece, or any constant: F does not depend on i
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property, partial
 from typing import Any
@@ -18,14 +17,12 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from sie import arguments
-from sie.numerics import chebyshev
 from sie.numerics.chord import Points
 from sie.progress_bar import reported
-from sie.traction.base import Density, in_order, on_surface, reflected, refuse_side, zero_or_nan
+from sie.traction.base import Density, in_order, on_surface, reflected, zero_or_nan
 
 from .measure import Targets
 from .operator import Operator, at_edges, blocks, on_patches
-from .panels import graded
 from .rule import Rule, rule_of
 
 Array = NDArray[np.float64]
@@ -35,8 +32,6 @@ Mask = NDArray[np.bool_]
 
 AROUND = 16  # points of a circle that give a derivative ...
 NARROW = 0.125  # ... of this part of the distance to the nearest traction
-NODES = 16  # of Gauss' rule on a part of a circle over a patch
-ROOM = 1.0  # half-widths of a patch: such circles end no farther from it
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,55 +67,15 @@ class PatchPressure(Density):
 
     @cached_property
     def moment(self) -> float:  # type: ignore[override]
-        loads, about_centres = self.measured
-        return float((loads * self.operator.patches.c + about_centres).sum())
-
-    @property
-    def loads(self) -> tuple[float, ...]:
-        """∫p over each patch."""
-        return tuple(self.measured[0].tolist())
+        if self.operator.patches.chord.periodic:
+            return float((self.rule.weight * self.at_rule) @ self.rule.points.x)
+        return self.half_modulus * self.operator.resultants(self.tilt)[1]
 
     @cached_property
-    def measured(self) -> tuple[Array, Array]:
-        """∫p dx and ∫p (x - c) dx over each patch, c its centre.
-
-        They are -Im ∫F dz and -Im ∫F (z - c) dz over half-circles from gap to gap, on which F is
-        smooth however rough the slope is.
-        """
-        P = self.operator.patches
-        behind = np.concatenate((P.gaps[-1:], P.gaps[:-1]))
-        rooms = [np.minimum(0.5 * gap, ROOM * P.r) for gap in (behind, P.gaps)]
-        radius = P.r + 0.5 * (rooms[0] + rooms[1])
-        left, right = (
-            self._on_quarter_circles(side, room, radius)
-            for side, room in zip((-1.0, 1.0), rooms, strict=True)
-        )
-        return left[0] + right[0], left[1] + right[1]
-
-    def _on_quarter_circles(self, side: float, room: Array, radius: Array) -> tuple[Array, Array]:
-        """Those integrals between the highest points of circles over the patches and their ends.
-
-        The ends are `room` beside the right edges (side = 1) or the left ones (side = -1).
-        """
-        P = self.operator.patches
-        g, w = chebyshev.gauss_legendre(NODES)
-        # both edges of a gap are `room` away from the end of the circle in it
-        cuts = [graded(2.0 * end, 4.0, 0.5 * np.pi) for end in (room / radius).tolist()]
-        k = np.repeat(np.arange(P.number), [len(c) - 1 for c in cuts])
-        lo, hi = (np.concatenate(ends) for ends in ([c[:-1] for c in cuts], [c[1:] for c in cuts]))
-        angle = lo[:, None] + (hi - lo)[:, None] * g
-        chord = 1j * np.sin(angle) - 2.0 * side * np.sin(0.5 * angle) ** 2
-        offset = side * room[k, None] + radius[k, None] * chord
-        edge = (P.b if side > 0.0 else P.a)[k]
-        points = Points(np.repeat(edge, NODES), offset.ravel())
-        F = self._potential(points, np.repeat(k, NODES)).reshape(angle.shape)
-        weight = side * radius[k, None] * np.exp(1j * side * angle) * (hi - lo)[:, None] * w
-        arm = side * P.r[k, None] + offset
-        force, moment = ((F * weight * factor).real.sum(axis=1) for factor in (1.0, arm))
-        total = np.zeros((2, P.number))
-        np.add.at(total[0], k, force)
-        np.add.at(total[1], k, moment)
-        return total[0], total[1]
+    def loads(self) -> tuple[float, ...]:
+        """∫p over each patch."""
+        loads = np.bincount(self.rule.patch, self.rule.weight * self.at_rule)
+        return tuple(loads.tolist())
 
     @cached_property
     def breaks(self) -> tuple[float, ...]:
@@ -221,29 +176,21 @@ class PatchPressure(Density):
     def hilbert(self, x: ArrayLike) -> Array:
         x = arguments.reals("x", x)
         out, points, k, inside, beside = self._sorted_out(x.ravel())
-        o = self.operator
         if inside.any():
-            at = points.x[inside]
-            one, other = (
-                o.pieces.value(o.pieces.locate(at, s), at, 0.0) for s in ("left", "right")
-            )
-            mean = np.where(
-                points.offset[inside] == 0.0,
-                self._edge_slope(points[inside], k[inside]),
-                0.5 * (one + other),
-            )
-            out[inside] = self.half_modulus * (mean + self.tilt)
+            out[inside] = self.half_modulus * (self._slope(points[inside], k[inside]) + self.tilt)
         if beside.any():
             out[beside] = in_order(self._beside, points.x[beside])
         return np.asarray(out.reshape(x.shape))
 
-    def _edge_slope(self, points: Points, k: Index) -> Array:
-        o = self.operator
-        right = points.anchor == o.patches.b[k]
-        piece = np.where(
-            right, o.pieces.locate(points.anchor, "left"), o.pieces.locate(points.anchor)
+    def _slope(self, points: Points, k: Index) -> Array:
+        """H on the patches k: the mean of both sides, at an edge that from inside."""
+        pieces, b = self.operator.pieces, self.operator.patches.b[k]
+        left, right = (
+            pieces.value(pieces.locate(points.x, side), points.anchor, points.offset)
+            for side in ("left", "right")
         )
-        return np.asarray(o.pieces.value(piece, points.anchor, 0.0))
+        at_edge = np.where(points.anchor == b, left, right)
+        return np.where(points.offset == 0.0, at_edge, 0.5 * (left + right))
 
     def _beside(self, x: Array) -> Array:
         points, k, _ = self.placed(x)
@@ -271,16 +218,18 @@ class PatchPressure(Density):
         return F
 
     def cauchy(self, z: ArrayLike, side: int = 1) -> Complex:
-        refuse_side(side)
-        z = arguments.complexes("z", z)
-        return np.asarray(
-            self._everywhere(lambda v: self._cauchy(v, side), z.ravel(), self._of_force).reshape(
-                z.shape
-            )
-        )
+        return self._in_plane(partial(self._cauchy, side=side), z, side)
 
     def _cauchy(self, z: Complex, side: int) -> Complex:
-        return potential_of(self, z, side)
+        """By values on the surface, as off it."""
+        out = np.empty(z.shape, dtype=complex)
+        real = z.imag == 0.0
+        if real.any():
+            x = z.real[real]
+            out[real] = on_surface(self.hilbert(x), self(x), side)
+        if not real.all():
+            out[~real] = reflected(self._off_axis, z[~real])
+        return out
 
     def _off_axis(self, z: Complex) -> Complex:
         points, k, _ = self.placed(z.real)
@@ -301,12 +250,7 @@ class PatchPressure(Density):
         return PatchPressure(derived, self.half_modulus, 0.0, 0.0)
 
     def cauchy_derivative(self, z: ArrayLike, side: int = 1) -> Complex:
-        refuse_side(side)
-        z = arguments.complexes("z", z)
-        tail = self._steepness_of_force
-        return np.asarray(
-            self._everywhere(lambda v: self._derivative(v, side), z.ravel(), tail).reshape(z.shape)
-        )
+        return self._in_plane(partial(self._derivative, side=side), z, side, derivative=True)
 
     def _derivative(self, z: Complex, side: int) -> Complex:
         points, _, inside = self.placed(z.real)
@@ -319,18 +263,21 @@ class PatchPressure(Density):
         return out
 
     def _around(self, z: Complex, side: int) -> Complex:
-        """The derivative by Cauchy's formula.
+        """The derivative by Cauchy's formula, on circles that touch no traction.
 
         In contact the values of p beside the place serve.
         """
         points, k, inside = self.placed(z.real)
         P = self.operator.patches
         off = np.maximum(np.maximum(P.a[k] - points.x, points.x - P.b[k]), 0.0)
-        radius = NARROW * np.hypot(off, z.imag)
+        radius = NARROW * np.hypot(off, z.imag)[:, None]
         on = inside & (z.imag == 0.0)
         out = np.empty(z.shape, dtype=complex)
         if (~on).any():
-            out[~on] = by_circle(partial(self._cauchy, side=1), z[~on], radius[~on])
+            turn = np.exp(2j * np.pi * np.arange(AROUND) / AROUND)
+            circle = z[~on, None] + radius[~on] * turn
+            F = self._cauchy(circle.ravel(), 1).reshape(circle.shape)
+            out[~on] = (F * turn.conj() / radius[~on]).mean(axis=1)
         if on.any():
             out[on] = self._derivative_inside(z.real[on], side)
         return out
@@ -355,23 +302,3 @@ class PatchPressure(Density):
     @cached_property
     def horizon(self) -> float:
         return np.inf if self.period < np.inf else super().horizon
-
-
-def potential_of(density: Any, z: Complex, side: int) -> Complex:
-    """The potential at places z (1-d): by values on the surface, as it is off the axis."""
-    out = np.empty(z.shape, dtype=complex)
-    real = z.imag == 0.0
-    if real.any():
-        x = z.real[real]
-        out[real] = on_surface(density.hilbert(x), density(x), side)
-    if not real.all():
-        out[~real] = reflected(density._off_axis, z[~real])
-    return out
-
-
-def by_circle(potential: Callable[[Complex], Complex], z: Complex, radius: Array) -> Complex:
-    """The derivative of a potential by Cauchy's formula, on circles that touch no traction."""
-    turn = np.exp(2j * np.pi * np.arange(AROUND) / AROUND)
-    circle = z[:, None] + radius[:, None] * turn
-    F = potential(circle.ravel()).reshape(circle.shape)
-    return np.asarray((F * turn.conj()).mean(axis=1) / radius)

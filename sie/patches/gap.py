@@ -1,7 +1,7 @@
 """The gap beside and between patches: where it would be negative, its values, and its volume.
 
 On panels that count from an edge g'/root is a Legendre series, and g the primitive of one. That
-g'/root >= 0 from the edge on, or g >= 0, is verified by bounds and not by samples.
+g'/root >= 0 all the way from the edge, or g >= 0, is verified by bounds and not by samples.
 """
 
 from __future__ import annotations
@@ -16,10 +16,10 @@ from sie.errors import ResolutionError
 from sie.numerics import chebyshev
 from sie.numerics.interval import EPS
 
-from .bounds import DEEPEST, NODES, halves, legendre, lower_bound
+from .bounds import DEEPEST, NODES, legendre, lower_bound
 from .operator import Operator, gap_values
 from .panels import FARTHEST, GapPanels, distance_of, gap_panels
-from .state import Overlap
+from .state import Findings, Overlap
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
@@ -29,24 +29,12 @@ ROUNDING = 7e-14  # of max|H| on the patches times the distance from an edge
 # of the load over E*/2: where h is rounded to less, a place that its rounding leaves open carries
 # too little to look for it
 NEGLIGIBLE = 1e-9
-# halved at once, in 200 MB; a hundred patches have a thousand: more are values that are none
-MOST = 2**16
+# halved at once, in 100 MB; a hundred patches have a thousand: more are values that are none
+MOST = 2**15
 OUT_OF_SIGHT = 1e16  # widths of the whole contact: from there doubles do not tell its edges
 
 
-class Looked(NamedTuple):
-    """The overlaps of the bodies, and the places where the rounding of h does not tell.
-
-    doubt      the largest bound of that rounding at such a place, a length
-    place      where that is
-    """
-
-    overlap: tuple[Overlap, ...]
-    doubt: float
-    place: float
-
-
-def overlaps(o: Operator, tilt: float, load: float) -> Looked:
+def overlaps(o: Operator, tilt: float, load: float) -> Findings:
     """Where the gap is negative by more than the rounding of h, at a tilt and a load over E*/2.
 
     Raises ResolutionError if that is open on more than `MOST` parts.
@@ -54,44 +42,61 @@ def overlaps(o: Operator, tilt: float, load: float) -> Looked:
     beyond = min(1.1 * o.pieces.horizon(tilt, o.patches.c) / o.patches.hull, OUT_OF_SIGHT)
     panels = gap_panels(o.patches, o.pieces, outside=True, farthest=max(FARTHEST, beyond))
     if not len(panels.gap):
-        return Looked((), 0.0, 0.0)
-    side = sides(o, panels)
-    parts = _parts(o, panels)
+        return Findings()
+    side, parts = sides(o, panels), _parts(o, panels)
     largest = np.zeros(o.patches.number + 1)
     bad: list[tuple[int, float, float, float]] = []
     doubts = [(0.0, 0.0)]
     for depth in range(DEEPEST):
         last = depth == DEEPEST - 1
         seen = _judged(o, (tilt, load), side, parts, last)
-        gap = panels.gap[parts.panel]
+        gap, value, x = panels.gap[parts.panel], seen.value, seen.x
         if depth == 0:
-            beside = np.where(np.isfinite(seen.value) & seen.near, seen.value, 0.0)
+            beside = np.where(np.isfinite(value) & seen.near, value, 0.0)
             np.maximum.at(largest, gap + 1, beside.max(axis=1))
-        bad += seen.places(gap)
-        doubts += seen.doubt()
+        wide = np.ptp(x, axis=1)
+        for j, m in zip(*np.nonzero(seen.negative), strict=True):
+            bad.append((int(gap[j]), float(x[j, m]), float(value[j, m]), float(wide[j])))
+        if seen.unsure.any():
+            worst = int(np.argmax(np.where(seen.unsure, seen.rounding, 0.0)))
+            place = float(x[worst, np.argmin(value[worst])])
+            doubts.append((float(seen.rounding[worst]), place))
         count = int(np.count_nonzero(seen.unknown))
         if not count or last:
             break
         if count > MOST:
-            raise _undecided(count, seen.x[seen.unknown])
-        parts = parts.halved(seen.unknown)
+            raise _undecided(count, x[seen.unknown])
+        parts = parts._replace(opened=seen.opened).halved(seen.unknown)
     doubt, place = max(doubts, key=itemgetter(0))
-    return Looked(_gathered(bad, largest), doubt, place)
+    return Findings(overlap=_gathered(bad, largest), doubt=doubt, place=place)
 
 
 class Parts(NamedTuple):
-    """Parts of panels, from lo to hi in their parameter; `edge`: whether one begins at the edge."""
+    """Parts of panels, from lo to hi in their parameter, ascending on each side of a gap.
+
+    opened     whether the gap does nothing but open from the edge up to lo
+    """
 
     panel: Index
     lo: Array
     hi: Array
-    edge: Bool
+    opened: Bool
 
     def halved(self, kept: Bool) -> Parts:
-        """The halves of those that are kept: all left ones, then all right ones."""
-        lo, hi = halves(self.lo[kept], self.hi[kept])
-        edge = np.concatenate((self.edge[kept], np.zeros(np.count_nonzero(kept), dtype=bool)))
-        return Parts(np.tile(self.panel[kept], 2), lo, hi, edge)
+        """The halves of those that are kept."""
+        lo, hi = np.repeat(self.lo[kept], 2), np.repeat(self.hi[kept], 2)
+        lo[1::2] = hi[::2] = 0.5 * (lo + hi)[::2]
+        opened = np.repeat(self.opened[kept], 2)
+        opened[1::2] = False
+        return Parts(np.repeat(self.panel[kept], 2), lo, hi, opened)
+
+    def followed(self, run: Index, rising: Bool) -> Bool:
+        """`opened` of these parts, by the side (run) of each panel and what rises all over."""
+        after = (self.lo[1:] == self.hi[:-1]) & (np.diff(run[self.panel]) == 0)
+        begins = self.opened | ~np.concatenate(([False], after))
+        first = np.maximum.accumulate(np.where(begins, np.arange(len(begins)), 0))
+        before: Index = np.cumsum(~rising) - ~rising
+        return np.asarray(self.opened[first] & (before == before[first]))
 
 
 class Judged(NamedTuple):
@@ -104,6 +109,7 @@ class Judged(NamedTuple):
     rounding   a bound of the rounding of h (m,)
     unsure     whether that rounding hides what the gap is
     unknown    whether a part has to be halved
+    opened     what `Parts` has of that name
     """
 
     value: Array
@@ -113,21 +119,7 @@ class Judged(NamedTuple):
     rounding: Array
     unsure: Bool
     unknown: Bool
-
-    def places(self, gap: Index) -> list[tuple[int, float, float, float]]:
-        """The places of overlap: (gap, x, the gap there, width of the part)."""
-        wide = self.x.max(axis=1) - self.x.min(axis=1)
-        return [
-            (int(gap[j]), float(self.x[j, m]), float(self.value[j, m]), float(wide[j]))
-            for j, m in zip(*np.nonzero(self.negative), strict=True)
-        ]
-
-    def doubt(self) -> list[tuple[float, float]]:
-        """The largest rounding that hides the gap, and the place; nothing where none does."""
-        if not self.unsure.any():
-            return []
-        worst = int(np.argmax(np.where(self.unsure, self.rounding, 0.0)))
-        return [(float(self.rounding[worst]), float(self.x[worst, np.argmin(self.value[worst])]))]
+    opened: Bool
 
 
 def _judged(
@@ -140,10 +132,13 @@ def _judged(
     t = parts.lo[:, None] + (parts.hi - parts.lo)[:, None] * g
     value, x, phi = opening(o, side, parts.panel, t)
     away = np.abs(x - anchor)
-    rounding = _rounding(o, tilt, anchor[:, 0], x)
+    lo, hi = np.minimum(anchor[:, 0], x.min(axis=1)), np.maximum(anchor[:, 0], x.max(axis=1))
+    rounding = o.pieces.rounding(lo, hi) + EPS * abs(tilt) * (hi - lo)
     tolerance = rounding + ROUNDING * float(np.abs(o.H).max()) * away.max(axis=1)
     bound = lower_bound(value)
-    opens = parts.edge & (lower_bound(phi) >= 0.0)
+    rising = lower_bound(phi) >= 0.0
+    opened = parts.followed(np.cumsum(side.panels.lo == 0.0), rising)
+    opens = opened & rising
     matters = (rounding > NEGLIGIBLE * load) & ~opens & (bound < tolerance)
     enough = (bound >= -tolerance) & ~(matters & (not last)) | opens
     may_be = ~opens & (bound < -tolerance)
@@ -151,7 +146,8 @@ def _judged(
     sure = negative.any(axis=1)
     unsure = matters & ~sure & (value < tolerance[:, None]).any(axis=1)
     near = away <= o.patches.hull
-    return Judged(value, x, near, negative, rounding, unsure, ~enough & ~sure & ~unsure)
+    unknown = ~enough & ~sure & ~unsure
+    return Judged(value, x, near, negative, rounding, unsure, unknown, opened)
 
 
 def _undecided(count: int, x: Array) -> ResolutionError:
@@ -160,12 +156,6 @@ def _undecided(count: int, x: Array) -> ResolutionError:
         f"{count} parts of the gap, and {MOST} are the most: raise the load, or give a smoother "
         "profile"
     )
-
-
-def _rounding(o: Operator, tilt: float, edge: Array, x: Array) -> Array:
-    """A bound of the rounding of the gap on parts, from the edges (m,) that they count from."""
-    lo, hi = np.minimum(edge, x.min(axis=1)), np.maximum(edge, x.max(axis=1))
-    return np.asarray(o.pieces.rounding(lo, hi) + EPS * abs(tilt) * (hi - lo))
 
 
 def _gathered(bad: list[tuple[int, float, float, float]], largest: Array) -> tuple[Overlap, ...]:

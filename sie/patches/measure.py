@@ -324,7 +324,8 @@ def integrals(o: Measure, panel: Index, nu: Array, t: Targets) -> Any:
     residue = o.pieces.value(own[other], x.anchor, x.offset) - o.H0 - ref
     counts = o.follows(own[other], x) & (residue != 0.0)
     # not beside a repetition of the panel: of one patch per period both sides of a gap are it
-    here = np.abs(np.real(x.x) - points.x[:, 0]) <= 0.5 * o.patches.chord.period
+    middle = points.x[:, points.offset.shape[1] // 2]
+    here = np.abs(np.real(x.x) - middle) <= 0.5 * o.patches.chord.period
     counts &= here & (k.patch[q] == t.owner[other])
     if counts.any():
         q, x, residue, at = q[counts], x[counts], residue[counts], other[counts]

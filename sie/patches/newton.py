@@ -30,7 +30,7 @@ from sie.progress_bar import step_done
 from .edge_charges import EdgeCharges
 from .edge_moves import INSISTS, INWARD, Damping, event_of, moved, turning_smooth
 from .measure import edge_ratio
-from .operator import Operator, at_edges, gap_values, operator_of
+from .operator import Found, Operator, at_edges, gap_values, operator_of
 from .repairs import after
 from .state import Event, Given, State, balances
 from .sums import parts
@@ -248,36 +248,26 @@ def conditions(state: State, o: Operator, given: Given) -> Linear:
     return Linear(charges, intensity, replaced, np.array(rows), slack)
 
 
+def conditions_of(found: Found) -> Linear:
+    """The same at an answer."""
+    return conditions(found.state, found.operator, found.given)
+
+
 def missed(state: State, o: Operator, given: Given, linear: Linear) -> Array:
     """What the conditions miss, (2N + 1,)."""
     N, K = o.patches.number, closed(o)
-    out = _unclosed(o, state.tilt + o.H0, given)
-    out[N:-2] = K[: N - 1]  # D contains what charges change in the gaps
+    C, plain = o.closures
+    load, moment = o.resultants(state.tilt)
+    turned = 0.0 if given.moment is None else moment - given.moment
+    # D contains what charges change in the gaps
+    changes = C + (state.tilt + o.H0) * plain, K[: N - 1], (load - given.load, turned)
+    out = np.concatenate(changes)
     if o.patches.closing:
         out[linear.replaced[0]] = K[-1]
     if (linear.slack[N:] > BLURRED * given.load).any():
         # else rounding moves the edges to and fro, and with them the load
         out[np.abs(out) <= linear.slack] = 0.0
     return out
-
-
-def _unclosed(o: Operator, tilt: float, given: Given) -> Array:
-    """What the conditions of the patches, of the load and of the moment miss, (2N + 1,)."""
-    P, N, x = o.patches, o.patches.number, o.panels.points.x
-    C, plain = o.closures
-    missed = np.zeros(2 * N + 1)
-    missed[:N] = C + tilt * plain
-    force = o.b * (o.H + tilt)
-    missed[-2] = force.sum() - given.load
-    if given.moment is not None:
-        missed[-1] = (force * x).sum() - given.moment
-    sharp = np.flatnonzero(o.Y)
-    if sharp.size:
-        e, k, Y = P.edges[sharp], sharp // 2, o.Y[sharp]
-        force = P.chord.apart(e - P.c[k]) * Y
-        missed[-2] += force.sum()
-        missed[-1] += (force @ e) * (given.moment is not None)
-    return missed
 
 
 def _slack(o: Operator, tilt: float, intensity: Array) -> Array:

@@ -22,7 +22,7 @@ from sie.profiles.base import Profile
 from sie.profiles.profile_pieces import of_profile
 
 from .density import PatchPressure
-from .newton import conditions, missed
+from .newton import conditions, conditions_of, missed
 from .operator import Found, Operator, operator_of
 from .state import Given, State
 
@@ -87,8 +87,7 @@ def _changed(
     still = State(P, np.ones(2 * P.number, dtype=bool), np.zeros(2 * P.number), 0.0)
     o = operator_of(still, pieces)
     linear = conditions(still, o, none)
-    whole = conditions(state, found.operator, none)
-    moved = np.where(sharp, 0.0, 2.0 / np.where(sharp, 1.0, whole.intensity))
+    moved = np.where(sharp, 0.0, 2.0 / np.where(sharp, 1.0, conditions_of(found).intensity))
     y = linear.charged(-missed(still, o, none, linear)[:, None])[:, 0]
     charged = Operator(P, pieces, y[:-1])
     p = PatchPressure(charged, half_modulus, float(y[-1]), 0.0)(places)

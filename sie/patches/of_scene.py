@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from sie.numerics.chord import Chord
 from sie.problem.scene import Scene
+from sie.profiles.base import Profile
 from sie.profiles.pieces import Pieces
 from sie.profiles.profile_pieces import of_profile
 from sie.profiles.slope import Slope
@@ -18,38 +19,51 @@ from .state import Effort, Given
 
 Array = NDArray[np.float64]
 
+TOLERANCE = 1e-15  # to which functions are resolved
+
 
 @dataclass(frozen=True, eq=False)
 class Problem:
-    """The given profile and loads, in units of E*/2.
+    """A profile, the load, tilt or moment, and what the search has taken so far.
 
-    pieces     window, cuts or None -> the slope, without tilt
-    slope      H(x);  height: h(x);  by_slope: whether the slope is a function, and h costs more
-    domain     where the indenter is known; corners: whether its ends are the indenter's own
-    given      load or half-width, tilt or moment
-    half_modulus    E*/2
-    effort     what the search has taken so far
+    `load` is P as it was given, which messages name.
     """
 
-    pieces: Callable[..., Pieces]
-    slope: Slope
-    height: Callable[[Array], Array]
-    by_slope: bool
-    domain: tuple[float, float]
-    corners: tuple[bool, bool]
-    breaks: Array
-    chord: Chord
+    profile: Profile
     given: Given
-    half_modulus: float
+    load: float
     effort: Effort = field(default_factory=Effort)
+    _known: dict[tuple[float, float], Pieces] = field(default_factory=dict)
+
+    @property
+    def slope(self) -> Slope:
+        return self.profile.pieces
+
+    @property
+    def by_slope(self) -> bool:
+        """Whether the slope is a function, and its height costs more."""
+        return bool(self.slope.functions)
+
+    @property
+    def domain(self) -> tuple[float, float]:
+        return self.slope.domain
+
+    @property
+    def chord(self) -> Chord:
+        return Chord(self.profile.period)
+
+    def pieces(self, window: tuple[float, float], cuts: Array | None = None) -> Pieces:
+        """The slope without tilt, its functions resolved on a window between some cuts."""
+        if cuts is not None:
+            return of_profile(self.profile, window, TOLERANCE, cuts)
+        if window not in self._known:
+            self._known[window] = of_profile(self.profile, window, TOLERANCE)
+        return self._known[window]
 
     def tilted(self, tilt: float, window: tuple[float, float]) -> Callable[[Array], Array]:
-        """The function h + tilt x on the window, up to a constant.
-
-        A slope that is a function is resolved once for all heights.
-        """
+        """The function h + tilt x on the window, up to a constant."""
         if not self.by_slope:
-            return lambda x: self.height(x) + tilt * x
+            return lambda x: self.profile.height(x) + tilt * x
         pieces = self.pieces(window)
         return lambda x: np.where(
             pieces.void[pieces.locate(x)],
@@ -58,20 +72,9 @@ class Problem:
         )
 
 
-def problem_of(scene: Scene, tol: float = 1e-15) -> Problem:
-    profile, G = scene.profile, 0.5 * scene.Estar
+def problem_of(scene: Scene) -> Problem:
+    G = 0.5 * scene.Estar
     moment = None if scene.moment is None else scene.moment / G
     assert scene.normal_load is not None
-    domain = profile.pieces.domain
-    return Problem(
-        pieces=lambda window, cuts=None: of_profile(profile, window, tol, cuts),
-        slope=profile.pieces,
-        height=profile.height,
-        by_slope=bool(profile.pieces.functions),
-        domain=domain,
-        corners=profile.ends_are_corners,
-        breaks=np.asarray(profile.breaks),
-        chord=Chord(profile.period),
-        given=Given(scene.normal_load / G, scene.tilt, moment),
-        half_modulus=G,
-    )
+    P = scene.normal_load
+    return Problem(scene.profile, Given(P / G, scene.tilt, moment), P)

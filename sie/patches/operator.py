@@ -27,7 +27,7 @@ from sie.profiles.pieces import Pieces
 
 from .measure import Measure, Targets, close, integrals
 from .panels import GapPanels, gap_panels
-from .state import Findings, State
+from .state import Findings, Given, State
 from .sums import Groups, add, far_sums, parts, ranges, steps
 from .tree import Level, Separation, Tree
 
@@ -139,6 +139,13 @@ class Operator(Measure):
         charge = np.where(own[:, None], level.charges[:2, node], level.charges[2:, node] / distance)
         return q, charge.transpose(1, 2, 0)
 
+    def resultants(self, tilt: float) -> tuple[float, float]:
+        """P and (on the line) M over E*/2, where the slope is H + tilt."""
+        P, force = self.patches, self.b * (self.H + self.H0 + tilt)
+        charges = P.chord.apart(P.edges - np.repeat(P.c, 2)) * self.Y
+        moment = (force * self.panels.points.x).sum() + charges @ P.edges
+        return float(force.sum() + charges.sum()), float(moment)
+
     @cached_property
     def gap_roots(self) -> tuple[Array, Array]:
         """T_i and S_i on the nodes of `gaps`, i the patch to the left."""
@@ -243,16 +250,17 @@ def gap_values(o: Operator, panels: GapPanels | None = None) -> tuple[Array, Arr
     return reference, T, np.asarray(o.D(targets))
 
 
-def operator_of(state: State, pieces: Pieces) -> Operator:
-    """The operator of a state, with the charges of its sharp edges."""
-    return Operator(state.patches, pieces, np.where(state.sharp, state.charge, 0.0))
-
-
 @dataclass(frozen=True, eq=False)
 class Found:
-    """An answer: a state that its findings certify."""
+    """An answer: a state that its findings certify, for what was given."""
 
     state: State
     operator: Operator
+    given: Given
     findings: Findings
     steps: int
+
+
+def operator_of(state: State, pieces: Pieces) -> Operator:
+    """The operator of a state, with the charges of its sharp edges."""
+    return Operator(state.patches, pieces, np.where(state.sharp, state.charge, 0.0))

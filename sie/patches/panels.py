@@ -136,14 +136,6 @@ class PatchPanels:
     angle: Array
 
 
-def graded(first: float, growth: float, end: float) -> Array:
-    """0, first, first growth, ... below end, end."""
-    if not first < end / SLACK:
-        return np.array([0.0, end])
-    count = int(np.ceil(np.log(end / first / SLACK) / np.log(growth)))
-    return np.concatenate(([0.0], first * growth ** np.arange(max(count, 1)), [end]))
-
-
 def _graded(rule: Rule, nearest: Array, end: Array, breaks: tuple[Index, Array]) -> Runs:
     """Panels of rows from 0 to `end` (R,): the row and the ends of each, ascending.
 

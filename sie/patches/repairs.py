@@ -99,10 +99,8 @@ def mended(state: State, found: Findings, pieces: Pieces) -> State:
 def _wrapped(a: Array, b: Array, period: float) -> tuple[Array, Array]:
     """Patches that reach into each other across the cut, as one."""
     while len(a) > 1 and b[-1] >= a[0] + period:
-        a, b = a[1:], np.append(b[1:-1], b[0] + period) if b[0] + period > b[-1] else b[1:]
-    while len(a) > 1 and a[0] + period <= b[-1]:
-        a = np.append(a[1:-1], a[-1])
-        b = b[1:]
+        b[-1] = max(b[-1], b[0] + period)
+        a, b = a[1:], b[1:]
     return a, b
 
 

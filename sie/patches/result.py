@@ -11,7 +11,6 @@ import numpy as np
 
 from sie.arguments import as_numbers
 
-GRADING = 0.4  # parts of a panel shrink towards its ends by this factor
 LEAST = 8.0 * float(np.finfo(float).eps)
 WIDE = 79
 CLOSE = 1e4  # condition from which a patch is about to appear, or two to merge
@@ -72,8 +71,11 @@ class PatchCertificate:
         return as_numbers(self)
 
     def __str__(self) -> str:
+        """The verdict first, then what it means, then its parts."""
+        verdict = f"{'' if self.ok else 'NOT '}certified to {self.allowed:.0e}"
         rows = [
             ("patches of contact", f"{self.patches}"),
+            ("estimated relative error of the pressure", f"{self.error:.1e}"),
             ("integral equation (1), residual / peak", f"{self.residual:.1e}"),
             ("equilibrium of forces, |∫p - P| / P", f"{self.force:.1e}"),
             ("equilibrium of moments, |∫px - M| / (P r)", f"{self.moment:.1e}"),
@@ -83,12 +85,15 @@ class PatchCertificate:
             ("a function's difference from its resolution / peak", f"{self.resolution:.1e}"),
             ("narrowest patch or gap, per change of the load", f"{self.condition:.1e}"),
         ]
-        verdict = f"{'' if self.ok else 'NOT '}certified to {self.allowed:.0e}"
         rows += [] if self.shear is None else self.shear.rows
+        remarks = [] if self.shear is None else self.shear.remarks
+        promise = (
+            "The pressure is wrong by about that part of its peak. p >= 0 in contact and gap >= 0 "
+            "beside it hold by bounds, panel by panel."
+        )
         lines = [f"{name:<48} {value:>9}" for name, value in rows]
-        lines += [] if self.shear is None else self.shear.remarks
-        promise = "p >= 0 in contact and gap >= 0 beside it hold by bounds, panel by panel."
-        return "\n".join([*lines, verdict, *textwrap.wrap(promise, WIDE), *self.notes])
+        told = textwrap.wrap(promise, WIDE) if self.ok else []
+        return "\n".join([verdict, *told, "", *lines, *remarks, *self.notes])
 
 
 def worst_of(found: Sequence[PatchCertificate]) -> PatchCertificate:

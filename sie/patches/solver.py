@@ -3,21 +3,18 @@
 A grid gives a first guess; Newton's method finds the edges; bounds verify the inequalities. Where
 they fail, a patch is cut where it is in tension, added where the bodies overlap, or merged with the
 next where a whole gap overlaps, and Newton's method starts again. Nothing is returned uncertified.
-
-Where a moment is given and that leads nowhere, the contact at some tilt is followed to it: the
-moment of the pressure falls as the tilt grows.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
-from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
 
 from sie.errors import ContactError, LoadError, ResolutionError
+from sie.numerics.chord import Chord
 from sie.profiles.look import beside, narrow_parts
 from sie.profiles.pieces import Pieces
 from sie.progress_bar import reported
@@ -28,20 +25,12 @@ from .newton import FINAL, MOST_STEPS
 from .of_scene import Problem
 from .operator import Found, Operator, operator_of
 from .panels import Patches
-from .repairs import after, apart, bounded, mended
-from .start import cells_of, grid_pressure
-from .start_state import start_of
-from .state import SAME, Effort, Event, Findings, Given, State, balances
+from .repairs import after, apart, bounded, mended, one_period
+from .start import Grid, cells_of, grid_pressure
+from .state import SAME, Event, Findings, Given, State, balances
 from .tension import tensions
 from .unknown import refuse_unknown_depths, refuse_unknown_ends, unsettled
-from .window import (
-    COARSE,
-    WIDENED,
-    fitted_window,
-    levels,
-    whole_window,
-    widened,
-)
+from .window import COARSE, WIDENED, fitted_window, levels, whole_window, widened
 
 Array = NDArray[np.float64]
 
@@ -53,49 +42,28 @@ DEEP = 2.0  # times what a gap misses to close: such an overlap is not of the ed
 NEARLY = 1e-7
 FEWEST_CELLS, MOST_CELLS = 2048, 1 << 18
 FINER = 8  # a second grid, if the first as a start leads nowhere
-LEAST_TURN = 1e-4  # of the way from the moment at a tilt to the given one
 CELLS = 1.5  # for each break in the window
-
-
-class Exhausted(Exception):
-    """The effort of a search is spent."""
+BEYOND = 0.9  # of a cell: an edge is no farther from the middle of the outer cell
 
 
 @reported("patches of contact, step")
 def contact(problem: Problem) -> Found:
     """The patches of a problem. Raises ContactError where none are certified."""
-    problem = replace(problem, effort=Effort())
-    try:
-        found = _in_windows(problem)
-        _refuse_unknown(found, problem.given)
-        return found
-    except Exhausted:
-        moment = problem.given.moment is not None
-        raise LoadError(
-            "the patches of contact do not settle within the most steps of a search at normal_load "
-            f"= {problem.given.load:.6g} E*/2: change the load{' or the moment' * moment}, or "
-            "smooth the profile"
-        ) from None
-
-
-def _in_windows(problem: Problem) -> Found:
     window = fitted_window(problem)
     for _ in range(WIDENED):
         found = _within(problem, window)
         beyond = widened(found, problem, window)
         if beyond == window:
-            return _in_one_period(_with_far_valleys(found, problem), problem)
+            found = _in_one_period(_with_far_valleys(found, problem), problem)
+            linear = newton.conditions_of(found)
+            moved = linear.rounded_moves(found.state)
+            refuse_unknown_depths(found, problem, linear.rounding, moved)
+            return found
         window = beyond
     raise LoadError(
-        f"contact goes on beyond [{window[0]:.6g}, {window[1]:.6g}]: the slope rises too little; "
-        "give a domain"
+        f"the load {problem.load:.6g} makes contact reach beyond [{window[0]:.6g}, "
+        f"{window[1]:.6g}]: the slope rises too little, give a domain"
     )
-
-
-def _refuse_unknown(found: Found, given: Given) -> None:
-    linear = newton.conditions(found.state, found.operator, given)
-    moved = linear.rounded_moves(found.state)
-    refuse_unknown_depths(found, given, linear.rounding, moved)
 
 
 def _in_one_period(found: Found, problem: Problem) -> Found:
@@ -104,60 +72,79 @@ def _in_one_period(found: Found, problem: Problem) -> Found:
     The widest gap follows the last patch, of equal ones the first. Sharp edges stay on the ends of
     the indenter, and patches about to merge are left where they are.
     """
-    P, state = found.state.patches, found.state
+    state, P, period = found.state, found.state.patches, problem.chord.period
     if not P.chord.periodic:
         return found
-    starts = np.roll(P.a, -1) - problem.domain[0]
-    starts -= P.chord.period * np.floor(starts / P.chord.period + SAME)
+    start = problem.domain[0]
+    first = np.roll(P.a, -1) - start
+    first -= period * np.floor(first / period + SAME)
     widest = P.gaps >= (1.0 - SAME) * P.gaps.max()
-    last = int(np.argmin(np.where(widest, starts, np.inf)))
-    a, b = (np.append(e[last + 1 :], e[: last + 1] + P.chord.period) for e in (P.a, P.b))
-    if last == P.number - 1:
-        a, b = P.a, P.b
-    turns = np.floor((a[0] - problem.domain[0]) / P.chord.period + SAME) * P.chord.period
-    if last == P.number - 1 and turns == 0.0:
+    turn = (int(np.argmin(np.where(widest, first, np.inf))) + 1) % P.number
+    a, b = (np.append(e[turn:], e[:turn] + period) for e in (P.a, P.b))
+    turns = np.floor((a[0] - start) / period + SAME) * period
+    if turn == 0 and turns == 0.0:
         return found
-    turn = -2 * (last + 1)
-    sharp, charge = np.roll(state.sharp, turn), np.roll(state.charge, turn)
-    a, b = a - turns, b - turns
-    lo, hi = found.operator.pieces.solid_around(0.5 * (a + b))
-    a, b = np.where(sharp[::2], lo, a), np.where(sharp[1::2], hi, b)
+    sharp, charge = np.roll(state.sharp, -2 * turn), np.roll(state.charge, -2 * turn)
+    lo, hi = found.operator.pieces.solid_around(0.5 * (a + b) - turns)
+    a, b = np.where(sharp[::2], lo, a - turns), np.where(sharp[1::2], hi, b - turns)
     turned = State(Patches(a, b, P.chord), sharp, charge, state.tilt)
-    return attempted(partial(_same, turned), found.operator.pieces, problem) or found
+    return attempted(lambda: turned, found.operator.pieces, problem) or found
 
 
 def _within(problem: Problem, window: tuple[float, float]) -> Found:
-    tilts = (problem.given.tilt,) * 2
-    if problem.given.moment is not None:
-        tilts = levels(problem, window)
-    tilt = 0.5 * (tilts[0] + tilts[1])
-    inside = np.count_nonzero((problem.breaks > window[0]) & (problem.breaks < window[1]))
+    given, chord, pieces = problem.given, problem.chord, problem.pieces(window)
+    tilts = (given.tilt,) * 2 if given.moment is None else levels(problem, window)
+    breaks = np.asarray(problem.profile.breaks)
+    inside = np.count_nonzero((breaks > window[0]) & (breaks < window[1]))
     cells = cells_of(min(max(CELLS * inside, FEWEST_CELLS), MOST_CELLS))
-    pieces = problem.pieces(window)
 
-    def touched(tilt: float, cells: int) -> State:
+    def of_grid(tilt: float, cells: int) -> State:
         height = problem.tilted(tilt, window)
-        periodic = problem.chord.periodic
-        grid = grid_pressure(height, window, cells, problem.given.load, periodic)
-        return start_of(grid, pieces, problem, tilt)
+        grid = grid_pressure(height, window, cells, given.load, chord.periodic)
+        return touched(grid, pieces, chord, tilt)
 
     def start(cells: int) -> State:
-        state = touched(tilt, cells)
-        if balances(state, problem.given):
+        state = of_grid(0.5 * (tilts[0] + tilts[1]), cells)
+        if balances(state, given):
             return state
         # at this tilt the contact changes from one indenter to another: both carry the load
-        both = [touched(t, COARSE).patches for t in tilts]
-        a, b = apart([e for P in both for e in zip(P.a, P.b, strict=True)])
-        return bounded(a, b, pieces, problem.chord, tilt)
+        both = [of_grid(t, COARSE).patches for t in tilts]
+        a, b = apart([e for P in both for e in P.zones])
+        return bounded(a, b, pieces, chord, state.tilt)
 
     for number in (cells, min(FINER * cells, MOST_CELLS)):
-        found = attempted(partial(start, number), pieces, problem)
+        found = attempted(lambda cells=number: start(cells), pieces, problem)  # type: ignore[misc]
         if found is not None:
-            break
-    else:
-        found = _turned(partial(touched, tilt, cells), pieces, problem, tilt)
-    refuse_unknown_ends(found.state, problem)
-    return found
+            refuse_unknown_ends(found.state, problem)
+            return found
+    raise unsettled(problem, 0)
+
+
+def touched(grid: Grid, pieces: Pieces, chord: Chord, tilt: float) -> State:
+    """The patches on a grid; per period they begin where the pressure is least.
+
+    Edges are where p², linear next to a smooth edge, reaches zero.
+    """
+    p, turn = grid.p, 0
+    if grid.periodic:
+        turn = int(np.argmin(p))
+        p = np.roll(p, -turn)
+        p[0] = 0.0  # a gap may be narrower than a cell
+    x = grid.x + grid.dx * turn
+    ends = np.flatnonzero(np.diff(p > 0.0, prepend=False, append=False))
+    first, last = ends[::2], ends[1::2] - 1
+    a = x[first] - grid.dx * _beyond(p[first], p[np.minimum(first + 1, last)])
+    b = x[last] + grid.dx * _beyond(p[last], p[np.maximum(last - 1, first)])
+    if chord.periodic:
+        a, b = one_period(a, b, chord.period)
+    return bounded(a, b, pieces, chord, tilt)
+
+
+def _beyond(outer: Array, inner: Array) -> Array:
+    """How many cells from the middle of an outer cell on p², linear to it, is zero."""
+    rise = inner**2 - outer**2
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return np.where(rise > 0.0, np.minimum(outer**2 / rise, BEYOND), 0.5)
 
 
 def attempted(start: Callable[[], State], pieces: Pieces, problem: Problem) -> Found | None:
@@ -198,35 +185,6 @@ def _with_far_valleys(found: Found, problem: Problem) -> Found:
     return replace(found, findings=replace(found.findings, doubt=seen.doubt, place=seen.place))
 
 
-def _turned(start: Callable[[], State], pieces: Pieces, problem: Problem, tilt: float) -> Found:
-    """The contact under a moment, by steps of it from that at a tilt. Raises LoadError."""
-    given = problem.given
-    if given.moment is None:
-        raise unsettled(problem, 0)
-    level = replace(problem, given=given._replace(tilt=tilt, moment=None))
-    found = attempted(start, pieces, level)
-    if found is None:
-        raise unsettled(problem, 0)
-    o, part, step = found.operator, 0.0, 1.0
-    now = float((o.b * (o.H + o.H0 + found.state.tilt) * o.panels.points.x).sum())
-    while step > LEAST_TURN:
-        to = min(part + step, 1.0)
-        moment = now + to * (given.moment - now) if to < 1.0 else given.moment
-        asked = replace(problem, given=given._replace(moment=moment))
-        turned = attempted(partial(_same, found.state), pieces, asked)
-        if turned is None:
-            step *= 0.5
-        elif to == 1.0:
-            return turned
-        else:
-            found, part, step = turned, to, 2.0 * step
-    raise unsettled(problem, found.state.patches.number)
-
-
-def _same(state: State) -> State:
-    return state
-
-
 # -- Newton's method and repairs -------------------------------------------------------------------
 
 
@@ -246,7 +204,12 @@ def settled(state: State, pieces: Pieces, problem: Problem) -> Found:
                 break
             seen.add(start)
         accuracy = (ROUGHLY, EARLY_STEPS) if round_ < early else (FINAL, MOST_STEPS)
-        state, event, count = _stepped(state, pieces, problem, accuracy)
+        number = state.patches.number
+        longest = problem.effort.steps(number)
+        if longest < 1:
+            break
+        state, event, count = newton.solve(state, pieces, problem.given, accuracy, longest)
+        problem.effort.spend(count, number)
         steps += count
         stalls += event is not None and event.kind == "stall" and round_ >= early
         if stalls > STALLS:
@@ -261,7 +224,7 @@ def settled(state: State, pieces: Pieces, problem: Problem) -> Found:
             early = early if event is not None or not rough.ok else 0
             state = state if rough.ok else mended(state, rough, pieces)
             continue
-        found = Found(state, o, findings(o, state.tilt, problem.given.load), steps)
+        found = Found(state, o, problem.given, findings(o, state.tilt, problem.given.load), steps)
         if found.findings.ok:
             return found
         if not found.findings.overlap and found.findings.lowest > -NEARLY:
@@ -272,24 +235,10 @@ def settled(state: State, pieces: Pieces, problem: Problem) -> Found:
     raise unsettled(problem, state.patches.number)
 
 
-def _stepped(
-    state: State, pieces: Pieces, problem: Problem, accuracy: tuple[float, int]
-) -> tuple[State, Event | None, int]:
-    """What Newton's method leads to. Raises Exhausted where no effort is left."""
-    number = state.patches.number
-    longest = problem.effort.steps(number)
-    if longest < 1:
-        raise Exhausted
-    found = newton.solve(state, pieces, problem.given, accuracy, longest)
-    problem.effort.spend(found[2], number)
-    return found
-
-
 def findings(o: Operator, tilt: float, load: float) -> Findings:
     """What the bounds of pressure and gap find."""
     tension, lowest = tensions(o)
-    looked = overlaps(o, tilt, load)
-    return Findings(tension, looked.overlap, lowest, looked.doubt, looked.place)
+    return replace(overlaps(o, tilt, load), tension=tension, lowest=lowest)
 
 
 def roughly(o: Operator, tilt: float, load: float, gaps: bool) -> Findings:

@@ -2,8 +2,7 @@
 
 The pressure minimises ½∫p u + ∫p h under p >= 0 and ∫p = P (Polonsky & Keer 1999), with
 u = -1/(πG) ∫p ln|x - t| on the line and the harmonics p_k/(G|k|) per period; each product takes two
-FFTs. Edges are where p², linear next to a smooth edge, reaches zero. A patch of a few cells is a
-parabola with its load, P = πGκr²/2, where the slope is that which the other patches leave.
+FFTs.
 """
 
 from __future__ import annotations
@@ -101,10 +100,7 @@ def _relaxed(h: Array, p: Array, dx: float, load: float, periodic: bool) -> Arra
     K = _influence(n, dx, periodic)
     k = np.asarray(2.0 * np.pi * np.arange(size // 2 + 1) / (size * dx), dtype=float)
     system = System(h, dx, load, K)
-    try:
-        found, done = _gradients(system, p, k)
-    except FloatingPointError:
-        done = False
+    found, done = _gradients(system, p, k)
     # noise from cell to cell lets preconditioned steps go to and fro
     return found if done else _gradients(system, p, None)[0]
 
@@ -139,6 +135,8 @@ def _gradients(system: System, p: Array, stiffness: Array | None) -> tuple[Array
     for number in range(ITERATIONS if stiffness is None else PRECONDITIONED):
         contact = p > 0.0
         if not contact.any() or not np.isfinite(p).all():
+            if stiffness is not None:
+                return p, False
             raise FloatingPointError("no pressure on the grid")
         gap = _levelled(system.displaced(p) + h, contact)
         r = np.where(contact, gap, 0.0)
@@ -182,65 +180,3 @@ def _pressed_apart(system: System, p: Array, deep: Array, step: float, plain: bo
     if not plain:
         step = float(deep @ deep) / float(deep @ system.displaced(deep))
     return np.asarray(np.maximum(p - step * deep, 0.0))
-
-
-BEYOND = 0.9  # of a cell: an edge is no farther from the middle of the outer cell
-FEW = 5  # cells: a patch of fewer is taken as a parabola
-
-
-class Patch(NamedTuple):
-    """A patch on the grid: its approximate edges, its load and the number of its cells."""
-
-    a: float
-    b: float
-    load: float
-    centre: float
-    cells: int
-
-
-def patches_on(grid: Grid) -> list[Patch]:
-    """The patches on a grid; per period the cells are turned, so that the widest gap ends it."""
-    p, n = grid.p, len(grid.p)
-    turn = 0
-    if grid.periodic:
-        empty = np.flatnonzero(p == 0.0)
-        if not empty.size:  # the gap is narrower than a cell
-            empty = np.array([int(np.argmin(p))])
-            p = p.copy()
-            p[empty] = 0.0
-        runs = np.split(empty, np.flatnonzero(np.diff(empty) > 1) + 1)
-        if len(runs) > 1 and runs[0][0] == 0 and runs[-1][-1] == n - 1:
-            runs = [*runs[1:-1], np.concatenate((runs[-1], runs[0] + n))]
-        widest = max(runs, key=len)
-        turn = int(widest[len(widest) // 2]) % n
-        p = np.roll(p, -turn)
-    x = grid.lo + grid.dx * (np.arange(n) + 0.5 + turn)
-    contact = np.concatenate(([False], p > 0.0, [False]))
-    starts = np.flatnonzero(contact[1:] & ~contact[:-1])
-    stops = np.flatnonzero(contact[:-1] & ~contact[1:])
-    found = []
-    for i, j in zip(starts.tolist(), stops.tolist(), strict=True):
-        q = p[i:j]
-        load = float(q.sum() * grid.dx)
-        centre = float(q @ x[i:j]) * grid.dx / load
-        a, b = (
-            (_zero(q[:2], x[i], -grid.dx), _zero(q[:-3:-1], x[j - 1], grid.dx))
-            if j - i > 1
-            else (x[i] - 0.5 * grid.dx, x[i] + 0.5 * grid.dx)
-        )
-        found.append(
-            Patch(
-                max(a, x[i] - BEYOND * grid.dx),
-                min(b, x[j - 1] + BEYOND * grid.dx),
-                load,
-                centre,
-                j - i,
-            )
-        )
-    return found
-
-
-def _zero(q: Array, x: float, outward: float) -> float:
-    """The zero of p², linear through the two outer cells: up to a cell beyond the outer one."""
-    rise = q[1] ** 2 - q[0] ** 2
-    return x + outward * (min(q[0] ** 2 / rise, 1.0) if rise > 0.0 else 0.5)

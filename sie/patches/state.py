@@ -128,9 +128,9 @@ class Findings:
                 overlap; place: where that is
     """
 
-    tension: tuple[Tension, ...]
-    overlap: tuple[Overlap, ...]
-    lowest: float
+    tension: tuple[Tension, ...] = ()
+    overlap: tuple[Overlap, ...] = ()
+    lowest: float = 0.0
     doubt: float = 0.0
     place: float = 0.0
 

@@ -15,7 +15,7 @@ from sie.errors import LoadError
 
 from .of_scene import Problem
 from .operator import Found
-from .state import Given, State
+from .state import State
 
 Array = NDArray[np.float64]
 
@@ -24,7 +24,12 @@ UNKNOWN = 0.01  # part by which the rounding of h may change the load of a patch
 
 def refuse_unknown_ends(state: State, problem: Problem) -> None:
     """Raises LoadError where contact reaches an end beyond which the indenter is not known."""
-    edges = zip(state.patches.edges[[0, -1]].tolist(), problem.domain, problem.corners, strict=True)
+    edges = zip(
+        state.patches.edges[[0, -1]].tolist(),
+        problem.domain,
+        problem.profile.ends_are_corners,
+        strict=True,
+    )
     for edge, end, corner in edges:
         if edge != end or problem.chord.periodic:
             continue
@@ -43,32 +48,32 @@ def refuse_unknown_ends(state: State, problem: Problem) -> None:
             )
 
 
-def refuse_unknown_depths(found: Found, given: Given, rounding: Array, moved: Array) -> None:
+def refuse_unknown_depths(found: Found, problem: Problem, rounding: Array, moved: Array) -> None:
     """Raises LoadError where the rounding of h decides which valleys touch, or how they share.
 
     `rounding` (N - 1,) is that from patch to patch, and `moved` (2N,) how far it moves the edges.
     """
-    P, findings = found.state.patches, found.findings
-    if findings.doubt:
-        k = int(np.argmin(np.abs(P.c - findings.place)))
-        away = abs(findings.place - P.c[k])
-        decides = given.load / np.pi * (np.log(max(2.0 * away / P.r[k], 1.0)) + 0.5)
-        if findings.doubt > UNKNOWN * decides:
-            raise _unknown_depth(given, (P.c[k], findings.place), findings.doubt, decides)
-    if P.number == 1:
-        return
-    if 2.0 * float(np.abs(moved / np.repeat(P.r, 2)).max()) > UNKNOWN:
+    P, seen, load = found.state.patches, found.findings, found.given.load
+
+    def refuse(k: int, place: float, known: float, least: float) -> None:
+        away = abs(place - P.c[k])
+        decides = load / np.pi * (np.log(max(2.0 * away / P.r[k], 1.0)) + 0.5)
+        if known > least * decides:
+            raise _unknown_depth(problem.load, (float(P.c[k]), place), known, decides)
+
+    if seen.doubt:
+        refuse(int(np.argmin(np.abs(P.c - seen.place))), seen.place, seen.doubt, UNKNOWN)
+    if P.number > 1 and 2.0 * float(np.abs(moved / np.repeat(P.r, 2)).max()) > UNKNOWN:
         k = int(np.argmax(rounding))
-        decides = given.load / np.pi * (np.log(2.0 * (P.c[k + 1] - P.c[k]) / P.r[k]) + 0.5)
-        raise _unknown_depth(given, (P.c[k], P.c[k + 1]), rounding[k], decides)
+        refuse(k, float(P.c[k + 1]), rounding[k], 0.0)
 
 
 def _unknown_depth(
-    given: Given, places: tuple[float, float], known: float, decides: float
+    load: float, places: tuple[float, float], known: float, decides: float
 ) -> LoadError:
     x1, x2 = sorted(places)
     return LoadError(
-        f"how the valleys at x = {x1:.6g} and {x2:.6g} share normal_load = {given.load:.6g} E*/2 "
+        f"how the valleys at x = {x1:.6g} and {x2:.6g} share normal_load = {load:.6g} "
         f"is decided by a difference of depths of {decides:.2g}, and doubles of h tell "
         f"{known:.2g}: raise the load, or make one valley deeper",
         valleys=(x1, x2),
@@ -79,7 +84,7 @@ def unsettled(problem: Problem, patches: int) -> LoadError:
     """The refusal of a load under which the search does not come to rest."""
     other = problem.given.moment is not None
     return LoadError(
-        f"the patches of contact do not settle at normal_load = {problem.given.load:.6g} E*/2: two "
+        f"the patches of contact do not settle at normal_load = {problem.load:.6g}: two "
         "of them are about to merge, or one to appear; change the load"
         f"{' or the moment' * other} a little",
         patches=patches,

@@ -24,6 +24,9 @@ WINDOWS = 200
 # of them at which it falls valleys are looked for so many times as far
 SCALES, PLACES, BEYOND = (1e-6, 1e9), 6000, 4.0
 WIDER = 4.0  # windows that are added at an end
+# of the load times the window: so near to the moment the tilt is found from there
+NEARLY = 1e-3
+DOUBLED, HALVED = 60, 24  # times that a step of the tilt is
 WIDENED = 12  # times a window is widened, before the slope is said to rise too little
 
 
@@ -61,9 +64,8 @@ def fitted_window(problem: Problem) -> tuple[float, float]:
             return lo, hi
         lo, hi = max(lo, a - 2.0 * (b - a)), min(hi, b + 2.0 * (b - a))
     raise LoadError(
-        f"normal_load over E*/2 = {problem.given.load:.6g} makes contact reach beyond [{lo:.6g}, "
-        f"{hi:.6g}]: "
-        "the slope rises too little, give a domain"
+        f"the load {problem.load:.6g} makes contact reach beyond [{lo:.6g}, {hi:.6g}]: the slope "
+        "rises too little, give a domain"
     )
 
 
@@ -75,7 +77,8 @@ def _first_window(problem: Problem) -> tuple[float, float]:
     lo, hi = problem.domain
     if np.isfinite(lo) and np.isfinite(hi):
         return lo, hi
-    finite = problem.breaks[np.isfinite(problem.breaks)]
+    breaks = np.asarray(problem.profile.breaks)
+    finite = breaks[np.isfinite(breaks)]
     first, last = (float(finite.min()), float(finite.max())) if finite.size else (0.0, 0.0)
     sizes = np.geomspace(1e-140, 1e140, 561)
     with np.errstate(all="ignore"):
@@ -133,31 +136,30 @@ def widened(found: Found, problem: Problem, window: tuple[float, float]) -> tupl
 def levels(problem: Problem, window: tuple[float, float]) -> tuple[float, float]:
     """The tilts between which the load has the given moment, on a coarse grid.
 
-    M falls as the tilt grows.
+    M falls as the tilt grows. They are the same where one has it nearly.
     """
-    assert problem.given.moment is not None
-    lo, hi = window
+    load, wanted, (lo, hi) = problem.given.load, problem.given.moment, window
+    assert wanted is not None
+    nearly = NEARLY * load * (hi - lo)
 
-    def moment(tilt: float) -> float:
-        grid = grid_pressure(
-            problem.tilted(tilt, window), window, COARSE, problem.given.load, False
-        )
-        return float((grid.p * grid.x).sum() * grid.dx) - problem.given.moment  # type: ignore[operator]
+    def excess(tilt: float) -> float:
+        grid = grid_pressure(problem.tilted(tilt, window), window, COARSE, load, False)
+        return float((grid.p * grid.x).sum() * grid.dx) - wanted
 
-    size = problem.given.load / (hi - lo)
-    now = moment(0.0)
-    if now == 0.0:
+    now = excess(0.0)
+    if abs(now) <= nearly:
         return 0.0, 0.0
     sign = np.sign(now)
-    near, far = 0.0, sign * size
-    for _ in range(60):
-        if moment(far) * sign <= 0.0:
+    near, far = 0.0, sign * load / (hi - lo)
+    for _ in range(DOUBLED):
+        now = excess(far) * sign
+        if now <= 0.0:
             break
         near, far = far, 2.0 * far
-    for _ in range(24):
+    for _ in range(HALVED):
+        if abs(now) <= nearly:
+            return (near, near) if now > 0.0 else (far, far)
         middle = 0.5 * (near + far)
-        if moment(middle) * sign > 0.0:
-            near = middle
-        else:
-            far = middle
+        now = excess(middle) * sign
+        near, far = (middle, far) if now > 0.0 else (near, middle)
     return near, far

@@ -16,7 +16,7 @@ point to the next all loads change in proportion to time. What is exact, and cov
                                        that travels; several stick zones, all of which recede
     from P = 0, P, Q, σ and    the same, from soon after the first contact on
     tilt in proportion
-    dissimilar bodies                  P that grows and then Q
+    dissimilar bodies                  P that grows alone, then Q and σ at constant P
 
 `path_contacts` has the contacts under the loads of the path. `friction.memory` computes the layers
 that a step changes, `friction.partial_slip` the slip of a single step, `load_history.path_slip` the
@@ -55,7 +55,7 @@ from sie.patches.path_energy import PathEnergy
 from sie.patches.result import PatchCertificate
 from sie.planning import Plan, Step
 from sie.problem.load_path import Path
-from sie.problem.path_scene import one_after_the_other, unsheared
+from sie.problem.path_scene import pressed_first, unsheared
 from sie.problem.request import ECONOMY
 from sie.problem.scene import Scene
 from sie.progress_bar import counted
@@ -155,7 +155,7 @@ class History(PathContacts, Sequence[Solution]):
         self._shifts: dict[int, float] = {}
         self._by_parts: dict[int, TurningPoint] = {}
         self._kind, self.scene_states = PathSolution, list[Solution]()
-        if steps is turning_points and one_after_the_other(scene, path):
+        if steps is turning_points and pressed_first(scene, path):
             self._kind, self.scene_states = SceneSolution, self._solved_by_scenes()
             self.turning_points = points_of_loads(path)
         else:
@@ -285,13 +285,19 @@ class History(PathContacts, Sequence[Solution]):
         return self._energy.until(index)
 
     def _solved_by_scenes(self) -> list[Solution]:
-        """The points as scenes, which share what they can; refused here if they are not covered."""
-        found, scenes = self.solution(self.scene), []
-        for P, Q, _ in self.path.points:
+        """The points as scenes, which share the contact under P; refused if they are not covered.
+
+        Dissimilar bodies go from the state of one point to that of the next.
+        """
+        found, scenes, P_before = self.solution(self.scene), list[Solution](), 0.0
+        for P, Q, sigma in counted("points", self.path.points, len(self.path.points)):
             if P:
-                found = found.with_(normal_load=P, tangential_load=Q)
+                state = found.coupled[1] if P_before == P and scenes else None
+                found = found.with_(normal_load=P, tangential_load=Q, bulk_stress=sigma)
                 solve(found.scene, self.tol)
+                found.go_on_from(state)
             scenes.append(found)
+            P_before = P
         return scenes
 
     def shift_of_step(self, index: int) -> float:
@@ -384,7 +390,7 @@ class PathSolution(Solution):
 
 
 class SceneSolution(PathSolution):
-    """The solution of dissimilar bodies at a point of a path where P grows, or Q after it."""
+    """The solution of dissimilar bodies at a point of a path."""
 
     route = "the state of a scene, that of its loads"
 

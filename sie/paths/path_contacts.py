@@ -16,7 +16,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from sie.contact.inequalities import slope_rises
 from sie.contact.known_contact import Normal
 from sie.errors import LoadError
 from sie.friction.dissipation import Dissipation
@@ -231,11 +230,7 @@ class PathContacts(ABC):
     @cached_property
     def in_one_patch(self) -> bool:
         """Whether the contact is one patch under every load of the path, by a slope that rises."""
-        plain = self.plain(self.largest, self._first[1])
-        if not isinstance(plain.normal, Normal):
-            return False
-        slope = plain.normal.slope(self.scene.profile)
-        return self.scene.profile.convex or slope_rises(plain.slope_density, slope)
+        return bool(self.plain(self.largest, self._first[1]).convex)
 
     def patches(self, P: float, turn: float) -> tuple[tuple[float, float], ...]:
         """The patches of contact under P."""

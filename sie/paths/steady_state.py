@@ -15,7 +15,7 @@ opposite directions: then, at constant P and tilt, twice the first loading by ha
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, overload
@@ -23,20 +23,14 @@ from typing import Any, overload
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from sie import arguments
 from sie.errors import ContactError
 from sie.friction.load_history.changing_contact import ChangingContact
-from sie.friction.load_history.load_steps import steady_points
 from sie.friction.load_history.path_slip import CourseSlip, step_slip
 from sie.friction.load_history.turning_point import TurningPoint
 from sie.friction.loads import Loads
 from sie.friction.memory import LoadMemory
 from sie.friction.slip_state import Slip
 from sie.numerics.zones import within
-from sie.problem.load_path import Path, loads_at
-from sie.problem.path_scene import refuse_uncovered
-from sie.problem.request import ECONOMY
-from sie.problem.scene import Scene
 from sie.solution import Solution
 from sie.stress.fretting import Cycle
 from sie.stress.half_plane import Stress, Tractions
@@ -46,65 +40,6 @@ from sie.traction.combination import superposed
 from .history import History
 
 Array = NDArray[np.float64]
-TOUCHING = "the bodies must touch all along the cycle; give P > 0"
-
-
-def steady_cycle(
-    scene: Scene,
-    A: Sequence[float],
-    B: Sequence[float],
-    tol: float = 1e-13,
-    economy: Collection[str] = ECONOMY,
-) -> SteadyCycle:
-    """The steady state of a cycle in which all loads go from A to B and back in phase.
-
-    Parameters
-    ----------
-    scene : Scene
-        Profile, bodies, friction and tilt; its loads are replaced by those of A and B.
-    A, B : sequence of float
-        (P, Q, σ) or (P, Q, σ, tilt) at the two turning points, as in `Path`.
-    tol : float, optional
-        Relative accuracy, as in `solve`.
-    economy : collection of str, optional
-        What may be skipped, as in `solve`.
-
-    Returns
-    -------
-    SteadyCycle
-        Permanent stick zone, energy per cycle, ranges of slip and shear.
-
-    Raises
-    ------
-    ValueError
-        For values that are no loads, or a scene of full stick.
-    ContactError
-        Where the steady state is not that of one permanent stick zone which both ends of the slip
-        reach at once; in several patches where slip has opposite directions at the same time; per
-        period where σ changes.
-
-    Examples
-    --------
-    >>> import sie
-    >>> scene = sie.Scene(profile=sie.Parabola(100.0), modulus=80e3, normal_load=50.0, friction=0.5)
-    >>> cycle = sie.steady_cycle(scene, (55.0, 15.0, 30.0), (50.0, -5.0, -30.0))
-    >>> [[round(end, 6) for end in zone] for zone in cycle.stick]
-    [[-0.189932, 0.264932]]
-    """
-    refuse_uncovered(scene)
-    points, tilts = zip(*(_point(name, p) for name, p in (("A", A), ("B", B))), strict=True)
-    path = Path((*points, points[0]), tilt=(*tilts, tilts[0]) if any(tilts) else ())
-    return SteadyCycle(History(scene, path, tol, economy, steps=steady_points))
-
-
-def _point(name: str, point: Sequence[float]) -> tuple[tuple[float, ...], float]:
-    values = arguments.listed(name, point, "(P, Q, σ) or (P, Q, σ, tilt)")
-    if len(values) not in (2, 3, 4):
-        raise ValueError(f"{name} = {point!r}: give (P, Q, σ) or (P, Q, σ, tilt)")
-    loads = loads_at(name, values[:3], TOUCHING)
-    if loads[0] == 0.0:
-        raise ValueError(f"P of {name} = 0 is not positive: {TOUCHING}")
-    return loads, arguments.measure(f"tilt of {name}", values[3]) if len(values) == 4 else 0.0
 
 
 class SteadyCycle(Sequence["SteadyState"]):

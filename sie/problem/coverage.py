@@ -1,8 +1,8 @@
 """Refusals of loads with friction that no contact carries, or that are not covered.
 
-Of dissimilar bodies, a normal load that grows, and a tangential load that grows after it, leave
-states that depend on the loads alone, as long as zones of stick and slip move in one direction.
-Other loads do not: what sticks again keeps a slip gradient that depends on every state before.
+Of dissimilar bodies, a normal load that grows is covered, and then a tangential load and a bulk
+stress at constant P. Where P falls, or changes while a tangential load acts, what comes to stick
+keeps a slip gradient that depends on every state before: that is refused.
 """
 
 from __future__ import annotations
@@ -35,19 +35,21 @@ def refuse_uncovered(scene: Scene) -> None:
 def _refuse_dissimilar(scene: Scene) -> None:
     """Raises ContactError for what is asked beyond P at a tilt, or P, then Q."""
     pair = f"dissimilar bodies (β = {scene.beta:.4g}) with friction = {scene.friction:g}"
-    if scene.bulk_stress:
+    loads = {"tangential_load": scene.tangential_load, "bulk_stress": scene.bulk_stress}
+    given = [f"{name} = {value:g}" for name, value in loads.items() if value]
+    if scene.bulk_stress and not scene.coupled:
         raise ContactError(
-            f"{pair}: bulk_stress = {scene.bulk_stress:g} is not solved for them; "
-            f"set bulk_stress = 0, set friction = 0, or {NEGLECTED}"
+            f"{pair}: {given[-1]} is not solved with coupling = 'goodman'; "
+            "set bulk_stress = 0, or give coupling = 'full'"
         )
     if scene.moment:
         raise held_moment(scene)
-    if scene.tangential_load and scene.half_width is not None:
+    if given and scene.half_width is not None:
         raise ContactError(
-            f"{pair}: the load of half_width = {scene.half_width:g} under tangential_load = "
-            f"{scene.tangential_load:g} is not solved; give normal_load"
+            f"{pair}: the load of half_width = {scene.half_width:g} under {given[0]} is not "
+            "solved; give normal_load"
         )
-    if scene.tangential_load and scene.profile.pieces.is_flat_punch:
+    if given and scene.profile.pieces.is_flat_punch:
         refuse_corners(scene)
 
 
@@ -57,43 +59,6 @@ def held_moment(scene: Scene) -> ContactError:
         f"dissimilar bodies (β = {scene.beta:.4g}) with friction = {scene.friction:g}: a moment "
         f"that is held, here {scene.moment:g}, is not solved; give a tilt in its place, set "
         f"friction = 0, or {NEGLECTED}"
-    )
-
-
-def uneven_under_shear(scene: Scene) -> ContactError:
-    """The ContactError: Q after P under a profile that is not symmetric."""
-    return ContactError(
-        f"dissimilar bodies (β = {scene.beta:.4g}) with friction = {scene.friction:g}: "
-        f"tangential_load = {scene.tangential_load:g} is solved under symmetric profiles alone; "
-        f"set tangential_load = 0, set friction = 0, or {NEGLECTED}"
-    )
-
-
-def refused_load(kappa: float, loads: tuple[float, float, float]) -> ContactError:
-    """The ContactError: under Q there are no zones that depend on Q alone, or none were found.
-
-    `loads` are |Q|, the least one under which there are (f P for none, inf if unknown), and f P.
-    """
-    Q, least, limit = loads
-    asked = f"dissimilar bodies (β f = {kappa:.3g}) under |Q| = {Q:.6g} ({Q / limit:.3g} f P)"
-    why = "what the contact gains sticks, with slip that depends on the path"
-    digit = 10.0 ** (math.floor(math.log10(limit)) - 7)
-    if Q < least < limit - digit:
-        least = math.ceil(least / digit) * digit
-        return ContactError(f"{asked}: {why}; give |Q| from {least:.8g} up to f P, or dundurs = 0")
-    if limit - digit <= least < math.inf:
-        why += "; let them slide (sliding = 1 or -1)"
-    else:
-        why = "no zones of stick and slip were found; change |Q|"
-    return ContactError(f"{asked}: {why}, lower friction, or give dundurs = 0")
-
-
-def refused_slip(kappa: float, part: float) -> ContactError:
-    """The ContactError: under Q, a part of f P, an end of the stick zone passes a corner."""
-    return ContactError(
-        f"dissimilar bodies (β f = {kappa:.3g}) under |Q| = {part:.3g} f P: a corner of the "
-        "profile sticks while what is beside it slips; give a |Q| nearer to f P, round the corner, "
-        "or give dundurs = 0"
     )
 
 
@@ -113,6 +78,6 @@ def refuse_corners(scene: Scene) -> NoReturn:
     size = f" in about {width:.1g} half-widths" if width > EPS else ""
     raise ContactError(
         f"dissimilar bodies (β = {scene.beta:.4g}) with friction = {scene.friction:g}: under "
-        f"tangential_load = {scene.tangential_load:g} a corner of the indenter keeps old slip"
+        f"Q = {scene.tangential_load:g} a corner of the indenter keeps old slip"
         f"{size}, which is not solved; round it, set sliding = ±1, or give dundurs = 0"
     )

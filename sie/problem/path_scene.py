@@ -11,15 +11,15 @@ from .load_path import Path
 from .scene import Scene, refuse_no_scene
 
 
-def one_after_the_other(scene: Scene, path: Path) -> bool:
-    """Whether P of dissimilar bodies grows, and then Q: each state is that of its loads."""
+def pressed_first(scene: Scene, path: Path) -> bool:
+    """Whether P of dissimilar bodies grows alone, and is constant while Q and σ change."""
     if not (scene.beta and scene.friction) or scene.bonded or scene.sliding:
         return False
-    if scene.coupling != "full" or any(path.turns) or any(sigma for _, _, sigma in path.points):
+    if scene.coupling != "full" or any(path.turns):
         return False
-    one_way = len({Q > 0.0 for _, Q, _ in path.points if Q}) <= 1
-    pairs = pairwise([(P, abs(Q)) for P, Q, _ in path.points])
-    return one_way and all(p >= P and q >= Q and (p == P or not q) for (P, Q), (p, q) in pairs)
+    pairs = pairwise([(P, bool(Q or sigma)) for P, Q, sigma in path.points])
+    alone = path.points[0][0] != 0.0 or not any(path.points[0][1:])
+    return alone and all(p == P or (p > P and not sheared) for (P, sheared), (p, _) in pairs)
 
 
 def refuse_uncovered(scene: Scene) -> None:
@@ -32,9 +32,9 @@ def refuse_uncovered(scene: Scene) -> None:
         )
     if scene.beta and scene.friction and not scene.sliding:
         raise ContactError(
-            f"a path of dissimilar bodies (β = {scene.beta:.4g}) with friction is solved where P "
-            "grows and then Q: otherwise what sticks keeps slip from earlier loads; load P first, "
-            "then Q, or give dundurs = 0"
+            f"a path of dissimilar bodies (β = {scene.beta:.4g}, friction = {scene.friction:g}) is "
+            "solved where P grows alone and then stays, as from (P, 0, 0) to (P, Q, σ); hold P at "
+            "its mean, or give dundurs = 0"
         )
 
 
@@ -45,7 +45,7 @@ def unsheared(scene: Scene, path: Path) -> Scene:
     of them turns the indenter by tilt and the other by moment.
     """
     given = isinstance(path, Path) and isinstance(scene, Scene)
-    if not (given and one_after_the_other(scene, path)):
+    if not (given and pressed_first(scene, path)):
         refuse_uncovered(scene)
     if not isinstance(path, Path):
         raise ValueError(f"{path!r} is not a path: give sie.Path([(P, Q, σ), ...])")

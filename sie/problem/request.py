@@ -55,7 +55,7 @@ def refuse_unknown_poisson(scene: Scene) -> None:
 
 def energy_costs(scene: Scene) -> bool:
     """Whether the dissipated energy is a sum over states, and so only answered if asked for."""
-    return scene.coupled and scene.tangential_load != 0.0
+    return scene.coupled and (scene.tangential_load != 0.0 or scene.tau != 0.0)
 
 
 def sheared(scene: Scene, economy: Collection[str]) -> bool:

@@ -15,7 +15,7 @@ from sie.numerics import chebyshev
 from sie.numerics.root_finding import false_position
 
 from .pieces import root_bound
-from .profile_pieces import without_functions
+from .resolution import without_functions
 from .slope import Slope
 
 Array = NDArray[np.float64]
@@ -31,7 +31,7 @@ NEXT = float(np.finfo(float).tiny)  # to the origin of a piece
 
 def lowest_points(slope: Slope) -> tuple[float, float]:
     """[z1, z2] where h is lowest: H <= 0 to the left, H = 0 between, H >= 0 to the right."""
-    ends = _finite_ends(slope)
+    ends = finite_ends(slope)
     x, H, piece = _samples(slope, ends)
     sign = np.sign(H)
     if sign[0] > 0 and not np.isfinite(slope.breaks[0]):
@@ -61,7 +61,7 @@ def _without_lowest(side: str) -> LoadError:
     )
 
 
-def _finite_ends(slope: Slope) -> Array:
+def finite_ends(slope: Slope) -> Array:
     """Both ends of every piece (N, 2); for an infinite one a point beyond all roots.
 
     Fujiwara's bound of the polynomial's roots gives that point.

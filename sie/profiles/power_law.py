@@ -37,7 +37,6 @@ from sie.errors import LoadError
 from sie.numerics.interval import EPS
 
 Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 
 # w and q where the two series are joined: the ratio of terms apart from the factors' growth
 MEET = 3.0 - 2.0 * math.sqrt(2.0)
@@ -88,10 +87,6 @@ class PowerLaw:
                 "numbers beyond the range of doubles: choose other units"
             )
 
-    def slope_at(self, y: Array) -> Array:
-        """h' at y = x - axis."""
-        return PowerSlope(self.exponent, self.coefficient)(y)
-
     def slope(self, b: float) -> float:
         """h' at the distance b from the axis."""
         return self.exponent * (self.coefficient * b ** (self.exponent - 1.0))
@@ -107,19 +102,6 @@ class PowerLaw:
         strain = self.coefficient * b ** (self.exponent - 1.0)
         return (self.exponent / math.pi * self._factor * strain) * self.superposed(y, near, b)
 
-    def potentials_near_axis(self, y: Complex, b: float) -> Complex:
-        """(F, F') over E*/2, (2, n), at y = z - axis with Im y > 0 and |y/b|² far below 1; m < 2.
-
-        The flats have F = dP/(π sqrt(y² - s²)). With t = -iy/b and g = Γ(m/2) Γ((3-m)/2)/sqrt(π)
-        ∫_0^1 u^(m-1)/sqrt(u² + t²) du = (1 - g t^(m-1))/(m-1) + O(t²).
-        """
-        m = self.exponent
-        g = math.gamma(0.5 * m) * math.gamma(0.5 * (3.0 - m)) / math.sqrt(math.pi)
-        scale = m / math.pi * self._factor * (self.coefficient * b ** (m - 1.0))
-        t = y / (1j * b)
-        power = t ** (m - 1.0)
-        return scale * np.array([(1.0 - g * power) / (1j * (m - 1.0)), g * power / (b * t)])
-
     def superposed(self, y: Array, near: Array, b: float) -> Array:
         """J at y = x - axis, given the distance of x from the nearer edge, to relative accuracy."""
         w = near / (2.0 * b - near)
@@ -128,31 +110,6 @@ class PowerLaw:
         J[edge] = _near_edge(self.exponent, w[edge])
         J[~edge] = _near_axis(self.exponent, np.abs(y[~edge]) / b)
         return J
-
-
-@dataclass(frozen=True)
-class Corner:
-    """A jump of h' and one of h'' on the axis of a power law, and their part of p near it."""
-
-    jump: float
-    bend: float
-
-    def slope_at(self, y: Array) -> Array:
-        """The added h': 0 on the left of the axis, half the jump on it."""
-        return (self.jump + self.bend * y) * np.heaviside(y, 0.5)
-
-    def pressure(self, y: Array, near: Array, b: float) -> Array:
-        """The added p over E*/2: -(jump + bend y)/π ln|y/b|, inf on the axis under a jump."""
-        log = np.log(np.maximum(np.abs(y) / b, SMALLEST))
-        p: Array = -(self.jump + self.bend * y) / math.pi * log
-        if self.jump:
-            p[y == 0.0] = math.copysign(math.inf, self.jump)
-        return p
-
-    def potentials_near_axis(self, y: Complex, b: float) -> Complex:
-        """(F, F'), F = i/π (jump + bend y) ln(y/b), whose real part rises by jump + bend y."""
-        log, factor = np.log(y / b), self.jump + self.bend * y
-        return 1j / math.pi * np.array([factor * log, factor / y + self.bend * log])
 
 
 @dataclass(frozen=True)

@@ -8,13 +8,12 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from sie.numerics import chebyshev
 from sie.numerics.interval import EPS
 
 from .base import Profile
 from .look import across, narrow_parts
 from .pieces import Pieces
-from .resolution import TINY, refined
+from .resolution import TINY, refined, without_functions
 from .slope import Slope
 
 Array = NDArray[np.float64]
@@ -22,7 +21,6 @@ Index = NDArray[np.int64]
 
 # Periods: patches are found from one cut to the next, wherever that is.
 COPIES = (-1.0, 0.0, 1.0, 2.0)
-LEFT_OUT = 1e-15  # of the largest coefficient: what of a series is left out
 FEW = 16  # ends of parts about narrow valleys: beyond, they are cut only where they are missed
 
 
@@ -133,42 +131,6 @@ def _height(pieces: Pieces, k: Index, profile: Profile, side: float) -> Array:
 def from_slope(slope: Slope, window: tuple[float, float], tol: float) -> Pieces:
     """The pieces of a slope; its functions are resolved on the window."""
     return without_functions(refined(slope, *window, tol))
-
-
-def without_functions(resolved: Slope) -> Pieces:
-    """The pieces of a slope whose functions are resolved: these become series."""
-    K, none = len(resolved.origins), np.zeros((len(resolved.origins), 1))
-    series = none[:, :0]
-    if resolved.functions:
-        series = _series(replace(resolved, coefficients=none))
-        series[np.abs(series) < LEFT_OUT * np.abs(series).max()] = 0.0
-    return Pieces(
-        *(resolved.breaks, resolved.origins, resolved.coefficients),
-        series=series,
-        void=np.zeros(K, dtype=bool),
-        across=np.zeros(K),
-        blur=np.zeros(K),
-    )
-
-
-def in_series(resolved: Slope) -> Pieces:
-    """The pieces of a resolved slope, polynomials too as series."""
-    flat = replace(resolved, coefficients=np.zeros((len(resolved.origins), 1)), functions=())
-    return replace(without_functions(flat), series=_series(resolved))
-
-
-def one_piece(lo: float, hi: float, c: Array) -> Pieces:
-    """One piece by its Chebyshev coefficients."""
-    zero, solid = np.zeros(1), np.zeros(1, dtype=bool)
-    return Pieces(np.array([lo, hi]), zero, zero[:, None], c[None], solid, zero, zero)
-
-
-def _series(resolved: Slope) -> Array:
-    """The Chebyshev coefficients of H on each piece."""
-    lo, length = resolved.breaks[:-1], np.diff(resolved.breaks)
-    K, n = len(lo), int(resolved.degrees.max()) + 1
-    u = 0.5 * length[:, None] * (1.0 + chebyshev.points(n))
-    return chebyshev.transform(resolved.local(np.arange(K), lo, np.zeros(K), u))
 
 
 def integral(slope: Slope, start: float, x: Array) -> Array:

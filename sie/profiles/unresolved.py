@@ -30,8 +30,7 @@ from sie.numerics.interval import EPS, Interval
 
 from .look import values
 from .pieces import Pieces
-from .profile_pieces import in_series
-from .resolution import NOISE, refuse_non_finite, rounding_noise
+from .resolution import NOISE, in_series, refuse_non_finite, rounding_noise
 from .slope import Slope
 
 Array = NDArray[np.float64]

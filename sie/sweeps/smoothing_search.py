@@ -68,10 +68,9 @@ def least_smoothing(scene: Scene, tol: float = 1e-13) -> float:
         step_done()
         smooth = replace(scene, profile=with_part(scene.profile, trace, trace.smoothed(lam)))
         try:
-            _ = solve(smooth, tol).one_patch()
+            return len(solve(smooth, tol).patches) == 1
         except ContactError:
             return False
-        return True
 
     if one_patch(trace.lam):
         return trace.lam

@@ -32,12 +32,11 @@ from numpy.typing import NDArray
 from sie.inheritance import override
 from sie.numerics import chebyshev, lerch
 from sie.numerics.interval import Interval
-from sie.profiles.power_law import Corner, PowerLaw, PowerSlope
+from sie.profiles.power_law import PowerLaw, PowerSlope
 from sie.profiles.resolution import refined
 from sie.profiles.slope import Slope
 
 from . import potential
-from .base import in_order
 from .of_slope import SlopeDensity
 from .panels import Panels
 from .piece_quadrature import Geometry
@@ -45,8 +44,8 @@ from .piece_quadrature import Geometry
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
-# Powers below CUSP are steep on their axis; nearer to it than this fraction of the half-width,
-# what else there is to the pressure is straight to rounding.
+# On the axis of a power below CUSP the pieces of its slope, which approach it, miss the pressure;
+# at this fraction of the half-width beside it what else there is to the pressure is straight.
 CUSP, BESIDE_CUSP = 2.0, 1e-9
 STRAIGHT = 2.9  # powers from here on are straight so near to an axis
 
@@ -67,85 +66,42 @@ class OnPanels(SlopeDensity):
         return self.panels.scale
 
     def _regular(self, x: Array) -> Array:
-        if not self._cusps:
-            return self._by_pieces(x)
-        return self._joined(x, self._by_pieces, self._beside_cusp, np.empty(x.shape))
+        p = self._by_pieces(x)
+        for axis in self._steep:
+            p[x == axis] = self._on_axes[axis]
+        return p
 
     def _by_pieces(self, x: Array) -> Array:
         return (self.panels.edge.cos**2 / math.pi) * potential.on_contact(self.panels, x)
 
     @cached_property
-    def _cusps(self) -> dict[float, list[PowerLaw | Corner]]:
-        """The powers and the corner at each axis of a power below CUSP, too steep for pieces."""
+    def _steep(self) -> dict[float, list[PowerLaw]]:
+        """The powers about each axis of one below CUSP, without a corner: p is finite there."""
         slope, (lo, hi) = self.panels.geometry.slope, self.interval
-        cusps: dict[float, list[PowerLaw | Corner]] = {}
+        steep: dict[float, list[PowerLaw]] = {}
         for term in slope.functions:
-            f = term.function
-            if isinstance(f, PowerSlope) and 1.0 < f.exponent < STRAIGHT and lo < term.shift < hi:
-                law = PowerLaw(f.exponent, f.coefficient, term.shift)
-                cusps.setdefault(term.shift, []).append(law)
-        for axis, laws in list(cusps.items()):
-            if min(law.exponent for law in laws if isinstance(law, PowerLaw)) >= CUSP:
-                del cusps[axis]
-                continue
-            corner = Corner(*slope.without_functions.corner(axis))
-            if corner.jump or corner.bend:
-                laws.append(corner)
-        return cusps
-
-    def _joined(self, place: Any, by_pieces: Any, beside_cusp: Any, out: Any) -> Any:
-        """`out`, with values of the pieces and, next to an axis, of its powers; none of both."""
-        left = np.ones(place.shape, dtype=bool)
-        for axis, laws in self._cusps.items():
-            b = float(min(self.contact.from_left(axis), self.contact.from_right(axis)))
-            at = np.abs(place - axis) < BESIDE_CUSP * b
-            if at.any():
-                out[..., at] = beside_cusp(place[at], axis, b, laws)
-                left &= ~at
-        if left.any():
-            out[..., left] = by_pieces(place[left])
-        return out
-
-    def _beside_cusp(self, x: Array, axis: float, b: float, laws: list[PowerLaw | Corner]) -> Array:
-        """The pressure next to an axis: that of the powers alone, and a straight line."""
-        beside, total = self._at_cusp_ends[axis]  # of the rounded ends
-        left, right = (total - self._of_powers(laws, beside, b)).tolist()
-        y = x - axis
-        along = (y - beside[0]) / np.ptp(beside)
-        return self._of_powers(laws, y, b) + left + (right - left) * along
+            f, axis = term.function, term.shift
+            if isinstance(f, PowerSlope) and 1.0 < f.exponent < STRAIGHT and lo < axis < hi:
+                steep.setdefault(axis, []).append(PowerLaw(f.exponent, f.coefficient, axis))
+        return {
+            axis: laws
+            for axis, laws in steep.items()
+            if min(law.exponent for law in laws) < CUSP
+            and not slope.without_functions.corner(axis)[0]
+        }
 
     @cached_property
-    def _at_cusp_ends(self) -> dict[float, tuple[Array, Array]]:
-        """The ends of the pieces beside each axis, counted from it, and the pressure there.
-
-        Asked at once for all.
-        """
-        axes = np.array(list(self._cusps))[:, None]
-        b = np.minimum(self.contact.from_left(axes), self.contact.from_right(axes))
-        ends = axes + BESIDE_CUSP * b * [-1.0, 1.0]
-        p = in_order(self._by_pieces, ends.ravel()).reshape(ends.shape)
-        return dict(zip(self._cusps, zip(ends - axes, p, strict=True), strict=True))
-
-    def _pair_beside_cusp(
-        self, z: Complex, axis: float, b: float, laws: list[PowerLaw | Corner]
-    ) -> Complex:
-        """The same of the potential and its derivative, (2, n), at Im z > 0."""
-        y, start = z - axis, np.array([1j * BESIDE_CUSP * b])
-        rest, steep = self._pair_by_pieces(np.asarray(axis + start)) - self._potentials_of_powers(
-            laws, start, b
-        )
-        out = self._potentials_of_powers(laws, y, b)
-        out[0] += rest + steep * (y - start)
-        out[1] += steep
-        return out
-
-    def _of_powers(self, laws: list[PowerLaw | Corner], y: Array, b: float) -> Array:
-        """The pressure of the powers alone at y from their axis, in a contact of half-width b."""
-        return np.sum([law.pressure(y, b - np.abs(y), b) for law in laws], axis=0)
-
-    def _potentials_of_powers(self, laws: list[PowerLaw | Corner], y: Complex, b: float) -> Complex:
-        """(F, F') of the same, (2, n)."""
-        return np.sum([law.potentials_near_axis(y, b) for law in laws], axis=0)
+    def _on_axes(self) -> dict[float, float]:
+        """p on each axis: the mean of both sides, and what the powers alone rise by."""
+        found = {}
+        for axis, laws in self._steep.items():
+            b = float(min(self.contact.from_left(axis), self.contact.from_right(axis)))
+            y = BESIDE_CUSP * b * np.array([-1.0, 1.0])
+            places = np.append(y, 0.0)
+            alone = np.sum([law.pressure(places, b - np.abs(places), b) for law in laws], axis=0)
+            rise = alone[2] - 0.5 * (alone[0] + alone[1])
+            found[axis] = float(self._by_pieces(axis + y).mean() + self.panels.edge.cos**2 * rise)
+        return found
 
     def _slope(self, x: Array) -> Array:
         return self.panels.geometry.slope(x)
@@ -169,23 +125,12 @@ class OnPanels(SlopeDensity):
         return (self.panels.edge.cos / math.pi) * V, continued
 
     def _corner(self, x: float) -> float:
-        if x in self._cusps:
-            jump = self.panels.geometry.slope.without_functions.corner(x)[0]
-            return math.copysign(1.0, jump) if jump else 0.0
         at = (infinite for e, infinite in self.panels.jumps if e == x)
         return next((math.copysign(1.0, infinite) for infinite in at), 0.0)
 
     def _pair(self, z: Complex) -> tuple[Complex, Complex]:
-        if not self._cusps:
-            V, dV = potential.upper(self.panels, z)
-            return self._potential_scale * V, self._potential_scale * dV
-        out = np.empty((2, *z.shape), dtype=complex)
-        F, dF = self._joined(z, self._pair_by_pieces, self._pair_beside_cusp, out)
-        return F, dF
-
-    def _pair_by_pieces(self, z: Complex) -> Complex:
-        out: Complex = self._potential_scale * np.array(potential.upper(self.panels, z))
-        return out
+        V, dV = potential.upper(self.panels, z)
+        return self._potential_scale * V, self._potential_scale * dV
 
     def _far_pair(self, z: Complex) -> tuple[Complex, Complex]:
         V, dV = potential.far(self.panels, z, constant=False)
@@ -280,18 +225,6 @@ class PowerDensity(OnPanels):
 
 class SlidingDensity(PanelDensity):
     """The pressure in full sliding."""
-
-    def _of_powers(self, laws: list[PowerLaw | Corner], y: Array, b: float) -> Array:
-        """The same with H sin πε cos πε added: then 1/π PV∫p/(x - t) dt + p tan πε = H."""
-        slope = np.sum([law.slope_at(y) for law in laws], axis=0)
-        cos, sin = self.panels.edge.cos, math.sin(math.pi * self.epsilon)
-        return cos * cos * super()._of_powers(laws, y, b) + sin * cos * slope
-
-    def _potentials_of_powers(self, laws: list[PowerLaw | Corner], y: Complex, b: float) -> Complex:
-        """The same: Re((1 + i tan πε) F) = H."""
-        turn = self.panels.edge.cos * np.exp(-1j * np.pi * self.epsilon)
-        out: Complex = turn * super()._potentials_of_powers(laws, y, b)
-        return out
 
     def _singular_pair(self, z: Complex, far: bool) -> Complex:
         left, right, r = self.contact.from_left(z), -self.contact.from_right(z), self.contact.r

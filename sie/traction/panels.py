@@ -24,7 +24,8 @@ from numpy.typing import NDArray
 from sie.numerics import chebyshev
 from sie.numerics.cauchy_sums import SEPARATED, KernelSums
 from sie.numerics.interval import EPS
-from sie.profiles.slope import JUMP, SEEN_JUMP
+from sie.profiles.power_law import PowerSlope
+from sie.profiles.slope import JUMP, SEEN_JUMP, Slope
 
 from .near_breaks import ContinuousBreaks
 from .piece_quadrature import Geometry, quadrature_order
@@ -225,7 +226,7 @@ class Panels:
         return [
             (e, math.copysign(math.inf, jump))
             for e, jump in rise.items()
-            if abs(jump) > least * rounding[e]
+            if abs(jump) > least * rounding[e] and not _is_cusp(g.slope, e)
         ]
 
     @cached_property
@@ -317,6 +318,12 @@ class Panels:
         from_right = np.where(sign > 0.0, np.pi - angle, angle)  # T_n(cos ψ) = cos nψ
         WH = weight * g.slopes(offset)
         return np.array([2.0 * np.vdot(WH, np.cos(n * from_right)) for n in range(TERMS)])
+
+
+def _is_cusp(slope: Slope, x: float) -> bool:
+    """Whether x is the axis of a power law, so steep that it seems to jump, without a corner."""
+    steep = (f.shift for f in slope.functions if isinstance(f.function, PowerSlope))
+    return x in steep and not slope.without_functions.corner(x)[0]
 
 
 def _order_beyond(reach_in_s: Array) -> Index:

@@ -18,13 +18,14 @@ from __future__ import annotations
 
 import math
 from copy import copy
-from functools import cached_property, lru_cache
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
 from sie.inheritance import override
 from sie.numerics import chebyshev
+from sie.numerics.gauss_jacobi import gauss_jacobi
 from sie.numerics.interval import EPS, Interval
 from sie.profiles.slope import SEEN_JUMP, Slope
 
@@ -272,7 +273,7 @@ class SlidingGeometry(Geometry):
         The singular factor ψ^(∓2ε) of dt/w is in the rule's weights.
         """
         sign = -2.0 * self.epsilon if at_left else 2.0 * self.epsilon
-        g, w = edge_rule(n, sign)
+        g, _, w = gauss_jacobi(n, 0.0, sign)
         root_near, root_far = (
             (self.root_left[1, k], self.root_right[1, k])
             if at_left
@@ -297,17 +298,6 @@ class SlidingGeometry(Geometry):
         T = chebyshev.polynomials(slopes.shape[1], offset / half - 1.0)
         dH: Array = weight * np.einsum("nkm,kn->km", T, slopes) / half
         return dH
-
-
-@lru_cache(maxsize=64)
-def edge_rule(n: int, power: float) -> tuple[Array, Array]:
-    """∫_0^1 u^power f du, power > -1: nodes and weights."""
-    from scipy.special import roots_jacobi  # noqa: PLC0415 -- heavy, and for dissimilar bodies only
-
-    s, w = roots_jacobi(n, 0.0, power)
-    g, w = 0.5 * (1.0 + s), w * 2.0 ** (-1.0 - power)
-    g.flags.writeable = w.flags.writeable = False
-    return g, w
 
 
 def quadrature_order(degree: int) -> int:

@@ -8,8 +8,7 @@ import pytest
 from cauchy_cases import counted, smooth_kernel
 
 import sie
-from sie.cauchy import formulation, kernel, solver, system
-from sie.cauchy.system import System
+from sie.cauchy import system
 from sie.numerics import jacobi
 from sie.numerics.jacobi_weight import Weight
 
@@ -37,18 +36,6 @@ def test_the_index_counts_singular_less_bounded_ends(ends, a):
     assert left + right == pytest.approx(-equation.index, abs=1e-15)
     for exponent, kind in zip((left, right), ends, strict=True):
         assert (0 < exponent.real < 1) if kind == BOUNDED else (-1 < exponent.real < 0)
-
-
-def test_constants_of_one_phase_have_real_exponents():
-    """A complex multiple of an equation is the same equation; a complex weight equal to a real one
-    would be mistaken for it in a cache.
-    """
-    phase = 0.8 + 0.05j
-    turned = sie.CauchyEquation((0.0, 1.0), phase, a=phase, b=phase, ends=KINDS[1])
-    plain = sie.CauchyEquation((0.0, 1.0), 1.0, a=1.0, b=1.0, ends=KINDS[1])
-    assert turned.weights == plain.weights
-    assert all(isinstance(e, float) for e in turned.exponents[0])
-    assert turned.solve()(0.3) == pytest.approx(plain.solve()(0.3), rel=1e-15)
 
 
 @pytest.mark.parametrize("first", KINDS)
@@ -96,14 +83,7 @@ def test_all_conditions_are_met(k):
     assert len(density.constants) == 1
 
 
-def test_only_the_ratio_of_the_constants_counts():
-    """Neither a² nor b² is a double."""
-    for size in (1e200, 1e-200, 1e-306):
-        equation = sie.CauchyEquation(
-            (0.0, 1.0), lambda x, size=size: size * np.exp(x), a=0.3 * size, b=size, total=0.0
-        )
-        plain = sie.CauchyEquation((0.0, 1.0), np.exp, a=0.3, total=0.0)
-        assert equation.solve()(0.3) == pytest.approx(plain.solve()(0.3), rel=1e-13)
+# -- nodes and weights -----------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(
@@ -117,15 +97,6 @@ def test_only_the_ratio_of_the_constants_counts():
 def test_ends_may_be_words_pairs_or_arrays(ends):
     plain = sie.CauchyEquation([(-1, 1), (2, 3)], 1.0, ends="bounded", free=(1.0, lambda x: x))
     assert sie.CauchyEquation([(-1, 1), (2, 3)], 1.0, ends=ends, free=plain.free).ends == plain.ends
-
-
-def test_free_numbers_may_be_an_array():
-    assert sie.CauchyEquation(
-        (-1, 1), 1.0, ends="bounded", free=np.ones(1)
-    ).solve().constants == pytest.approx((-1.0,))
-
-
-# -- nodes and weights -----------------------------------------------------------------------------
 
 
 def recurrence(a, b, n):
@@ -184,18 +155,6 @@ def test_nodes_and_weights_are_those_of_40_digits(alpha, kappa, n):
         assert abs(mp.mpmathify(w.item()) / w_exact - 1) <= 1e-14
 
 
-@pytest.mark.parametrize(
-    ("alpha", "kappa"), [(a, k) for a, k in EXPONENTS if min(1 + a.real, 1 - a.real, abs(a)) > 5e-3]
-)
-def test_the_coefficients_of_a_smooth_function_have_no_noise_beyond_rounding(alpha, kappa):
-    """exp has 20 coefficients; with polynomials evaluated at nodes that were rounded first the
-    others would be up to 1e-13.
-    """
-    s, A = jacobi.analysis(Weight(alpha, -kappa - alpha, kappa), 128)
-    c = np.exp(s) @ A
-    assert np.abs(c[30:]).max() <= 3e-16 * np.abs(np.exp(s)[:, None] * A).sum(axis=0).max()
-
-
 # -- size, cost, conditioning ----------------------------------------------------------------------
 
 
@@ -213,11 +172,6 @@ def test_the_condition_number_of_a_smooth_kernel_is_small_and_does_not_grow(ends
     conditions = [np.linalg.cond(equation.system(n)[0]) for n in (8, 32, 128)]
     assert max(conditions) < 6.0
     assert conditions[2] == pytest.approx(conditions[1], rel=1e-6)
-
-
-def test_without_a_kernel_the_system_is_the_identity():
-    matrix, _ = sie.CauchyEquation((-1.0, 2.0), np.exp, a=0.3, total=1.0).system(40)
-    assert np.abs(matrix - np.eye(40)).max() < 1e-14
 
 
 @pytest.mark.parametrize(("ends", "a"), [(KINDS[0], 0.0), (KINDS[1], 0.3), (KINDS[3], 0.2j)])
@@ -239,48 +193,17 @@ def test_the_transform_and_the_system_agree(ends, a):
     )
 
 
-def wide_system():
+def test_the_iteration_for_large_systems_finds_what_elimination_finds():
     """A kernel as narrow as a thin layer's: g resolved by 1300 nodes, more than LAPACK gets."""
-    return sie.CauchyEquation(
+    equation = sie.CauchyEquation(
         (-1.0, 1.0), np.exp, k=lambda x, t: 0.02 / ((t - x) ** 2 + 0.02**2) / np.pi, total=0.0
     )
-
-
-def test_the_iteration_for_large_systems_finds_what_elimination_finds():
-    equation, n = wide_system(), system.DENSE + 100
+    n = system.DENSE + 100
     found = equation.solve(n=n).parts[0].coefficients
     matrix, rhs = equation.system(n)
     expected = np.linalg.solve(matrix, rhs)
     assert np.abs(found - expected[: len(found)]).max() <= 1e-13 * np.abs(expected).max()
     assert np.abs(expected[len(found) :]).max(initial=0.0) <= 1e-15 * np.abs(expected).max()
-
-
-def test_the_iteration_serves_several_intervals_and_free_constants(monkeypatch):
-    intervals = ((-1.0, 0.0), (0.001, 2.0))
-    equation = sie.CauchyEquation(
-        intervals, np.exp, k=smooth_kernel, a=0.3, ends=KINDS[1], total=1.0, free=(1.0,)
-    )
-    direct = equation.solve()
-    monkeypatch.setattr(system, "DENSE", 0)
-    iterated = equation.solve()
-    assert iterated.n == direct.n
-    x = np.array([-0.9, -0.01, -1e-4, 0.0012, 0.5, 1.99])
-    assert np.abs(iterated(x) - direct(x)).max() <= 1e-12 * np.abs(direct(x)).max()
-    assert iterated.constants == pytest.approx(direct.constants, rel=1e-12)
-
-
-def test_the_iteration_takes_no_more_steps_for_more_unknowns():
-    """Second kind: products with the matrix do not grow with n; each costs n²."""
-    counts = []
-    for n in (100, 200, 400):
-        large = system.System(
-            sie.CauchyEquation((-1.0, 1.0), np.exp, k=smooth_kernel, total=0.0).problem, (n,)
-        )
-        applied, calls = large.applied, []
-        large.applied = lambda v, applied=applied, calls=calls: calls.append(1) or applied(v)
-        large.by_gmres()
-        counts.append(len(calls))
-    assert max(counts) <= 2 * min(counts) < 30
 
 
 SMOOTH_KERNELS = [
@@ -298,71 +221,12 @@ def test_a_smooth_kernel_is_called_once_for_any_g(k, g):
     assert counted(SMOOTH_KERNELS[k], g=g)[0] == 1
 
 
-@pytest.mark.parametrize(
-    "intervals",
-    [
-        ((-1.0, 0.0), (0.01, 1.0)),
-        ((-1.0, 0.0), (0.9, 2.0), (5.0, 5.5)),
-        tuple((2.0 * i, 2.0 * i + 1.0) for i in range(20)),
-    ],
-)
-def test_on_several_intervals_a_smooth_kernel_is_called_once(intervals):
-    assert counted(lambda x, t: 0.1 * np.cos(0.3 * (x - t)), intervals, np.cos)[0] == 1
-
-
 @pytest.mark.parametrize("height", [0.3, 0.1])
 def test_a_narrow_kernel_is_called_twice(height):
     """The first grid's coefficients determine how fine the second must be."""
     count, density = counted(lambda x, t: height / ((t - x) ** 2 + height**2) / np.pi)
     assert count == 2
     assert density.n[0] < 25 / height
-
-
-def test_a_kernel_without_a_short_series_is_called_once_for_each_size(monkeypatch):
-    """A kink at x = t: after two grids in vain it is sampled at the nodes of every size that is
-    tried.
-    """
-    tried, calls = [], []
-    attempt = System.attempt
-    monkeypatch.setattr(
-        System, "attempt", lambda of, unknown: tried.append(of.sizes) or attempt(of, unknown)
-    )
-    monkeypatch.setattr(solver, "LARGEST", 200)
-
-    def k(x, t):
-        calls.append(x.shape)
-        return 0.1 * np.abs(x - t)
-
-    with pytest.raises(sie.ContactError, match="did not settle"):
-        sie.CauchyEquation((-1.0, 1.0), 1.0, k=k, total=0.0).solve()
-    assert len(calls) - 2 == len(tried) == len(set(tried)) > 5
-
-
-@pytest.mark.parametrize(
-    "k", [lambda x, t: np.cos(x * t) * np.exp(t), lambda x, t: 1.0 / ((x - t) ** 2 + 0.25)]
-)
-@pytest.mark.parametrize("tol", [1e-13, 1e-6])
-def test_the_series_is_the_kernel_to_the_tolerance(k, tol):
-    s, sigma = np.linspace(-1.0, 1.0, 101), np.linspace(-1.0, 1.0, 77)
-    found = kernel.series(sie.CauchyEquation((0.0, 3.0), 1.0, k=k, total=0.0).problem, tol).at(
-        [s], [sigma]
-    )
-    exact = k(1.5 + 1.5 * s[:, None], 1.5 + 1.5 * sigma)
-    assert np.abs(found - exact).max() <= tol * np.abs(exact).max()
-
-
-def test_a_series_that_agrees_on_its_grid_only_is_refused():
-    """T_384 is T_0 at the 65 rows (aliases differ by multiples of 128), and differs between
-    them.
-    """
-    problem = sie.CauchyEquation(
-        (-1.0, 1.0), 1.0, k=lambda x, t: np.cos(384.0 * np.arccos(x)) + 0.0 * t, total=0.0
-    ).problem
-    assert kernel.series(problem, 1e-13) is None
-
-
-def test_a_short_series_costs_few_nodes():
-    assert sie.CauchyEquation((-1.0, 1.0), 1.0, total=0.0).solve().n == (formulation.SMALLEST,)
 
 
 @pytest.mark.parametrize("a", [0.0, 0.2j])

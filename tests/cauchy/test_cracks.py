@@ -66,31 +66,6 @@ def test_a_slit_under_a_polynomial_load(coefficients):
     )
 
 
-@pytest.mark.parametrize("p", [1e-300, 5e-313, 1e300])
-def test_a_slit_under_a_linear_load_as_small_or_large_as_numbers_are(p):
-    """Below 2e-308 numbers have fewer digits: the density has as many as they."""
-    density = slit(2.0, lambda x: p * (1.0 + 0.5 * x))
-    x = np.array([-1.2, 0.7])
-    closed = p * (x + 0.5 * x * x - 1.0) / np.sqrt(4.0 - x * x)
-    assert density(x) == pytest.approx(closed, rel=max(1e-13, 1e-321 / p))
-
-
-@pytest.mark.parametrize("p", [1e-300, 5e-313, 1e300])
-@pytest.mark.parametrize("cracks", [((-1.0, 1.0),), ((-1.0, 0.0), (1e-3, 1.0))])
-def test_cracks_with_a_kernel_have_as_many_digits_under_the_smallest_and_largest_loads(cracks, p):
-    """And the error that is stated is a number, too."""
-
-    def under(p):
-        return sie.CauchyEquation(
-            cracks, lambda x: p * (1.0 + 0.5 * x), k=lambda x, t: 0.1 * np.cos(x - t),
-            total=(0.0,) * len(cracks),
-        ).solve()  # fmt: skip
-
-    density, x = under(p), np.array([-0.7, 0.7])
-    assert density(x) == pytest.approx(p * under(1.0)(x), rel=max(1e-13, 1e-321 / p))
-    assert density.error < max(PROMISE, 1e-321 / p)
-
-
 @pytest.mark.parametrize("height", [1.0, 0.1, 0.01])
 @pytest.mark.parametrize("place", [0.0, 0.6, -0.95])
 def test_a_slit_under_a_point_load(place, height):
@@ -108,19 +83,6 @@ def test_a_slit_under_a_point_load(place, height):
     assert intensity_factors(density)[0] == pytest.approx((float(left), float(right)), rel=PROMISE)
     if height == 0.01 and place == 0.0:
         assert float(right) == pytest.approx(1.0 / np.sqrt(np.pi * a), rel=0.02)
-
-
-def test_a_load_as_narrow_as_a_point_costs_one_transform_of_40000_nodes():
-    """The same load from a height of 1e-3: no matrix is built, which would hold 1.6e9 numbers."""
-    equation = sie.CauchyEquation(
-        (-1.0, 1.0), lambda x: 1e-3 / np.pi / ((x - 0.5) ** 2 + 1e-6), total=0.0
-    )
-    density, zeta = equation.solve(n=40_000), mp.mpc(0.5, 1e-3)
-    right, left = (
-        float(-mp.im(mp.sqrt((z + 1) / (z - 1))) / mp.sqrt(mp.pi)) for z in (zeta, -mp.conj(zeta))
-    )
-    assert intensity_factors(density)[0] == pytest.approx((left, right), rel=PROMISE)
-    assert density.error < PROMISE
 
 
 def test_the_stress_ahead_of_a_slit():

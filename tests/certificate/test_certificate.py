@@ -10,8 +10,8 @@ import sie
 from oracles import normal_contact
 from oracles.normal_contact import mp
 from sie.certificate import pressure_check, quadrature, result
-from sie.certificate.result import PROMISE
-from sie.contact import gap, inequalities, normal
+from sie.certificate.result import BESIDES, PROMISE
+from sie.contact import gap, least_gaps, normal
 from sie.numerics.interval import interval_about
 from sie.profiles import unresolved
 from sie.traction import on_panels
@@ -158,7 +158,9 @@ def test_a_trace_pressed_on_a_steep_flank_costs_no_digits_either(steepness, give
 def test_the_same_promise_is_printed_and_documented():
     found = solved(sie.Parabola(1.0)).check()
     assert PROMISE in " ".join(str(found).split())
-    assert PROMISE in " ".join(result.Certificate.__doc__.split())
+    assert f"{PROMISE} {BESIDES}" in " ".join(result.Certificate.__doc__.split())
+    for nearer in (1.0, 1e2, 1e4):
+        assert f"{3.0 * (found.error + found.edges * nearer**0.5):.1e}" in str(found)
 
 
 def test_a_contact_that_is_off_as_a_whole_shows_in_the_error_that_its_residual_implies():
@@ -387,7 +389,7 @@ def test_a_gap_that_opens_everywhere_is_not_integrated(monkeypatch):
     def refuse(*_):
         raise AssertionError("integrated")
 
-    monkeypatch.setattr(inequalities, "gap", refuse)
+    monkeypatch.setattr(least_gaps, "gap", refuse)
     powers = sie.Power(1.001, 0.75), sie.Power(2.5, 0.75), sie.Power(60.0, 0.75)
     for profile in (
         sie.Parabola(1.0),
@@ -408,7 +410,7 @@ def test_the_certificate_of_a_power_resolves_no_function(exponent, monkeypatch):
 
     profile = sie.Power(exponent, 0.75).shifted(0.7)
     solution = solved(profile)
-    for module in (pressure_check, inequalities, quadrature, gap, on_panels):
+    for module in (pressure_check, quadrature, gap, on_panels):
         monkeypatch.setattr(module, "refined", refuse)
     assert solution.check().ok
 

@@ -1,5 +1,7 @@
 """The certificate of a shear on several patches, and wrong shears that fail it."""
 
+from functools import cache
+
 import numpy as np
 import pytest
 
@@ -16,11 +18,13 @@ each = pytest.mark.parametrize(
 )
 
 
+@cache
+def pressed(profile):
+    return sie.solve(sie.Scene(profile=profile, modulus=1.0, normal_load=0.6, friction=F))
+
+
 def sheared(profile, part, **asked):
-    scene = sie.Scene(
-        profile=profile, modulus=1.0, normal_load=0.6, friction=F, tangential_load=0.3 * part
-    )
-    return sie.solve(scene).with_(**asked)
+    return pressed(profile).with_(tangential_load=0.3 * part, **asked)
 
 
 def measured(solution, shear=None, Q=None, tau=0.0):

@@ -6,6 +6,8 @@ the right one within 0.95 r of the centre, relative to the peak; the certificate
 must own up to at least a third of it.
 """
 
+from functools import cache
+
 import laws
 import numpy as np
 import pytest
@@ -300,16 +302,15 @@ class OffBy(WrongState):
         return right._replace(rows=rows)
 
 
-@pytest.mark.parametrize("size", [0.0, 1e-3, 1e-8])
-@pytest.mark.parametrize("row", [0, 1])
+@cache
+def answered(kind):
+    return sie.solve(sie.Scene(**PAIR | DISSIMILAR[kind]))
+
+
+@pytest.mark.parametrize(("row", "size"), [(0, 0.0), (0, 1e-3), (0, 1e-8), (1, 1e-3), (1, 1e-8)])
 @pytest.mark.parametrize("kind", DISSIMILAR)
 def test_a_traction_of_dissimilar_bodies_that_is_off_in_stick_is_caught(kind, row, size):
-    solution = sie.solve(sie.Scene(**PAIR | DISSIMILAR[kind]))
-    if kind == "Goodman's":
-        state = OffBy(solution.tangential, row, size)
-        assert coupled_check.shear_certificate(state, solution.scene, 1e-13).ok == (not size)
-    else:
-        found = coupled_check.coupled_certificate(
-            OffBy(solution.coupled[1], row, size), solution.scene, 1e-13
-        )
-        assert found.ok == (not size)
+    solution, goodman = answered(kind), kind == "Goodman's"
+    check = coupled_check.shear_certificate if goodman else coupled_check.coupled_certificate
+    state = solution.tangential if goodman else solution.coupled[1]
+    assert check(OffBy(state, row, size), solution.scene, 1e-13).ok == (not size)

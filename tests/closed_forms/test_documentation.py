@@ -6,8 +6,6 @@ import inspect
 import re
 from itertools import pairwise
 
-import pytest
-
 import analytic
 
 PUBLIC = {
@@ -20,21 +18,15 @@ PUBLIC = {
 }
 
 
-@pytest.mark.parametrize("name", PUBLIC)
-def test_a_docstring_names_every_parameter_with_its_meaning(name):
-    text = inspect.getdoc(PUBLIC[name])
-    described = re.findall(r"^(\w+) : .+\n    [A-Z]", text, flags=re.MULTILINE)
-    assert described == list(inspect.signature(PUBLIC[name]).parameters)
+def test_a_docstring_names_every_parameter_with_its_meaning():
+    for name, function in PUBLIC.items():
+        described = re.findall(r"^(\w+) : .+\n    [A-Z]", inspect.getdoc(function), re.MULTILINE)
+        assert described == list(inspect.signature(function).parameters), name
 
 
-@pytest.mark.parametrize("name", PUBLIC)
-def test_a_docstring_has_the_sections_of_numpydoc_in_their_order(name):
-    lines = inspect.getdoc(PUBLIC[name]).splitlines()
-    sections = [word for word, rule in pairwise(lines) if rule and not rule.strip("-")]
-    assert [word for word in sections if word != "Notes"] == [
-        "Parameters",
-        "Returns",
-        "Raises",
-        "References",
-        "Examples",
-    ]
+def test_a_docstring_has_the_sections_of_numpydoc_in_their_order():
+    for name, function in PUBLIC.items():
+        lines = inspect.getdoc(function).splitlines()
+        sections = [word for word, rule in pairwise(lines) if rule and not rule.strip("-")]
+        expected = ["Parameters", "Returns", "Raises", "References", "Examples"]
+        assert [word for word in sections if word != "Notes"] == expected, name

@@ -105,30 +105,3 @@ def test_hertz_yields_on_the_surface_where_the_formula_predicts():
 def test_points_outside_the_body_are_refused(y, words):
     with pytest.raises(ValueError, match=words):
         interior.hertz(0.0, y, **HERTZ)
-
-
-FAR_POINTS = [(1e300, 1.0), (0.1, 1e300), (1e160, 1e150), (1e200, 1e200)]
-
-
-@pytest.mark.parametrize(("x", "y"), FAR_POINTS)
-def test_mcewens_form_vanishes_far_away(x, y):
-    found = interior.mcewen(x, y, half_width=1.0, peak_pressure=1.0)
-    assert np.abs(found).max() <= 4e-150  # the terms of s_xx cancel to rounding of y
-
-
-def test_mcewens_s_xy_beside_the_surface_is_that_of_the_potentials():
-    shallow = interior.mcewen(2.0, 1e-200, half_width=1.0, peak_pressure=1.0)
-    right = interior.hertz(2.0, 1e-200, half_width=1.0, radius=1.0, modulus=2.0)
-    assert shallow.xy == pytest.approx(right.xy, rel=1e-12)
-
-
-@pytest.mark.parametrize("coefficients", [5.0, None, ["a"], [np.nan], "ab"], ids=repr)
-def test_what_are_no_coefficients_is_refused(coefficients):
-    with pytest.raises(ValueError, match="coefficients = "):
-        interior.chebyshev(0.0, 1.0, coefficients=coefficients, half_width=1.0)
-
-
-@pytest.mark.parametrize("stress", [5.0, None, (1.0, 2.0, 3.0), interior.Stresses("a", 1, 1)])
-def test_what_is_no_stress_has_no_second_invariant(stress):
-    with pytest.raises(ValueError, match="xx = "):
-        interior.second_invariant(stress, poisson=0.3)

@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 import numpy as np
 import pytest
 from closed_form_cases import EPS, coarse, mp, relative
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from analytic import flat, hertz, power, rounded_flat, wedge
@@ -33,28 +33,12 @@ def test_power_pressure_superposes_rigid_flats(m: float) -> None:
     assert relative(found, [exact(xi) for xi in x.tolist()]) <= 20 * EPS
 
 
-@pytest.mark.parametrize("m", [1.5, 2.0, 3.0, 6.0])
-def test_power_pressure_at_the_centre_is_finite_and_known(m: float) -> None:
-    given = {"half_width": 2.0, "exponent": m, "coefficient": 0.3, "modulus": 5.0}
-    assert power.pressure(0.0, **given) == pytest.approx(
-        m * power.load(**given) / (math.pi * 2.0 * (m - 1)), rel=8 * EPS
-    )
-
-
-def test_power_one_is_the_wedge() -> None:
-    x = np.linspace(-1.2, 1.2, 49)
-    found = power.pressure(x, half_width=1.0, exponent=1, coefficient=0.2, modulus=3.0)
-    np.testing.assert_allclose(
-        found, wedge.pressure(x, half_width=1.0, slope=0.2, modulus=3.0), rtol=12 * EPS, atol=0
-    )
-
-
-def test_power_two_is_the_parabola() -> None:
-    x = np.linspace(-1.2, 1.2, 49)
-    found = power.pressure(x, half_width=1.0, exponent=2, coefficient=0.25, modulus=3.0)
-    np.testing.assert_allclose(
-        found, hertz.pressure(x, half_width=1.0, radius=2.0, modulus=3.0), rtol=8 * EPS, atol=0
-    )
+def test_powers_one_and_two_are_the_wedge_and_the_parabola() -> None:
+    x, given = np.linspace(-1.2, 1.2, 49), {"half_width": 1.0, "modulus": 3.0}
+    found = power.pressure(x, exponent=1, coefficient=0.2, **given)
+    np.testing.assert_allclose(found, wedge.pressure(x, slope=0.2, **given), rtol=12 * EPS, atol=0)
+    found = power.pressure(x, exponent=2, coefficient=0.25, **given)
+    np.testing.assert_allclose(found, hertz.pressure(x, radius=2.0, **given), rtol=8 * EPS, atol=0)
 
 
 class Loaded(NamedTuple):
@@ -102,7 +86,6 @@ def test_slope_is_the_derivative_of_the_height(case: Loaded) -> None:
         assert abs(case.module.slope(side * x, **shape) - exact) < mp.mpf("1e-20")
 
 
-@settings(deadline=None)
 @given(st.floats(-1, 1), st.floats(0.1, 10.0))
 def test_flat_pressure_carries_load_and_moment(part: float, b: float) -> None:
     """∫ p and ∫ p x by Gauss-Chebyshev quadrature, exact for p sqrt(b² - x²) linear."""
@@ -118,7 +101,6 @@ def test_flat_pressure_carries_load_and_moment(part: float, b: float) -> None:
     assert (p * x).sum() == pytest.approx(M, rel=0, abs=8 * EPS * P * b)
 
 
-@settings(deadline=None)
 @given(st.floats(0.5, 0.99), st.sampled_from([-1, 1]))
 def test_partial_flat_pressure_carries_load_and_moment(part: float, sign: int) -> None:
     P, M, b = 3.0, sign * part * 3.0, 1.0
@@ -135,7 +117,6 @@ def test_partial_flat_pressure_carries_load_and_moment(part: float, sign: int) -
     assert (share * x).sum() == pytest.approx(M, rel=1e-13)
 
 
-@settings(deadline=None)
 @given(st.floats(-1, 1))
 def test_flat_tilt_and_moment_are_inverse(part: float) -> None:
     given = {"half_width": 2.0, "normal_load": 3.0, "modulus": 5.0}
@@ -145,7 +126,6 @@ def test_flat_tilt_and_moment_are_inverse(part: float) -> None:
     assert flat.moment(**given, tilt=tilt) == pytest.approx(M, rel=4 * EPS, abs=1e-300)
 
 
-@settings(deadline=None)
 @given(st.floats(0.5, 0.999), st.sampled_from([-1, 1]))
 def test_partial_flat_tilt_and_moment_are_inverse(part: float, sign: int) -> None:
     given = {"half_width": 2.0, "normal_load": 3.0, "modulus": 5.0}
@@ -153,14 +133,3 @@ def test_partial_flat_tilt_and_moment_are_inverse(part: float, sign: int) -> Non
     tilt = flat.partial_tilt(**given, moment=M)
     assert tilt * sign < 0
     assert flat.partial_moment(**given, tilt=tilt) == pytest.approx(M, rel=8 * EPS, abs=0)
-
-
-@pytest.mark.parametrize("sign", [-1, 1])
-def test_complete_and_partial_flat_meet_at_lift_off(sign: int) -> None:
-    x, given = np.linspace(-1, 1, 9), {"half_width": 1.0, "normal_load": 2.0, "moment": sign * 1.0}
-    np.testing.assert_allclose(
-        flat.partial_pressure(x, **given), flat.pressure(x, **given), rtol=8 * EPS, atol=0
-    )
-    assert flat.partial_tilt(**given, modulus=3.0) == pytest.approx(
-        flat.tilt(**given, modulus=3.0), rel=4 * EPS
-    )

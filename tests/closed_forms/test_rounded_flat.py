@@ -5,8 +5,8 @@ from typing import Any
 
 import numpy as np
 import pytest
-from closed_form_cases import EPS, UNIT, Rounded, coarse, deep, mp, relative, rounded, tiny_to_one
-from hypothesis import given, settings
+from closed_form_cases import EPS, UNIT, Rounded, deep, relative, rounded, tiny_to_one
+from hypothesis import given
 from hypothesis import strategies as st
 from scipy.optimize import brentq
 
@@ -46,7 +46,6 @@ def formula_35(a: Any, b: Any) -> Any:
 # -- the rounded flat against its references -------------------------------------------------------
 
 
-@settings(max_examples=150, deadline=None)
 @given(rounded, tiny_to_one)
 def test_rounded_pressure_is_the_papers_formula_to_the_last_digits(
     contact: Rounded, part: float
@@ -56,25 +55,6 @@ def test_rounded_pressure_is_the_papers_formula_to_the_last_digits(
     assert relative(rounded_flat.pressure(x, **contact.given, **UNIT), exact) <= 32 * EPS
 
 
-@pytest.mark.parametrize("ratio", ["1e-9", "0.3", "0.9", "0.999999999999"])
-@pytest.mark.parametrize("place", ["0", "0.4", "0.99", "1.0000001"])
-def test_rounded_pressure_superposes_rigid_flats(ratio: str, place: str) -> None:
-    a, b = mp.mpf(ratio), mp.one
-    x = a * mp.mpf(place) if float(place) < 1 else (a + b) / 2
-    start = max(x, a)
-
-    def positive(t: Any) -> Any:
-        beyond = (b - start) * t * t  # of s over its start, so that no difference cancels
-        s = start + beyond
-        angle = 2 * mp.atan(mp.sqrt((start - a + beyond) / (s + a)))
-        return 2 * t * (b - start) * s * angle / mp.sqrt((start - x + beyond) * (s + x))
-
-    exact = mp.quad(positive, [0, mp.mpf("0.001"), 1]) / mp.pi
-    given = {"half_flat": a, "half_width": b, "radius": 1, "modulus": 1}
-    assert abs(rounded_flat.pressure(x, **given, lib=mp) / exact - 1) < mp.mpf("1e-20")
-
-
-@settings(max_examples=150, deadline=None)
 @given(rounded)
 def test_rounded_load_is_the_papers_formula_to_the_last_digits(contact: Rounded) -> None:
     assert (
@@ -83,7 +63,6 @@ def test_rounded_load_is_the_papers_formula_to_the_last_digits(contact: Rounded)
     )
 
 
-@settings(max_examples=60, deadline=None)
 @given(rounded)
 def test_rim_inverts_the_load_to_the_last_digits(contact: Rounded) -> None:
     P = rounded_flat.load(**contact.given, **UNIT)
@@ -93,14 +72,6 @@ def test_rim_inverts_the_load_to_the_last_digits(contact: Rounded) -> None:
     b = contact.a + deep.mpf(float(rim))
     step = (formula_35(contact.a, b) - deep.mpf(float(P))) / (b * deep.acos(contact.a / b))
     assert abs(step / rim) <= 6 * EPS
-
-
-@settings(max_examples=100, deadline=None)
-@given(rounded)
-def test_half_width_inverts_the_load(contact: Rounded) -> None:
-    P = rounded_flat.load(**contact.given, **UNIT)
-    b = rounded_flat.half_width(normal_load=P, half_flat=contact.given["half_flat"], **UNIT)
-    assert relative(b, [contact.b]) <= 6 * EPS
 
 
 # a/b, b p(0)/P, x_max/b, b p_max/P, P R/(E* b²), computed once at 30 digits from the paper's eqs
@@ -131,34 +102,11 @@ def test_known_values(ratio: float, centre: float, place: float, peak: float, lo
     assert found == pytest.approx([centre, place, peak, load], rel=16 * EPS, abs=0)
 
 
-@settings(max_examples=60, deadline=None)
-@given(rounded)
-def test_load_grows_with_the_half_width_by_the_angle_of_the_rim(contact: Rounded) -> None:
-    a, b = (mp.convert(v) for v in (contact.a, contact.b))
-    given = {"half_flat": a, "radius": 1, "modulus": 1, "lib": mp}
-    growth = mp.diff(
-        lambda d: rounded_flat.load(rim=d, **given), b - a, h=(b - a) * mp.mpf("1e-17")
-    )
-    assert abs(growth / (b * mp.acos(a / b)) - 1) < mp.mpf("1e-12")
-
-
-@settings(max_examples=20, deadline=None)
 @given(st.floats(1e-12, 1.0))
 def test_without_a_flat_the_rounded_flat_is_hertz(b: float) -> None:
     x = np.linspace(-1.1 * b, 1.1 * b, 21)
     near = rounded_flat.pressure(x, half_flat=0.0, half_width=b, **UNIT)
     np.testing.assert_allclose(near, hertz.pressure(x, half_width=b, **UNIT), rtol=8 * EPS, atol=0)
-
-
-@pytest.mark.parametrize("flat_part", [1e-12, 1e-9, 1e-6])
-def test_a_vanishing_flat_takes_its_share_from_the_centre_of_hertz(flat_part: float) -> None:
-    """p(0) = E*/(pi R) [b theta - a arccosh(b/a)] falls short of Hertz by a (1 + ln(2b/a)) E*/(pi
-    R).
-    """
-    peak = hertz.peak_pressure(half_width=1.0, **UNIT)
-    short = peak - rounded_flat.pressure(0.0, half_flat=flat_part, half_width=1.0, **UNIT)
-    expected = flat_part * (1 + math.log(2 / flat_part)) / math.pi
-    assert short == pytest.approx(expected, rel=2 * flat_part, abs=2 * EPS)
 
 
 @pytest.mark.parametrize("rim", [1e-12, 1e-9, 1e-6])
@@ -172,7 +120,6 @@ def test_a_thin_rim_leaves_the_centre_pressure_of_a_rigid_flat(rim: float) -> No
 # -- the series ------------------------------------------------------------------------------------
 
 
-@settings(max_examples=60, deadline=None)
 @given(rounded)
 def test_chebyshev_coefficients_are_those_of_the_paper(contact: Rounded) -> None:
     b_n = rounded_flat.chebyshev_coefficients(50, **contact.given, **UNIT)
@@ -183,19 +130,6 @@ def test_chebyshev_coefficients_are_those_of_the_paper(contact: Rounded) -> None
         exact.append(contact.b / (2 * deep.pi * (2 * n + 1)) * (first - second))
     envelope = [max(abs(e) for e in exact[max(0, n - 1) : n + 2]) for n in range(50)]
     assert max(float(abs(v - e) / s) for v, e, s in zip(b_n.tolist(), exact, envelope)) <= 2e-13 / 2
-
-
-@pytest.mark.parametrize("ratio", ["0.2", "0.95"])
-@pytest.mark.parametrize("n", [0, 1, 7])
-def test_chebyshev_coefficients_are_integrals_of_the_pressure(ratio: str, n: int) -> None:
-    given = {"half_flat": ratio, "half_width": 1, "radius": 1, "modulus": 1, "lib": coarse}
-
-    def integrand(phi: Any) -> Any:
-        return rounded_flat.pressure(coarse.sin(phi), **given) * coarse.cos((2 * n + 1) * phi)
-
-    total = coarse.quad(integrand, [0, coarse.asin(ratio), coarse.pi / 2])
-    exact = 4 / coarse.pi * (-1) ** n * total
-    assert abs(rounded_flat.chebyshev_coefficients(n + 1, **given)[n] / exact - 1) < 1e-15
 
 
 @pytest.mark.parametrize("ratio", [0.0, 0.3, 0.95])
@@ -210,11 +144,3 @@ def test_chebyshev_series_sums_to_the_pressure(ratio: float) -> None:
     np.testing.assert_allclose(
         total, rounded_flat.pressure(2 * np.sin(phi), **given), atol=2e-6, rtol=0
     )
-
-
-@settings(max_examples=60, deadline=None)
-@given(rounded)
-def test_first_chebyshev_coefficient_carries_the_load(contact: Rounded) -> None:
-    b_0 = rounded_flat.chebyshev_coefficients(1, **contact.given, **UNIT)[0]
-    P = rounded_flat.load(**contact.given, **UNIT)
-    assert b_0 == pytest.approx(2 * P / (math.pi * float(contact.b)), rel=6 * EPS, abs=0)

@@ -11,7 +11,7 @@ import pytest
 import sie
 from sie import frictionless
 from sie.certificate import quadrature
-from sie.contact import edges, normal, pressure, widest_contact
+from sie.contact import normal, pressure
 from sie.friction import growth_panels
 from sie.numerics import chebyshev
 from sie.numerics.interval import Interval
@@ -79,17 +79,15 @@ def test_given_the_half_width_nothing_is_searched():
     )
 
 
-def test_a_function_that_rises_is_not_scanned_for_tension_and_overlap():
+def test_patches_are_sought_where_the_slope_of_a_function_falls():
     convex, wavy = (
         sie.FromFunction(np.sinh, domain=(-3.0, 3.0)),
         sie.FromFunction("x + 0.3*sin(6*x)", domain=(-3.0, 3.0)),
     )
-    with counted(frictionless, "verify_inequalities") as scans:
-        assert sie.solve(scene(convex)).half_width > 0.0
-        assert not scans
-    with counted(answer, "several_patches") as searches:
-        assert sie.solve(scene(wavy, normal_load=2.0)).half_width > 0.0
-        assert len(searches) == 1
+    for profile, number in ((convex, 0), (wavy, 1)):
+        with counted(answer, "several_patches") as searches:
+            assert sie.solve(scene(profile, normal_load=2.0)).half_width > 0.0
+        assert len(searches) == number
 
 
 @pytest.mark.parametrize(("profile", "given", "most"), SMOOTH)
@@ -209,15 +207,6 @@ def test_a_jump_at_the_origin_is_found_without_bisection_to_the_smallest_double(
         0.0,
     )
     assert len(calls) <= 20
-
-
-def test_the_widest_contact_of_a_long_trace_is_looked_for_on_fewer_pieces():
-    x = np.linspace(-1.0, 1.0, 5001)
-    slope = sie.Sampled(x, 0.5 * x * x + 1e-4 * np.sin(5000.0 * x)).pieces
-    assert len(slope.origins) > widest_contact.MANY
-    search = edges.Search(slope, 0.5)
-    assert widest_contact.widest_contact(search, 0.3) is not None
-    assert search.evaluations <= 60
 
 
 def test_the_rule_over_a_sum_of_powers_grows_with_their_number_alone():

@@ -13,7 +13,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import sie
-from sie.contact import edge_refinement, edges, tilt_of_moment
+from sie.contact import edge_refinement, edges
 from sie.contact.edges import Search
 from validation.kinked_contacts import ASKED, KINDS, Shape, Trial, drawn, mp
 from validation.topics import kinks
@@ -175,34 +175,6 @@ def test_a_moment_given_is_met_as_well_as_the_tilt_that_has_it():
         turned = tilted.with_(moment=tilted.moment)
         assert turned.tilt == pytest.approx(tilt, rel=1e-13)
         assert turned.edges == pytest.approx(tilted.edges, rel=1e-13)
-
-
-FOUR_BUMPS = sie.Piecewise(
-    (-0.7714976878381853, 0.8171731211684752, 1.089730800977856, 1.3460362406775221),
-    (
-        (0.6285921920224812, 0.9860914774096601),
-        (0.6916307046659504, -0.05157493735498331, -0.5100892946518819),
-        (-2.128898542200382, 2.9940859144367877, -0.013367198918968986),
-        (-0.08301694260113335, 2.204200001774464, -1.01135069312373),
-        (-0.7733374465351688, 1.3557396390436804),
-    ),
-)  # fmt: skip
-
-
-def test_where_no_tilt_has_the_moment_few_tilts_are_tried(monkeypatch):
-    tried, right = [], Search.general
-    monkeypatch.setattr(
-        Search, "general", lambda search, load: tried.append(load) or right(search, load)
-    )
-    scene = sie.Scene(
-        profile=FOUR_BUMPS,
-        modulus=0.6174847823952508,
-        normal_load=0.18644553803642064,
-        moment=0.05176833916724739,
-    )
-    with contextlib.suppress(sie.ContactError):
-        _ = sie.solve(scene).edges
-    assert len(tried) <= tilt_of_moment.MAX_TILTS + 1
 
 
 @pytest.mark.parametrize("moment", [-1.79, 1.79, 1e-8])

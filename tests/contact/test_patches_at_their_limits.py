@@ -1,14 +1,10 @@
-"""Contact in several patches against closed forms: gaps that close, concave corners, sharp edges,
-rough traces; loads, length and gaps of the patches.
-"""
+"""Contact in several patches: concave corners, sharp edges, rough traces; length and gaps."""
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from strategies import between, log_between
 
 import sie
-from analytic import parabola_row, two_flats, two_parabolas
+from analytic import parabola_row
 
 HEIGHTS = (
     (0.44, 0.63, 1.2, 0.002),
@@ -30,50 +26,6 @@ def rough(n, period=True):
     h = (k**-1.3 * np.cos(2 * np.pi * np.outer(x, k) + rng.uniform(0, 6.28, len(k)))).sum(axis=1)
     trace = sie.Sampled(x, 0.01 * h / h.std())
     return sie.Periodic(trace, 1.0) if period else trace
-
-
-# -- closed forms ----------------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize("gap", [1e-2, 1e-5, 1e-7, 1e-9, 1e-10])
-def test_a_gap_that_closes_leaves_the_edges_exact(gap):
-    """Beside a concave corner D is larger by 1/gap than at the outer edges, which must settle
-    too.
-    """
-    inner, outer, shape = 0.5 * gap, 0.5 * gap + 1.0, {"radius": 1.0, "modulus": 1.0}
-    d = float(two_parabolas.distance(inner=inner, outer=outer))
-    load = float(two_parabolas.load(inner=inner, outer=outer, **shape))
-    row = sie.Row([sie.Parabola(1.0).shifted(s * d) for s in (-1.0, 1.0)])
-    solution = solved(profile=row, normal_load=load)
-    c1, c2 = two_parabolas.edges(normal_load=load, distance=d, **shape)
-    assert solution.patches[1] == pytest.approx((c1, c2), abs=1e-14)
-    x = 0.5 + 0.45 * np.linspace(-1.0, 1.0, 7)
-    exact = two_parabolas.pressure(x, inner=c1, outer=c2, **shape)
-    assert solution.pressure(x) == pytest.approx(exact, rel=1e-12)
-
-
-@given(between(0.02, 0.98), log_between(0.1, 10.0))
-@settings(max_examples=20, deadline=None)
-def test_a_row_of_parabolas(part, radius):
-    shape = {"radius": radius, "period": 2.0, "modulus": 1.0}
-    load = 2.0 * float(parabola_row.mean_pressure(half_width=part, **shape))
-    solution = solved(profile=sie.Periodic(sie.Parabola(radius), 2.0), normal_load=load)
-    assert solution.half_width == pytest.approx(part, rel=1e-12)
-    x = part * np.array([0.0, 0.5, 0.97])
-    exact = parabola_row.pressure(x, half_width=part, **shape)
-    assert solution.pressure(x) == pytest.approx(exact, rel=1e-10)
-
-
-@pytest.mark.slow
-@given(log_between(0.01, 5.0), log_between(0.05, 5.0))
-@settings(max_examples=20, deadline=None)
-def test_two_flats(inner, width):
-    middle, half = inner + 0.5 * width, 0.5 * width
-    row = sie.Row([sie.Flat(half).shifted(s * middle) for s in (-1.0, 1.0)])
-    ends = middle - half, middle + half
-    x = middle + half * np.array([-0.9, 0.0, 0.7])
-    exact = two_flats.pressure(x, inner=ends[0], outer=ends[1], normal_load=2.0)
-    assert solved(profile=row, normal_load=2.0).pressure(x) == pytest.approx(exact, rel=1e-11)
 
 
 # -- concave corners -------------------------------------------------------------------------------
@@ -188,12 +140,13 @@ def test_narrow_panels_beside_wide_ones_are_measured_as_exactly(load):
 
 def test_a_search_for_overlaps_of_too_many_parts_is_refused(monkeypatch):
     """It does not take all memory."""
-    monkeypatch.setattr("sie.patches.gap.MOST", 1)
-    row = sie.Row([sie.Parabola(1.0).shifted(x) for x in (-2.0, 0.0, 2.0)])
+    monkeypatch.setattr("sie.patches.gap.MOST", 0)
+    wells = sie.Polynomial((0.0, 0.0, -1.0, 0.0, 0.5))
     with pytest.raises(sie.ContactError, match="change the load"):
-        _ = sie.solve(sie.Scene(profile=row, modulus=1.0, normal_load=0.1)).edges
+        _ = sie.solve(sie.Scene(profile=wells, modulus=1.0, normal_load=0.1)).edges
 
 
+@pytest.mark.slow(but=1)
 @pytest.mark.parametrize("load", [1e-249, 1e-120, 1e-60])
 def test_patches_narrower_than_doubles_are_refused(load):
     row = sie.Row([sie.Parabola(1.0).shifted(-1.0), sie.Parabola(0.5).shifted(0.9).raised(0.02)])

@@ -4,6 +4,7 @@ moments of light loads, concave corners that nearly close, rounding, searches th
 
 import numpy as np
 import pytest
+from rough_traces import rough_trace as trace
 
 import sie
 from analytic import two_parabolas
@@ -16,15 +17,6 @@ from sie.profiles.resolution import rounding_noise
 
 def solved(**asked):
     return sie.solve(sie.Scene(modulus=1.0, **asked))
-
-
-def trace(points, seed, size=0.01):
-    rng = np.random.default_rng(seed)
-    k = np.arange(4, points // 4)
-    x = np.linspace(-1.0, 1.0, points)
-    phase = rng.uniform(0.0, 2.0 * np.pi, len(k))
-    h = (k**-1.3 * np.cos(0.5 * np.pi * np.outer(x, k) + phase)).sum(axis=1)
-    return sie.Sampled(x, size * h / h.std())
 
 
 def waves(x):
@@ -83,7 +75,7 @@ def test_the_pressure_beside_a_sharp_edge_carries_the_load_to_rounding(tilt):
 
 
 @pytest.mark.slow(but=3)
-@pytest.mark.parametrize("height", [0.0, 0.1, 0.2])
+@pytest.mark.parametrize("height", [0.0, 0.05, 0.1, 0.2])
 @pytest.mark.parametrize("load", [10.0, 12.0, 14.0, 17.0, 20.0])
 def test_two_parabolas_that_nearly_fill_their_period_meet_the_equation(load, height):
     """All places are as near to one edge of such a patch as to the other, to 1e-10 of it."""
@@ -235,22 +227,6 @@ def test_noise_is_not_what_a_wave_does_between_close_points():
     assert rounding_noise(lambda x: np.sin(12.0 * x), -126.0, 126.0) < 1e-13
 
 
-def test_a_moment_is_followed_from_the_contact_at_some_tilt(monkeypatch):
-    """Every second search goes astray: each step of the moment is tried again with half of it."""
-    row = sie.Row([sie.Parabola(1.0), sie.Parabola(0.5).shifted(2.0).raised(0.1)])
-    given = {"profile": row, "normal_load": 0.6, "moment": 0.3}
-    attempted, right, calls = solver.attempted, solved(**given), []
-
-    def hesitant(start, pieces, problem):
-        calls.append(problem.given.moment)
-        return attempted(start, pieces, problem) if len(calls) % 2 and len(calls) > 2 else None
-
-    monkeypatch.setattr(solver, "attempted", hesitant)
-    found = solved(**given)
-    assert found.patches == pytest.approx(np.array(right.patches), rel=1e-12)
-    assert found.tilt == pytest.approx(right.tilt, rel=1e-12) and None in calls
-
-
 @pytest.mark.parametrize("moment", [{}, {"moment": 0.3}])
 def test_a_load_under_which_no_search_settles_is_refused_by_its_name(moment, monkeypatch):
     calls = []
@@ -261,9 +237,7 @@ def test_a_load_under_which_no_search_settles_is_refused_by_its_name(moment, mon
 
     monkeypatch.setattr(solver, "settled", astray)
     row = sie.Row([sie.Parabola(1.0), sie.Parabola(0.5).shifted(2.0).raised(0.1)])
-    with pytest.raises(
-        sie.LoadError, match=r"normal_load = 0\.6 E\*/2: .* change the load"
-    ) as error:
+    with pytest.raises(sie.LoadError, match=r"normal_load = 0\.6: .* change the load") as error:
         solver.contact(problem_of(sie.Scene(profile=row, modulus=2.0, normal_load=0.6, **moment)))
     assert ("or the moment" in str(error.value)) == bool(moment)
     assert len(calls) <= 3

@@ -6,6 +6,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
+from rough_traces import rough_trace as trace
 
 import sie
 from sie.patches.tension import _joined
@@ -13,16 +14,6 @@ from sie.patches.tension import _joined
 
 def solved(**asked):
     return sie.solve(sie.Scene(modulus=1.0, **asked))
-
-
-def trace(points, seed, hurst=0.8, size=0.01):
-    """A rough trace on [-1, 1] whose ends are not equally high."""
-    rng = np.random.default_rng(seed)
-    k = np.arange(4, points // 4)
-    x = np.linspace(-1.0, 1.0, points)
-    phase = rng.uniform(0.0, 2.0 * np.pi, len(k))
-    h = (k ** -(hurst + 0.5) * np.cos(0.5 * np.pi * np.outer(x, k) + phase)).sum(axis=1)
-    return sie.Sampled(x, size * h / h.std())
 
 
 def by_integral(solution, x):

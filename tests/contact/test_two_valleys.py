@@ -154,9 +154,14 @@ def test_a_far_valley_that_carries_all_of_the_load_is_seen_by_its_length():
     assert solution.check().ok
 
 
-def test_a_bump_that_patches_do_not_settle_on_is_answered_as_one_patch():
-    """The slope of a Gauss bump falls beyond x = 1."""
-    bump = sie.FromFunction(lambda x: x * np.exp(-x * x / 2.0))
-    found = sie.solve(sie.Scene(profile=bump, modulus=1.0, normal_load=0.2))
-    assert len(found.patches) == 1
-    assert found.check().ok
+def test_a_bump_is_one_patch_on_a_bounded_indenter_and_refused_where_it_goes_on_without_end():
+    """The slope of a Gauss bump falls beyond x = 1: at some distance the surface touches again."""
+
+    def pressed(domain):
+        bump = sie.FromFunction(lambda x: x * np.exp(-x * x / 2.0), domain=domain)
+        return sie.solve(sie.Scene(profile=bump, modulus=1.0, normal_load=0.2))
+
+    assert len(pressed((-8.0, 8.0)).patches) == 1
+    assert pressed((-8.0, 8.0)).check().ok
+    with pytest.raises(sie.LoadError):
+        _ = pressed((-np.inf, np.inf)).edges

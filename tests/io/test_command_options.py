@@ -47,29 +47,12 @@ def test_compare_takes_its_two_files_anywhere_among_the_options():
         assert parse(["compare", *chain(*parts)]) == expected
 
 
-@pytest.mark.parametrize(
-    "words",
-    [
-        ["SCENE", "--want", "gap", "--want", "tension"],
-        ["--want", "gap", "SCENE", "--want", "tension"],
-        ["--want=gap", "--want", "tension", "SCENE"],
-    ],
-    ids=" ".join,
-)
 @pytest.mark.parametrize("scene", ["scene.toml", "punch"])
-def test_want_given_twice_asks_for_both(words, scene):
+def test_want_given_twice_asks_for_both_wherever_it_stands(scene):
     expected = parse(["solve", scene, "--want", "gap", "tension"])
-    assert parse(["solve", *(scene if word == "SCENE" else word for word in words)]) == expected
-
-
-def test_a_name_that_is_to_be_written_is_no_scene(capsys):
-    assert main(["solve", "--json", "out.json", "--want", "edges"]) == 2
-    assert "give the scene file first" in capsys.readouterr().err
-
-
-def test_a_file_too_many_is_refused(capsys):
-    assert main(["compare", "scene.toml", "fem.csv", "punch"]) == 2
-    assert '"punch" is not understood' in capsys.readouterr().err
+    for parts in permutations([["--want=gap"], ["--want", "tension"], [scene]]):
+        asked = parse(["solve", *chain(*parts)])
+        assert (asked.scene, {*asked.want}) == (expected.scene, {*expected.want})
 
 
 @pytest.mark.parametrize("command", [[], *([name] for name in COMMANDS)], ids=str)
@@ -82,22 +65,16 @@ def test_help_names_the_exit_codes_within_80_columns(command, capsys):
     assert max(map(len, out.splitlines())) <= 80
 
 
-def test_quiet_prints_nothing_and_writes_the_files(folder, capsys):
+def test_quiet_leaves_the_files_what_goes_to_standard_output_and_a_refusal(folder, capsys):
     assert main(["solve", "scene.toml", "--quiet", "--csv", "out.csv"]) == 0
     assert main(["compare", "scene.toml", "fem.csv", "--quiet", "--tol", "10"]) == 0
     assert main(["compare", "scene.toml", "fem.csv", "--quiet"]) == 1
     assert capsys.readouterr() == ("", "")
     assert (folder / "out.csv").stat().st_size > 0
-
-
-def test_quiet_leaves_what_goes_to_standard_output(capsys):
     main(["solve", "scene.toml", "--json"])
     printed = capsys.readouterr().out
-    assert main(["solve", "scene.toml", "--json", "--quiet"]) == 0
+    main(["solve", "scene.toml", "--json", "--quiet"])
     assert capsys.readouterr().out == printed
-
-
-def test_quiet_leaves_a_refusal(capsys):
     assert main(["solve", "none.toml", "--quiet"]) == 2
     assert capsys.readouterr().err.count("\n") == 1
 
@@ -119,21 +96,11 @@ def test_the_log_of_a_command_ends_with_it(capsys):
     assert (LOG.level, LOG.handlers) == before
 
 
-def test_another_level_of_the_log_is_refused(capsys):
-    assert main(["solve", "scene.toml", "--log", "all"]) == 2
-    assert capsys.readouterr().err.count("\n") == 1
-
-
 def test_a_program_gets_the_stages_by_python_s_logging(caplog):
     solution = sie.solve(scene_file.read("scene.toml").scene)
     with caplog.at_level(logging.DEBUG, logger="sie"):
         assert solution.edges == solution.edges
     assert [record.getMessage().split(":")[0] for record in caplog.records].count("normal") == 1
-
-
-def test_the_library_says_nothing_by_itself(capfd):
-    sie.solve(scene_file.read("scene.toml").scene).check()
-    assert capfd.readouterr() == ("", "")
 
 
 @pytest.mark.parametrize("options", [["--csv", "-"], ["--want", "shear"]])
@@ -179,9 +146,3 @@ def test_other_shells_have_a_script_too(shell, capsys):
     pytest.importorskip("shtab")
     assert main(["completion", shell]) == 0
     assert "sie" in capsys.readouterr().out
-
-
-@pytest.mark.parametrize("shell", ["bahs", "cmd", ""])
-def test_another_shell_is_refused(shell, capsys):
-    assert main(["completion", shell]) == 2
-    assert capsys.readouterr().err.count("\n") == 1

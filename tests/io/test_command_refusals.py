@@ -36,30 +36,31 @@ BAD = {
     "a want that is empty": ("solve scene.toml --want ''", "--want names nothing"),
     "a want of a comma": ("plan scene.toml --want ,", "--want names nothing"),
     "tolerance inf": ("solve scene.toml --tol inf", "tol = inf is infinite"),
-    "tolerance of a comparison": (
-        "compare scene.toml fem.csv --tol inf",
-        "tol = inf is no positive number",
-    ),
+    "tolerance of a comparison": ("compare scene.toml fem.csv --tol inf",
+        "tol = inf is no positive number"),
     "a height in words": ("compare scene.toml fem.csv --surface top", "top is not a height"),
     "a height that is none": ("compare scene.toml fem.csv --surface nan", "nan is not a height"),
     "an unknown body": ("compare scene.toml fem.csv --body left", "give below or above"),
+    "an output for a scene": ("solve --json out.json --want edges", "give the scene file first"),
+    "a file too many": ("compare scene.toml fem.csv third.csv", '"third.csv" is not understood'),
+    "unknown level of the log": ("solve scene.toml --log all", "all"),
+    "unknown shell": ("completion bahs", "bahs"),
+    "unknown suffix of a field": ("solve scene.toml --field f.vtu", "use .csv, .npz, .vti"),
+    "a grid of one column": ("solve scene.toml --field f.npz --grid 1x5", "1x5 is not a grid"),
+    "a grid without a field": ("solve scene.toml --grid 5x5", "give --field FILE too"),
     "no suffix": ("solve scene.toml --plot picture", ".png"),
     "unknown suffix": ("solve scene.toml --plot out.xyz", ".svg"),
     "output is a directory": ("solve scene.toml --csv .", "is a directory"),
     "output in no directory": ("solve scene.toml --json none/out.json", "no directory"),
-    "output over the scene": (
-        "solve scene.toml --csv scene.toml",
-        "would overwrite the scene file",
-    ),
-    "two outputs in one place": (
-        "solve scene.toml --csv out --json ./out",
-        "would overwrite what --csv writes",
-    ),
-    "two outputs to the terminal": (
-        "solve scene.toml --csv - --json",
-        "cannot both go to standard output",
-    ),
-}
+    "output over the scene": ("solve scene.toml --csv scene.toml",
+        "would overwrite the scene file"),
+    "two outputs in one place": ("solve scene.toml --csv out --json ./out",
+        "would overwrite what --csv writes"),
+    "two outputs in letters of another size": ("solve scene.toml --csv out --json OUT",
+        "would overwrite what --csv writes"),
+    "two outputs to the terminal": ("solve scene.toml --csv - --json",
+        "cannot both go to standard output"),
+}  # fmt: skip
 
 
 @pytest.mark.parametrize(("words", "said"), BAD.values(), ids=BAD)

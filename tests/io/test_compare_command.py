@@ -64,21 +64,6 @@ def test_stresses_in_the_body_are_compared_whichever_way_y_points(run):
     assert run(down | {"sxy": -s.xy}, "--tol", "1e-2")[0] == 1
 
 
-@pytest.mark.parametrize(
-    ("columns", "says"),
-    [
-        ({"x": [0, 0.1], "z": [1, 1]}, "has the columns x, z"),
-        ({"x": [0, 0.1], "y": [-1, 1], "sxx": [1, 1]}, "on one side of y = 0"),
-        ({"x": [0, 0.1], "y": [1, 2], "p": [1, 1]}, "no points of p on the surface"),
-        ({"x": [100, 101], "p": [1, 1]}, "units of length, or the origins"),
-    ],
-)
-def test_a_file_that_cannot_be_compared_is_refused_with_a_reason(columns, says, run):
-    code, _, error = run(columns)
-    assert code == 2
-    assert says in error
-
-
 def test_columns_that_are_not_compared_are_named(run, tmp_path):
     columns = {"x": X, "p": P, "tangential": Q}
     assert "not compared: the columns tangential of" in run(columns)[1]

@@ -13,7 +13,7 @@ import sie
 from sie.cli import main
 from sie.io import scene_file
 from sie.io.export import as_dict
-from sie.io.report import summary, table
+from sie.io.report import summary
 
 CYCLE = """
 [profile]
@@ -170,10 +170,3 @@ def test_a_cycle_that_cannot_be_answered_is_refused_in_a_sentence(text, said, so
     status, out, err = solve(text, "--csv", "out.csv")
     assert (status, out, err.count("\n")) == (2, "", 1) and said in err
     assert not Path("out.csv").exists()
-
-
-@pytest.mark.parametrize("value", [1.0, -1.23456789e-105, -123456.789])
-def test_a_table_is_at_most_eighty_columns_wide(value):
-    names = ["P", "Q", "σ", "moment", "stick from", "to", "energy (N)"]
-    lines = table(names, [[value] * 7] * 2).splitlines()
-    assert len(lines) == 3 and max(map(len, lines)) <= 80

@@ -180,12 +180,6 @@ def test_values_by_node_find_their_places_in_a_list_of_another_file(tmp_path):
     assert comparison.differences["p"].points == 21
 
 
-@pytest.mark.parametrize("order", [1, -1])
-def test_values_by_node_find_their_places_in_the_same_file(order, tmp_path):
-    comparison = compared("".join([NLIST, PRNSOL][::order]), tmp_path, "both.txt")
-    assert comparison.differences["q"].l2 < WRITTEN
-
-
 def test_nodes_of_a_deck_and_of_a_table_are_read(tmp_path):
     values = "Knoten;Druck [MPa]\n" + "\n".join(
         f"{n};{float(SOLUTION.pressure(x)):.6f}".replace(".", ",")
@@ -198,12 +192,6 @@ def test_nodes_of_a_deck_and_of_a_table_are_read(tmp_path):
         comparison = compared(values, tmp_path, "p.csv", nodes=nodes)
         assert comparison.differences["p"].points == 5
         assert comparison.differences["p"].l2 < WRITTEN
-
-
-def test_of_lists_that_repeat_a_node_the_last_one_is_read(tmp_path):
-    comparison = compared(NLIST + PRNSOL.replace("E-", "E-0") + PRNSOL, tmp_path, "both.txt")
-    assert comparison.differences["p"].l2 < WRITTEN
-    assert any("last values" in note for note in comparison.mesh.notes)
 
 
 @pytest.mark.parametrize(

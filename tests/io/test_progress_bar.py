@@ -4,7 +4,6 @@ import contextlib
 import os
 import subprocess
 import sys
-import threading
 
 import numpy as np
 import pytest
@@ -13,7 +12,7 @@ import sie
 from sie import progress_bar
 from sie.cli import main
 from sie.io.scene_file import example, parse
-from sie.progress_bar import Progress, counted, reported, step_done
+from sie.progress_bar import Progress, counted, step_done
 
 
 class Clock:
@@ -67,15 +66,6 @@ def test_nothing_is_drawn_in_the_first_second(clock, bars):
     assert not bars
 
 
-def test_after_a_second_the_steps_are_counted(clock, bars):
-    with Progress("search", 3) as work:
-        work.update()
-        clock.now = 1.0
-        work.update()
-    (bar,) = bars
-    assert (bar.total, bar.shown) == (3, [("search", 2, "")])
-
-
 def test_the_line_changes_ten_times_a_second_at_most(clock, bars):
     with Progress("search") as work:
         for k in range(300):
@@ -95,22 +85,6 @@ def test_steps_inside_are_named_behind_the_outermost_work(clock, bars):
     assert bar.shown == [("sie solve", 0, "load path 1/2, patches, step 2")]
 
 
-def test_work_without_a_total_shows_its_count(clock, bars):
-    with Progress("smoothing, trial"):
-        clock.now = 2.0
-        step_done()
-    assert bars[0].shown == [("smoothing, trial 1", 1, "")]
-
-
-def test_the_second_is_that_of_all_works_together(clock, bars):
-    with Progress("sie solve"):
-        for name in ("edges", "stress"):
-            with Progress(name):
-                clock.now += 0.6
-                step_done(0)
-    assert bars[0].shown == [("sie solve", 0, "stress")]
-
-
 @pytest.mark.parametrize("error", [ValueError, KeyboardInterrupt])
 def test_the_line_is_wiped_whatever_ends_the_work(error, clock, bars):
     with contextlib.suppress(error), Progress("search", 2) as work:
@@ -122,40 +96,6 @@ def test_the_line_is_wiped_whatever_ends_the_work(error, clock, bars):
         clock.now = 2.5
         work.update()
     assert [bar.name for bar in bars] == ["search", "next"]
-
-
-def test_all_work_inside_a_hidden_one_is_hidden(clock, bars):
-    with Progress("", shown=False), Progress("search", 2) as work:
-        clock.now = 9.0
-        work.update()
-    assert not bars
-
-
-def test_a_loop_that_is_left_leaves_no_work_open(clock, bars):
-    for k in counted("search", range(9), 9):
-        if k == 2:
-            break
-    clock.now = 9.0
-    step_done()
-    assert not bars
-
-
-def test_other_threads_draw_nothing(clock, monkeypatch):
-    monkeypatch.setattr(progress_bar, "_in_notebook", lambda: True)
-    seen = [progress_bar._seen()]
-    worker = threading.Thread(target=lambda: seen.append(progress_bar._seen()))
-    worker.start()
-    worker.join()
-    assert not seen[1]
-
-
-def test_a_decorated_function_keeps_its_name_and_answer():
-    @reported("search")
-    def found(x: int) -> int:
-        """Twice x."""
-        return 2 * x
-
-    assert (found(3), found.__name__, found.__doc__) == (6, "found", "Twice x.")
 
 
 # -- what tells its steps --------------------------------------------------------------------------
@@ -187,8 +127,6 @@ ROW = sie.Row([sie.Parabola(1.0), sie.Parabola(1.0).shifted(3.0)])
 SEVERAL = sie.Scene(profile=ROW, modulus=1.0, normal_load=0.3)
 PUNCH = parse(example("rounded-flat")).scene
 CYCLE = parse(example("fatigue"))
-PATH_FILE = parse(example("fretting-cycle"))
-PATH = sie.follow(PATH_FILE.scene, PATH_FILE.load_path)
 NODES = np.linspace(-1.0, 1.0, 17)
 DISSIMILAR = sie.Scene(
     profile=sie.Sampled(NODES, NODES**2 / 2.0),
@@ -206,6 +144,7 @@ def test_a_small_solve_opens_no_work(told):
     assert not told
 
 
+@pytest.mark.slow(but=7)
 @pytest.mark.parametrize(
     ("work", "name", "least"),
     [

@@ -87,39 +87,27 @@ def test_constants_of_the_material_and_terms_of_a_profile_are_converted():
 @pytest.mark.parametrize(
     ("changed", "said"),
     [
-        (
-            {"radius": '"50 MPa"'},
-            '[profile] radius = "50 MPa" is not a number and not a length: give it in mm',
-        ),
+        ({"radius": '"50 MPa"'},
+         '[profile] radius = "50 MPa" is not a number and not a length: give it in mm'),
         ({"radius": '"50 foo"'}, '[profile] radius = "50 foo" is not a number and not a length'),
-        (
-            {"young": '"210 mm"'},
-            '[body] young = "210 mm" is not a number and not a stress: give it in MPa',
-        ),
-        (
-            {"load": 'normal_load = "500 N"'},
-            '"500 N" is not a number and not a force per length: give it in N/mm',
-        ),
-        (
-            {"load": 'normal_load = 1.0\ntilt = "1 mm"'},
-            'tilt = "1 mm" is not a number and not an angle: give it in deg',
-        ),
-        (
-            {"load": 'path = [[1.0, 0.0], [1.0, "1 MPa"]]'},
-            '[load] path[1][1] = "1 MPa" is not a number and not a force per length',
-        ),
+        ({"young": '"210 mm"'},
+         '[body] young = "210 mm" is not a number and not a stress: give it in MPa'),
+        ({"load": 'normal_load = "500 N"'},
+         '"500 N" is not a number and not a force per length: give it in N/mm'),
+        ({"load": 'normal_load = 1.0\ntilt = "1 mm"'},
+         'tilt = "1 mm" is not a number and not an angle: give it in deg'),
+        ({"load": 'path = [[1.0, 0.0], [1.0, "1 MPa"]]'},
+         '[load] path[1][1] = "1 MPa" is not a number and not a force per length'),
         ({"radius": '"1e999 mm"'}, "beyond the floating-point range in mm"),
         ({"radius": '"50"'}, 'radius = "50" is not a number'),
         ({"load": 'normal_load = 1.0\nsliding = "1 mm"'}, 'sliding = "1 mm" is not a number'),
         ({"flat": '"1 mm"', "units": 'force = "N"'}, '[units] force = "N" is not stress × length'),
         ({"units": 'checked = true\nlength = "m"'}, "is not stress × length, MPa m"),
-        (
-            {"units": 'checked = true\nlength = "ell"'},
-            'length = "ell" is not a unit that pint knows',
-        ),
+        ({"units": 'checked = true\nlength = "ell"'},
+         'length = "ell" is not a unit that pint knows'),
         ({"units": "checked = 1"}, "checked = 1 is neither true nor false"),
     ],
-)
+)  # fmt: skip
 def test_a_wrong_quantity_is_refused_with_key_value_and_dimension(changed, said):
     with pytest.raises(SceneFileError) as refused:
         parse(scene(**changed))
@@ -134,10 +122,7 @@ def test_labels_are_free_where_nothing_is_converted_or_checked():
     "changed",
     [
         {"radius": '"9 mm**9**9**9**9"'},
-        {"radius": '"9 ' + "mm*" * 10**4 + 'mm"'},
         {"radius": '"1e999999999 mm"'},
-        {"radius": '"1 (9**9**9**9) mm"'},
-        {"units": 'checked = true\nlength = "9**9**9**9**9"'},
         {"units": 'checked = true\nlength = "mm*9**9**9**9"'},
         {"radius": '"1 __import__"'},
     ],

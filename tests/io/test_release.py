@@ -63,26 +63,14 @@ def test_the_recipe_the_citation_and_the_changelog_have_the_version_of_the_packa
     assert first[1] == (f"Unreleased ({release})" if unreleased else release)
 
 
-def test_the_recipe_asks_for_the_oldest_python_of_the_package():
-    assert PROJECT["project"]["requires-python"] == f">={RECIPE['context']['python_min']}"
-
-
-def test_the_recipe_has_the_dependencies_of_the_package():
-    found = without_python(RECIPE["requirements"]["run"])
-    assert found == conda(PROJECT["project"]["dependencies"])
-
-
-def test_the_recipe_builds_with_the_backend_of_the_package():
-    assert set(conda(PROJECT["build-system"]["requires"])) <= set(RECIPE["requirements"]["host"])
-
-
-def test_the_recipe_tests_with_what_the_tests_need():
-    found = without_python(RECIPE["tests"][1]["requirements"]["run"])
-    assert found == conda(PROJECT["project"]["optional-dependencies"]["test"])
-
-
-def test_the_recipe_has_the_commands_of_the_package():
-    scripts = [f"{name} = {place}" for name, place in PROJECT["project"]["scripts"].items()]
+def test_the_recipe_has_the_requirements_and_the_commands_of_the_package():
+    project, recipe = PROJECT["project"], RECIPE["requirements"]
+    assert project["requires-python"] == f">={RECIPE['context']['python_min']}"
+    assert without_python(recipe["run"]) == conda(project["dependencies"])
+    assert set(conda(PROJECT["build-system"]["requires"])) <= set(recipe["host"])
+    tested = without_python(RECIPE["tests"][1]["requirements"]["run"])
+    assert tested == conda(project["optional-dependencies"]["test"])
+    scripts = [f"{name} = {place}" for name, place in project["scripts"].items()]
     assert RECIPE["build"]["python"]["entry_points"] == scripts
 
 

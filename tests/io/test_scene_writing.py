@@ -5,7 +5,7 @@ import tomllib
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from strategies import between, chains, parabolas, polynomials, powers, rounded_flats, texts, wedges
 
@@ -81,7 +81,6 @@ def test_a_scene_reads_back_equal_from_its_dict_from_json_and_from_toml(profile,
     assert tomllib.loads(scene.to_toml()) == tables
 
 
-@settings(max_examples=10)
 @given(profile=nameable(), of=bodies, load=loads)
 def test_the_schema_accepts_every_scene_that_is_written(profile, of, load):
     jsonschema = pytest.importorskip("jsonschema")

@@ -4,7 +4,6 @@ loses nothing.
 
 import sys
 import threading
-import types
 from dataclasses import replace
 
 import numpy as np
@@ -124,9 +123,7 @@ def test_a_value_of_another_rank_costs_itself_only(odd, usual):
     assert found["reason"][1].startswith("p has") and found["reason"][0] == ""
 
 
-@pytest.mark.parametrize(
-    "value", [[[1.0], [1.0, 2.0]], 1j, "wide", None, np.datetime64("2020-01-01"), object()]
-)
+@pytest.mark.parametrize("value", [[[1.0], [1.0, 2.0]], 1j, "wide", None])
 def test_a_value_that_is_no_number_is_reported_in_a_sentence(value):
     found = plain(
         sie.sweep(
@@ -179,14 +176,6 @@ def test_a_bar_is_shown_for_long_work_on_a_terminal_only(monkeypatch, capsys):
     assert capsys.readouterr().err == ""
 
 
-def test_a_program_that_imports_a_kernel_and_runs_none_shows_no_bar(monkeypatch, capsys):
-    pytest.importorskip("tqdm")
-    monkeypatch.setitem(sys.modules, "ipykernel", types.ModuleType("ipykernel"))
-    monkeypatch.setattr(progress_bar, "PATIENCE", 0.0)
-    sie.sweep(SCENE, over={"normal_load": LOADS})
-    assert capsys.readouterr().err == ""
-
-
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
@@ -212,11 +201,6 @@ def test_an_invalid_sweep_is_refused_before_any_work(arguments, words):
         sie.sweep(SCENE, **arguments)
 
 
-def test_a_value_beyond_all_floats_costs_its_own_point_only():
-    found = plain(sie.sweep(SCENE, over={"normal_load": [0.1, 10**400]}, want="half_width"))
-    assert np.isfinite(found["half_width"]).tolist() == [True, False]
-
-
 def test_with_xarray_every_quantity_and_parameter_of_the_package_has_its_name_and_unit():
     pytest.importorskip("xarray")
     over = {"normal_load": [0.1, 0.2], "profile.radius": [1.0], "friction": [0.1]}
@@ -234,6 +218,8 @@ def test_a_quantity_of_the_user_has_no_name_or_unit_that_it_was_not_given():
     pytest.importorskip("xarray")
     want = {"tilt": own_quantity, "b": "half_width"}
     found = sie.sweep(SCENE, over={"normal_load": [0.1]}, want=want)
+    at = found["b"].sel(normal_load=0.1)
+    assert float(at) == single(normal_load=0.1).half_width
     assert found["tilt"].attrs == {}
     assert found["b"].attrs == {"long_name": "half-width of the contact", "units": "mm"}
 
@@ -246,13 +232,3 @@ def own_quantity(solution):
 def test_units_that_are_no_labels_are_refused_before_any_work(units):
     with pytest.raises(ValueError, match="are no labels of units"):
         sie.sweep(SCENE, over={"normal_load": [0.1]}, units=units)
-
-
-def test_with_xarray_the_result_is_labelled():
-    xarray = pytest.importorskip("xarray")
-    found = sie.sweep(SCENE, over={"normal_load": LOADS, "tilt": TILTS}, want="half_width")
-    assert isinstance(found, xarray.Dataset)
-    assert (
-        float(found["half_width"].sel(normal_load=0.2, tilt=0.01))
-        == single(normal_load=0.2, tilt=0.01).half_width
-    )

@@ -95,14 +95,6 @@ def test_answers_are_not_lost_where_the_file_cannot_be_written(path, monkeypatch
     assert np.isfinite(caught.value.result["half_width"]).all()
 
 
-def test_a_file_is_written_no_oftener_than_its_period_allows(path, monkeypatch):
-    monkeypatch.setattr(sweep_file, "PERIOD", 1e9)
-    written = []
-    monkeypatch.setattr(sweep_file, "write", lambda data, to: written.append(to))
-    sie.sweep(SCENE, LOADS, "half_width", to=path)
-    assert len(written) == 1
-
-
 @pytest.mark.parametrize(
     ("name", "said"),
     [

@@ -27,16 +27,6 @@ SHOWN = {
     "sampled": {"cycle"},
     "sliding": {"cycle", "energy"},
 }
-STEEP = """
-[profile]
-kind = "parabola"
-radius = 1.0
-[body]
-young = 1.0
-poisson = 0.3
-[load]
-half_width = 1.0
-"""
 
 
 @pytest.fixture
@@ -111,22 +101,6 @@ def test_a_plan_that_goes_to_a_file_is_80_columns_wide(name, planned):
     wants = [want for want in WANTS if want != "cycle"]
     for options in ([], ["--want", *wants]):
         assert max(map(len, planned(name, *options).splitlines())) <= WIDE
-
-
-def test_what_goes_on_stands_below_the_last_column():
-    table = "run   edges  " + "by bracketed Newton " * 6
-    first, *others = streams.broken(table, WIDE).splitlines()
-    assert first.startswith("run   edges  by") and others
-    assert all(not line[:13].strip() and line[13] != " " for line in others)
-
-
-def test_a_note_is_80_columns_wide(tmp_path, capsys):
-    path = tmp_path / "scene.toml"
-    path.write_text(STEEP)
-    assert main(["solve", str(path)]) == 0
-    printed = capsys.readouterr().out
-    assert "small strains" in " ".join(printed.split())
-    assert max(map(len, printed.splitlines())) <= WIDE
 
 
 def test_a_comparison_is_80_columns_wide(tmp_path, capsys):

@@ -51,18 +51,6 @@ def test_the_pressure_agrees_with_the_40_digit_reference(case: Case):
         assert abs(mp.mpf(float(value)) - e) <= PROMISE * peak
 
 
-@pytest.mark.parametrize("case", [c for c in CASES if c.width is not None and c.symmetric], ids=str)
-def test_the_pressure_is_relatively_accurate_up_to_the_edge(case: Case):
-    """Given the half-width, and centre 0, the edge is known exactly and so is the distance to
-    it.
-    """
-    solution, truth = solved(case), exact(case)
-    b = solution.edges[1]
-    for depth in (1e-4, 1e-8, 1e-12):
-        x = float(np.nextafter(b * (1 - depth), 0))
-        assert float(solution.pressure(x)) == pytest.approx(float(truth.pressure(x)), rel=PROMISE)
-
-
 # -- the potential --------------------------------------------------------------------------------
 
 
@@ -154,20 +142,11 @@ def test_the_potential_reaches_its_limit_at_the_surface_continuously(scene, seed
             ).all()
 
 
-@pytest.mark.slow
-@given(strategies.scenes(), st.integers(0, 2**32 - 1))
-def test_the_potential_of_the_mirrored_point_is_the_conjugate(scene, seed):
-    solution = sie.solve(scene)
-    rng = np.random.default_rng(seed)
-    z = solution.centre + solution.half_width * (rng.normal(size=20) * 2 + 1j * rng.normal(size=20))
-    assert (solution.pressure.cauchy(z.conj()) == solution.pressure.cauchy(z).conj()).all()
-
-
 FAR = [10.0, 1e2, 1e3, 1e4, 1e6]
 
 
 @pytest.mark.parametrize("case", CASES, ids=str)
-@pytest.mark.parametrize("angle", [0.0, 1e-9, 0.3, 0.5 * np.pi, 3.0, np.pi])
+@pytest.mark.parametrize("angle", [0.0, 1e-9, 0.3, np.pi])
 def test_far_away_the_potential_is_that_of_a_line_load_to_full_relative_accuracy(case: Case, angle):
     """π z F(z) = P + M/z + ..., about the centre."""
     solution = solved(case)
@@ -188,19 +167,6 @@ def test_far_away_the_potential_is_that_of_a_line_load_to_full_relative_accuracy
         )
 
 
-@given(strategies.scenes(), st.integers(0, 2**32 - 1))
-def test_beside_the_contact_the_principal_value_is_the_potential(scene, seed):
-    solution = sie.solve(scene)
-    (x1, x2), r = solution.edges, solution.half_width
-    d = r * 10.0 ** np.random.default_rng(seed).uniform(-6, 2, 10)
-    x = np.concatenate((x2 + d, x1 - d))
-    h, F = solution.pressure.hilbert(x), solution.pressure.cauchy(x)
-    assert (F.imag == 0).all()
-    assert h == pytest.approx(F.real, rel=PROMISE)
-    assert (h[:10] > 0).all()
-    assert (h[10:] < 0).all()
-
-
 def test_infinities_are_infinite_and_nothing_is_nan():
     tip = sie.solve(sie.Scene(profile=sie.Wedge(0.5), modulus=1.0, normal_load=1.0))
     assert tip.pressure(0.0) == np.inf
@@ -217,17 +183,6 @@ def test_infinities_are_infinite_and_nothing_is_nan():
     flat = sie.solve(sie.Scene(profile=sie.Flat(1.0), modulus=1.0, normal_load=1.0))
     assert (flat.pressure(np.array([-1.0, 1.0])) == np.inf).all()
     assert (flat.pressure(np.array([-np.nextafter(1.0, 2), np.nextafter(1.0, 2)])) == 0).all()
-
-
-def test_values_keep_the_shape_of_their_argument():
-    p = sie.solve(
-        sie.Scene(profile=sie.RoundedFlat(0.5, 1.0), modulus=1.0, half_width=1.0)
-    ).pressure
-    for shape in ((), (1,), (3, 2), (0,)):
-        x = np.full(shape, 0.3)
-        assert np.shape(p(x)) == np.shape(p.hilbert(x)) == np.shape(p.cauchy(x + 0.1j)) == shape
-    with pytest.raises(ValueError, match="side = 2"):
-        p.cauchy(0.3, side=2)
 
 
 # -- the gap --------------------------------------------------------------------------------------
@@ -270,16 +225,6 @@ def test_the_gap_is_zero_in_contact_positive_outside_and_infinite_beyond_the_ind
     assert np.isfinite(gap[~beyond]).all()
 
 
-@pytest.mark.parametrize("case", [c for c in CASES if not any(c.sharp)], ids=str)
-def test_the_gap_opens_like_the_distance_to_the_power_three_halves(case: Case):
-    """Smooth edges: gap(4 d)/gap(d) -> 8."""
-    solution = solved(case)
-    d = 1e-6 * solution.half_width
-    for edge, outwards in zip(solution.edges, (-1.0, 1.0), strict=True):
-        near, far = solution.gap(edge + outwards * d * np.array([1.0, 4.0]))
-        assert far / near == pytest.approx(8.0, rel=1e-4)
-
-
 @given(strategies.scenes(), st.integers(0, 2**32 - 1))
 def test_the_slope_of_the_gap_is_that_of_the_profile_less_that_of_the_surface(scene, seed):
     """gap' = h' - 2/E* F, by differences of the gap."""
@@ -315,15 +260,3 @@ def test_the_reference_reproduces_the_closed_form_of_the_rounded_punch():
     v, tau, S = mp.sqrt((z + b) / (z - b)), mp.tan(theta / 2), mp.sqrt(z - b) * mp.sqrt(z + b)
     F = ((z - a) * mp.atan(tau * v) + (z + a) * mp.atan(tau / v) - theta * S) / mp.pi
     assert abs(contact.potential(z) - F) < mp.mpf(10) ** -30
-
-
-def test_the_two_forms_of_the_reference_agree_where_the_edges_are_smooth():
-    pieces = normal_contact.polynomials((-10.0, 0.0, 10.0), ((0.0, 1.0), (0.0, 3.0)))
-    smooth = normal_contact.contact(pieces, 1.0, (-0.4, 0.3), load=0.7)
-    general = normal_contact.Contact(
-        smooth.pieces, smooth.G, smooth.x1, smooth.x2, smooth.P, sharp=True
-    )
-    for x in (0.1, -0.2):
-        assert abs(smooth.pressure(x) - general.pressure(x)) < mp.mpf(10) ** -28
-    z = mp.mpc(0.1, 0.01)
-    assert abs(smooth.potential(z) - general.potential(z)) < mp.mpf(10) ** -28

@@ -127,7 +127,6 @@ def test_the_mirror_image_of_a_path_has_the_mirrored_answer(case):
         )
 
 
-@settings(max_examples=15)
 @given(paths())
 def test_reversed_shear_and_bulk_stress_reverse_the_answer(case):
     scene, path = case
@@ -139,7 +138,7 @@ def test_reversed_shear_and_bulk_stress_reverse_the_answer(case):
         assert (other.shear(x) == -one.shear(x)).all()
 
 
-@settings(max_examples=12)
+@settings(max_examples=6)
 @given(paths((*KNOWN, "moment")), st.integers(2, 4))
 def test_a_path_cut_into_parts_gives_the_same(case, parts):
     scene, path = case
@@ -149,7 +148,7 @@ def test_a_path_cut_into_parts_gives_the_same(case, parts):
         assert apart(one, other) < 1e-10
 
 
-@settings(max_examples=6)
+@settings(max_examples=3)
 @given(paths(KNOWN), st.integers(2, 4))
 def test_energy_and_shift_of_a_path_cut_into_parts_are_the_same(case, parts):
     scene, path = case
@@ -174,6 +173,7 @@ def test_a_loop_within_a_step_is_forgotten(case, first, second):
     assert apart(loop[-4], loop[-2]) < 1e-10
 
 
+@pytest.mark.slow
 @settings(max_examples=4)
 @given(paths(CLOSED))
 def test_the_energy_of_a_loop_is_its_area(case):

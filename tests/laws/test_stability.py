@@ -6,13 +6,10 @@ import laws
 import numpy as np
 import pytest
 from hypothesis import example, given
-from hypothesis import strategies as st
 from strategies import between, log_between
 
 import sie
 from analytic import rounded_flat
-from oracles import normal_contact
-from oracles.normal_contact import mp
 
 PROMISE = 1e-13
 
@@ -60,21 +57,6 @@ def test_a_nearly_flat_punch_keeps_its_rounded_edge_and_pressure_given_the_load(
     assert solution.check().ok
 
 
-@given(NEAR_FLAT, log_between(1e-3, 1e3), log_between(1e-3, 1e3))
-@example(delta=1e-12, radius=1.0, modulus=1.0)
-def test_a_nearly_flat_punch_keeps_load_and_pressure_given_the_width(delta, radius, modulus):
-    b = 1.0 + delta
-    solution = sie.solve(
-        sie.Scene(profile=sie.RoundedFlat(1.0, radius), modulus=modulus, half_width=b)
-    )
-    P = float(rounded_flat.load(half_flat=1.0, radius=radius, modulus=modulus, half_width=b))
-    assert solution.normal_load == pytest.approx(P, rel=1e-12)
-    x = across(1.0, b - 1.0)
-    x = x[np.abs(x) < b]
-    expected = rounded_flat.pressure(x, half_flat=1.0, radius=radius, modulus=modulus, half_width=b)
-    assert solution.pressure(x) == pytest.approx(expected, rel=1e-12)
-
-
 @given(
     between(-12.0, -0.01).map(lambda e: 10.0**e),
     log_between(1e-3, 1e3),
@@ -117,20 +99,6 @@ def test_the_pressure_agrees_with_the_closed_form_of_the_rounded_punch(
     )
 
 
-@pytest.mark.parametrize("delta", [1e-4, 1e-8, 1e-12])
-def test_a_nearly_flat_punch_agrees_with_quadrature_too(delta):
-    """The 40-digit reference uses no closed form; the rounded edge is the double b - 1."""
-    b = 1.0 + delta
-    slope = normal_contact.Pieces(
-        (-mp.inf, -mp.one, mp.one, mp.inf), (lambda t: t + 1, lambda t: 0 * t, lambda t: t - 1)
-    )
-    truth = normal_contact.contact(slope, 1.0, (-b, b), half_width=b, symmetric=True)
-    solution = sie.solve(sie.Scene(profile=sie.RoundedFlat(1.0, 1.0), modulus=1.0, half_width=b))
-    assert solution.normal_load == pytest.approx(float(truth.P), rel=1e-12)
-    for x in (0.0, 0.9, 1.0 + 0.5 * (b - 1.0)):
-        assert float(solution.pressure(x)) == pytest.approx(float(truth.pressure(x)), rel=1e-12)
-
-
 @given(NEAR_FLAT, between(-0.3, 0.3))
 def test_a_nearly_flat_punch_keeps_its_moment_under_tilt(delta, share):
     """A tilt that is a fraction of the slope of the rounded edge, off the axis: equilibrium by the
@@ -146,7 +114,7 @@ def test_a_nearly_flat_punch_keeps_its_moment_under_tilt(delta, share):
     )
 
 
-@pytest.mark.parametrize("tilt", [1e-300, 1e-100, 1e-30, 1e-18, 1e-16, 1e-12, 1e-6])
+@pytest.mark.parametrize("tilt", [1e-300, 1e-30, 1e-16, 1e-6])
 @pytest.mark.parametrize(
     "profile",
     [
@@ -164,31 +132,6 @@ def test_a_tiny_tilt_changes_the_answer_by_a_tiny_amount(profile, tilt):
     assert tilted.half_width == pytest.approx(upright.half_width, rel=PROMISE + 4 * tilt)
     assert tilted.centre == pytest.approx(0.0, abs=PROMISE + 30 * tilt)
     assert tilted.check().ok
-
-
-@given(
-    between(-30.0, -17.0).map(lambda e: 10.0**e),
-    log_between(1e-20, 1e-10),
-    log_between(1e-16, 1e-12),
-    st.sampled_from((-1.0, 1.0)),
-)
-@example(delta=2.24e-27, radius=1e-20, share=1e-10, side=1.0)
-@example(delta=4.8e-14, radius=1e-20, share=1e-17, side=-1.0)
-@example(delta=3.5789021333826587e-28, radius=4.2253384427860685e-20, share=2.88e-14, side=-1.0)
-def test_a_tiny_tilt_leaves_a_rim_that_is_thinner_than_doubles(delta, radius, share, side):
-    """The edge is between the corner and the next double, where the load is 0 and far too much."""
-    P = float(rounded_flat.load(half_flat=1.0, radius=radius, modulus=1.0, rim=delta))
-    solution = sie.solve(
-        sie.Scene(
-            profile=sie.RoundedFlat(1.0, radius),
-            modulus=1.0,
-            normal_load=P,
-            tilt=side * share * P,
-        )
-    )
-    contact = solution.normal.edges.contact
-    rims = rim(solution), -1.0 - contact.x1 - contact.tail1
-    assert rims == pytest.approx((delta, delta), rel=10.0 * share + 1e-12)
 
 
 @pytest.mark.parametrize("load", [1e-100, 1e-30, 1e-12, 1e-6, 1e6, 1e30, 1e100])
@@ -235,45 +178,6 @@ def test_a_corner_far_from_the_origin_is_no_jump():
         assert np.isfinite(solution.pressure(at))
 
 
-def test_a_break_within_rounding_of_an_edge_does_no_harm():
-    """The edge of the contact is moved across the corner of the flat's neighbour in steps of one
-    ulp.
-    """
-    b = 1.0
-    for k in range(-4, 5):
-        at = b + k * np.spacing(1.0)
-        profile = sie.Piecewise((-at, at), ((at, 2.0), (0.0, 1.0), (-at, 2.0)))
-        solution = sie.solve(sie.Scene(profile=profile, modulus=1.0, half_width=b))
-        assert solution.normal_load == pytest.approx(np.pi / 4, rel=PROMISE)
-        assert solution.pressure(0.5) == pytest.approx(0.5 * np.sqrt(0.75), rel=PROMISE)
-        assert solution.check().ok
-
-
-@pytest.mark.parametrize("exponent", [1.5, 2.5, 3.5])
-@pytest.mark.parametrize("dx", [0.3, -1.7, 100.0])
-def test_a_power_profile_is_the_same_wherever_it_stands(exponent, dx):
-    here = sie.solve(sie.Scene(profile=sie.Power(exponent, 1.0), modulus=1.0, normal_load=0.3))
-    there = sie.solve(
-        sie.Scene(profile=sie.Power(exponent, 1.0).shifted(dx), modulus=1.0, normal_load=0.3)
-    )
-    assert there.half_width == pytest.approx(here.half_width, rel=1e-12)
-    x = here.half_width * np.array([-0.9, -0.2, 0.4])
-    assert there.pressure(x + dx) == pytest.approx(here.pressure(x), rel=1e-11)
-
-
-def test_a_half_width_given_to_an_unsymmetric_profile_keeps_the_promise():
-    """The bracket of the centre must not be closed by rounding of ∫H/w: bisection then ended at
-    1e-12 r.
-    """
-    profile = sie.Piecewise((0.390625,), ((-1.004150390625, 0.390625), (-0.900390625, 0.125)))
-    profile += sie.Polynomial(
-        (0.0, 0.24731082212712768, 0.6070953658592175, 0.38958162362309184, 1.0)
-    ).shifted(0.15625)
-    solution = sie.solve(sie.Scene(profile=profile, modulus=1.0, half_width=0.06555277827767969))
-    assert solution.check().error <= 1e-13
-    assert solution.normal.edges.evaluations <= 12
-
-
 # -- known limits: each is a bug to be fixed, and its mark then falls -----------------------------
 
 
@@ -286,15 +190,6 @@ def test_a_slope_that_carries_its_own_rounding_is_resolved_to_that_rounding(text
     assert solution.check().error < 1e-11
 
 
-def test_a_slope_that_overflows_far_away_is_a_profile_all_the_same():
-    assert (
-        sie.solve(
-            sie.Scene(profile=sie.FromFunction("sinh(x)"), modulus=1.0, normal_load=3.0)
-        ).half_width
-        > 0
-    )
-
-
 def test_a_jump_that_was_not_declared_is_found_and_certified():
     solution = sie.solve(
         sie.Scene(profile=sie.FromFunction("0.2*sign(x) + x"), modulus=1.0, half_width=0.2)
@@ -303,26 +198,4 @@ def test_a_jump_that_was_not_declared_is_found_and_certified():
         sie.Scene(profile=sie.Wedge(0.2) + sie.Parabola(1.0), modulus=1.0, half_width=0.2)
     )
     assert solution.pressure(0.1) == pytest.approx(declared.pressure(0.1), rel=PROMISE)
-    assert solution.check().ok
-
-
-@pytest.mark.parametrize(
-    ("a", "R", "P"),
-    [
-        (0.18884973661618804, 326.52823338249493, 5.2028278159659794e-06),
-        (0.3, 7.0, 1e-3),
-        (0.7, 0.3, 1e-8),
-    ],
-)
-def test_a_flat_base_whose_ends_are_roundings_of_its_corners_carries_load(a, R, P):
-    """h' at the corners is a few 1e-17, of either sign: the base is flat all the same."""
-    solution = sie.solve(
-        sie.Scene(
-            profile=sie.Piecewise((-a, 2 * a), ((a / R, 1 / R), (0.0,), (-4 * a / R, 2 / R))),
-            modulus=1.0,
-            normal_load=P,
-        )
-    )
-    assert solution.edges[0] < -a
-    assert solution.edges[1] > 2 * a
     assert solution.check().ok

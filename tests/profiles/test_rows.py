@@ -48,28 +48,6 @@ def test_the_slope_of_a_row_is_that_of_its_lowest_profile(row):
     np.testing.assert_allclose(row.slope(X)[away], expected[away], rtol=1e-13, atol=1e-15)
 
 
-HARDENING = FromFunction("x*abs(x)+x/8", breaks=(0.0,))
-
-
-@pytest.mark.parametrize(
-    "other",
-    [
-        sie.Power(2.5, 1.2029823428821735),
-        sie.RoundedFlat(0.5, 1.0).raised(1e-16),
-        sie.RoundedFlat(0.5, 1.0),
-    ],
-)
-@pytest.mark.parametrize(
-    "one", [HARDENING.mirrored(), HARDENING.tilted(0.05), HARDENING.shifted(1e-17).raised(1e-16)]
-)
-def test_two_profiles_that_touch_to_rounding_make_a_row(one, other):
-    x = np.linspace(-2.0, 2.0, 81)
-    least = np.minimum(one.height(x), other.height(x))
-    row = Row([one, other])
-    np.testing.assert_array_equal(row.height(x), least)
-    assert all(lo < hi for lo, hi, _ in row.lowest)
-
-
 def test_places_without_an_indenter_are_walls():
     assert FLATS.walls == ((-0.19999999999999996, 0.29999999999999993),)
     assert FLATS.mirrored().walls == ((-0.29999999999999993, 0.19999999999999996),)
@@ -115,21 +93,6 @@ def test_raising_moves_a_profile_away(profile, dz):
 def test_what_is_no_row_is_refused(build, words):
     with pytest.raises(ValueError, match=words):
         build()
-
-
-def test_each_flat_of_a_row_is_asked_only_where_it_stands(monkeypatch):
-    asked, height = [], Flat.height
-
-    def counted(profile, x):
-        asked.append(np.size(x))
-        return height(profile, x)
-
-    monkeypatch.setattr(Flat, "height", counted)
-    row = Row([Flat(0.3).shifted(float(k)) for k in range(100)])
-    assert len(row.walls) == 99
-    row.height(np.linspace(0.0, 99.0, 5000))
-    assert len(asked) < 500
-    assert sum(asked) < 20_000
 
 
 @pytest.mark.parametrize("seed", range(4))

@@ -79,17 +79,6 @@ def test_cross_validation_finds_the_smallest_score():
     assert score(found) <= min(score(found * factor) for factor in (0.5, 0.8, 1.25, 2.0))
 
 
-def test_knots_that_are_left_out_change_less_than_a_thousandth_of_what_smoothing_does(monkeypatch):
-    x, rng = np.linspace(-1.0, 1.0, 2001), np.random.default_rng(1)
-    h = 0.5 * x * x + 1e-3 * rng.standard_normal(2001)
-    few = sie.Sampled(x, h, 1e-2)
-    assert len(few.pieces.breaks) < 1001
-    monkeypatch.setattr("sie.profiles.splines.ALL_KNOTS", 10_000)
-    every = sie.Sampled(x, h, 1e-2)
-    assert len(every.pieces.breaks) == 2001
-    assert np.abs(few.height(x) - every.height(x)).max() <= 1e-3 * np.abs(h - every.height(x)).max()
-
-
 def test_a_noisy_trace_presses_as_the_smooth_one_within_a_percent():
     x, rng = np.linspace(-2.0, 2.0, 20_001), np.random.default_rng(7)
     smooth = np.cosh(x) - 1.0
@@ -185,13 +174,6 @@ def test_text_in_common_formats_is_read(text, encoding, trace):
     assert trace(text, encoding=encoding) == READ
 
 
-@pytest.mark.parametrize("scale", [1e308, (1e308, 1.0), (1.0, -1e308)])
-def test_a_scale_beyond_the_range_of_doubles_is_refused(scale, trace):
-    says = r"scale = .*beyond the range of doubles: choose other units"
-    with pytest.raises(ValueError, match=says):
-        trace("".join(f"{x},{x * x}\n" for x in range(-20, 21)), scale=scale)
-
-
 def test_columns_are_named_as_in_the_header_or_by_number_and_scaled(trace):
     text = "1 2 3\nno, height (um), X [um]\n" + "\n".join(
         f"{k}, {-1000 * h}, {1000 * x}" for k, (x, h) in enumerate(TABLE)
@@ -225,12 +207,6 @@ def test_lines_that_lack_a_value_are_left_out_if_that_is_asked(trace):
     assert trace("x,h\n-2,4\n-1,\n0,0\n1,nan\n2,4\n3,9\n", mend=True).points.tolist() == [
         *(-2, 0, 2, 3)
     ]
-
-
-@pytest.mark.parametrize("path", [5, None, ["a.csv"], 1.5], ids=repr)
-def test_what_is_no_name_of_a_file_is_refused(path):
-    with pytest.raises(ValueError, match="is not the name of a file"):
-        sie.Sampled.read(path)
 
 
 class Scan:

@@ -10,7 +10,6 @@ from hypothesis import strategies as st
 from traces import H, X, pressed
 
 import sie
-from sie.contact import normal
 
 # -- repeated --------------------------------------------------------------------------------------
 
@@ -94,12 +93,6 @@ def test_the_slope_of_a_noisy_trace_meets_within_its_noise(jump):
 WAVY = sie.Sampled(X, H + 0.1 * np.cos(12.0 * X))
 
 
-def test_one_patch_of_a_rough_trace_is_refused_with_its_intervals_and_what_helps():
-    says = r"for x in \[.*\], \[.*give normal_load.*or smooth the profile"
-    with pytest.raises(sie.ContactError, match=says):
-        sie.solve(sie.Scene(profile=WAVY, modulus=1.0, half_width=0.6)).one_patch()
-
-
 @pytest.mark.slow(but=1)
 @pytest.mark.parametrize(
     "made",
@@ -126,20 +119,6 @@ def test_a_trace_that_no_smoothing_helps_and_a_profile_without_trace_are_refused
         sie.least_smoothing(pressed(sie.Sampled(X, -H)).scene)
     with pytest.raises(ValueError, match="is no trace"):
         sie.least_smoothing(pressed(sie.Parabola(1.0)).scene)
-
-
-@pytest.mark.parametrize("load", [1e-3, 0.3, 2.0])
-def test_a_rough_trace_costs_at_most_one_search_for_one_patch(load, monkeypatch):
-    searches, smoothings = [], []
-    whole = normal.normal_contact
-    counted = lambda *args: searches.append(args) or whole(*args)  # noqa: E731
-    monkeypatch.setattr("sie.frictionless.normal_contact", counted)
-    monkeypatch.setattr("sie.profiles.sampled.cross_validated", smoothings.append)
-    rough = sie.Sampled(X, H + 0.1 * np.cos(40.0 * X))
-    assert len(pressed(rough, load).patches) > 1
-    # none where the load is light and several valleys are known to touch
-    assert len(searches) <= 1
-    assert smoothings == []
 
 
 @pytest.mark.parametrize(

@@ -59,6 +59,7 @@ FORMS = {
 }
 
 
+@pytest.mark.slow(but=4)
 @pytest.mark.parametrize("form", FORMS)
 def test_the_forms_in_which_instruments_write_are_read_whole(form, tmp_path):
     head, row, foot, encoding, count, factor = FORMS[form]

@@ -111,28 +111,9 @@ def test_no_plane_of_a_scan_exceeds_the_critical_one_which_has_its_value(steps, 
         assert there == pytest.approx(worst.value, rel=1e-12)
 
 
-def test_the_factors_of_a_parameter_are_those_of_its_plane():
-    cycle = sie.Cycle([Uniform(150.0, -20.0, 30.0), Uniform(-50.0, 10.0, -60.0)])
-    swt, findley, socie = parameters(cycle, 0.0, 0.0).values()
-    assert swt.value == pytest.approx(swt.amplitude * swt.normal_stress, rel=1e-12)
-    assert findley.value == pytest.approx(findley.amplitude + K * findley.normal_stress, rel=1e-12)
-    factor = 1.0 + K * socie.normal_stress / YIELD
-    assert socie.value == pytest.approx(socie.amplitude * factor, rel=1e-12)
-
-
 def test_a_body_that_is_never_in_tension_has_no_smith_watson_topper():
     cycle = sie.Cycle([Uniform(-S, -S, 0.0), Uniform(-2.0 * S, -S, 10.0)])
     assert cycle.swt(0.0, 0.0).value == 0.0
-
-
-@pytest.mark.parametrize("scale", [1e-90, 1e90])
-def test_the_parameters_scale_with_the_stress(scale):
-    states = [(150.0, -20.0, 30.0), (-50.0, 10.0, -60.0)]
-    one = sie.Cycle([Uniform(*s) for s in states])
-    other = sie.Cycle([Uniform(*(scale * np.array(s)).tolist()) for s in states])
-    for name, power in (("swt", 2.0), ("findley", 1.0)):
-        found, expected = (parameters(c, 0.0, 0.0)[name].value for c in (other, one))
-        assert found == pytest.approx(expected * scale**power, rel=1e-12)
 
 
 # -- places --------------------------------------------------------------------------------------

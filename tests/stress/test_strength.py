@@ -5,13 +5,12 @@ brute force.
 import numpy as np
 import pytest
 import strategies
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 import sie
 from analytic import rounded_flat
 from oracles.normal_contact import mp
-from sie.stress import peak_search
 
 NU = 0.3
 # P/(bk) and whether it is on the surface: NUMERICS' table, computed with mpmath from the closed
@@ -123,14 +122,11 @@ def test_hertz_yields_below_the_centre_and_in_sliding_on_the_surface_as_in_johns
 
 @pytest.mark.parametrize("a", [0.13, 0.15, 0.3, 0.7])
 def test_both_of_two_tied_maxima_are_reported(a):
+    """They are one, on the axis, up to a/b = 0.125."""
+    (place,) = punch(0.125).elastic_limit().places
+    assert abs(place[0]) <= 1e-8
     (left, depth), (right, other) = punch(a).elastic_limit().places
     assert left == pytest.approx(-right, abs=1e-8) and depth == pytest.approx(other, abs=1e-8)
-
-
-@pytest.mark.parametrize("a", [0.0, 0.05, 0.1, 0.125])
-def test_below_the_fork_there_is_one_maximum_on_the_axis(a):
-    (place,) = punch(a).elastic_limit().places
-    assert abs(place[0]) <= 1e-8
 
 
 def test_the_jump_to_the_surface_leaves_the_limit_continuous():
@@ -143,7 +139,6 @@ def test_the_jump_to_the_surface_leaves_the_limit_continuous():
 
 
 @pytest.mark.slow
-@settings(max_examples=15)
 @given(
     strategies.scenes(sharp=False),
     strategies.between(0.0, 0.6),
@@ -202,7 +197,6 @@ def test_bulk_stress_adds_to_the_tension_and_is_all_there_is_without_friction():
     assert punch(0.3, bulk_stress=0.5).peak_tension().value == pytest.approx(0.5, rel=1e-12)
 
 
-@settings(max_examples=15)
 @given(strategies.scenes(sharp=False), st.floats(0.05, 0.6))
 def test_no_point_of_the_surface_has_more_tension(scene, friction):
     solution = sie.solve(scene)
@@ -227,7 +221,8 @@ def test_an_unknown_criterion_is_refused():
         punch(0.3).elastic_limit("rankine")
 
 
-@pytest.mark.parametrize("length", [1e-100, 1e-40, 1e100])
+@pytest.mark.slow(but=4)
+@pytest.mark.parametrize("length", [1e-100, 1e100])
 @pytest.mark.parametrize("modulus", [1e-100, 1e100])
 @pytest.mark.parametrize("criterion", ["mises", "tresca"])
 def test_no_unit_of_length_or_stress_changes_the_elastic_limit(length, modulus, criterion):
@@ -275,40 +270,6 @@ def test_an_incompressible_body_under_a_wedge_yields_beneath_the_apex(criterion)
     assert found.places == ((0.0, 0.0),) and found.j2 == pytest.approx(found.stress**2)
 
 
-@pytest.mark.parametrize("tension", [0.0, -0.05])
-def test_an_incompressible_body_in_partial_slip_yields_beside_the_apex_of_a_wedge_in_some_direction(
-    tension,
-):
-    given = {"friction": 0.5, "tangential_load": 0.04, "bulk_stress": tension}
-    scene = sie.Scene(profile=sie.Wedge(0.1), body=RUBBER, normal_load=0.2, **given)
-    solution = sie.solve(scene)
-    angle = np.linspace(1e-3, np.pi - 1e-3, 20001)
-    beside = np.sqrt(solution.stress(1e-13 * np.cos(angle), 1e-13 * np.sin(angle)).j2)
-    assert beside.max() == pytest.approx(solution.elastic_limit().stress, rel=1e-6)
-
-
-def test_a_break_next_to_the_weakest_point_is_not_tied_with_it():
-    f, b = 0.4, 1.0
-    weakest = b * f / np.sqrt(1.0 + f * f)  # of the sliding line contact, on the surface
-    parabola = sie.Piecewise((weakest + 2e-6 * b,), ((0.0, 1.0), (0.0, 1.0)))
-    solution = sie.solve(sie.Scene(profile=parabola, modulus=1.0, poisson=NU, half_width=b))
-    found = solution.with_(friction=f, tangential_load=f * solution.normal_load).elastic_limit()
-    assert len(found.places) == 1 and found.x == pytest.approx(weakest, abs=1e-8)
-
-
-def test_a_compressive_bulk_stress_that_is_exceeded_nowhere_is_the_largest_tension():
-    """With Q = 0 slip only adds to it on both sides; it is approached far away."""
-    scene = sie.Scene(
-        profile=sie.RoundedFlat(0.6, 5.0),
-        modulus=1.0,
-        normal_load=5e-3,
-        friction=0.3,
-        bulk_stress=-1e-4,
-    )
-    value, x = sie.solve(scene).peak_tension()
-    assert value == -1e-4 and abs(x) > 100.0
-
-
 # -- maxima beside edges and breaks, and what they cost -------------------------------------------
 
 
@@ -346,36 +307,6 @@ def test_beside_the_corner_of_an_incompressible_body_no_depth_is_worse(case, cri
         assert around(solution, x, criterion) <= found.stress * (1 + 1e-12)
 
 
-def test_the_largest_stress_of_an_incompressible_body_may_lie_just_beside_a_corner():
-    """Ten digits: a search over distances from the corner and directions."""
-    profile = sie.Piecewise(
-        (-0.78515625, 0.15234375),
-        ((-0.5055084228515625, 0.37109375), (0.01171875, 0.0), (-0.5535736083984375, 3.94140625)),
-    )
-    solution = sie.solve(
-        sie.Scene(
-            profile=profile,
-            modulus=0.13998032674729158,
-            poisson=0.5,
-            normal_load=0.005251772486469636,
-        )
-    )
-    found = solution.elastic_limit()
-    r, corner = solution.half_width, profile.breaks[0]
-    assert 0.0 < found.y <= 1e-4 * r and abs(found.x - corner) <= 1e-4 * r
-    depth, angle = np.log(3e-5), 0.5 * np.pi
-    for size in 0.6 ** np.arange(30):
-        radius, turn = np.meshgrid(
-            np.exp(depth + size * np.linspace(-1, 1, 41)),
-            angle + 0.1 * size * np.linspace(-1, 1, 41),
-        )
-        stress = np.sqrt(solution.stress(corner + radius * np.cos(turn), radius * np.sin(turn)).j2)
-        k = stress.argmax()
-        depth, angle = np.log(radius.flat[k]), turn.flat[k]
-    limit = np.sqrt(solution.stress(corner, 1e-14).j2)
-    assert found.stress >= limit * (1 + 1e-6)
-
-
 @pytest.mark.slow
 def test_next_to_the_end_of_a_stick_zone_no_depth_is_worse():
     profile = sie.Piecewise((-0.25, 0.125), ((0.25, 1.0), (0.5, 2.0), (0.375, 3.0)))
@@ -396,28 +327,3 @@ def test_next_to_the_end_of_a_stick_zone_no_depth_is_worse():
         *(b for b in profile.breaks if solution.edges[0] < b < solution.edges[1]),
     ):
         assert around(solution, x) <= found.stress * (1 + 1e-12)
-
-
-@pytest.mark.slow(but=2)
-@pytest.mark.parametrize("exponent", [1.2644369020018338, 1.51, 1.67])
-@pytest.mark.parametrize("poisson", [0.0, 0.3, 0.5])
-def test_a_cusp_takes_no_more_points_than_other_profiles(exponent, poisson, monkeypatch):
-    """The panels that resolve a cusp close in on it for hundreds of octaves; the scan does not
-    follow all of them.
-    """
-    counted = []
-    asked = peak_search.potentials
-    monkeypatch.setattr(
-        peak_search,
-        "potentials",
-        lambda tractions, z: (counted.append(len(z)), asked(tractions, z))[1],
-    )
-    scene = sie.Scene(
-        profile=sie.Power(exponent, 0.139),
-        modulus=1.0,
-        poisson=poisson,
-        normal_load=0.05,
-        tilt=1.2e-3,
-    )
-    sie.solve(scene).elastic_limit()
-    assert sum(counted) <= 3e4

@@ -4,11 +4,9 @@ import tracemalloc
 
 import numpy as np
 import pytest
-from stress_cases import PUNCH, SCENES, SHARP, STEEL, sliding
+from stress_cases import PUNCH, STEEL, sliding
 
 import sie
-from sie.stress.half_plane import Stress, Tractions
-from sie.traction.base import Density
 
 # -- invariants ------------------------------------------------------------------------------------
 
@@ -28,100 +26,28 @@ def test_invariants_are_those_of_the_matrix_of_components(plane):
         assert s.max_shear[k] == pytest.approx(0.5 * (principal[0] - principal[2]), rel=1e-11)
 
 
-def test_where_the_pressure_is_infinite_nothing_is_nan():
-    for scene in (SCENES["wedge"], SHARP):
-        for friction in (0.0, 0.3):
-            solution = sliding(scene, friction) if friction else sie.solve(scene)
-            s = solution.surface_stress(np.array([*solution.edges, 0.0]))
-            for values in (s.xx, s.yy, s.xy, s.zz, s.j2, s.mises, s.max_shear, *s.principal):
-                assert not np.isnan(values).any()
+BONDED = sie.Scene(
+    profile=sie.Flat(0.8), body=sie.Elastic(3.0, 0.2), indenter=sie.Elastic(40.0, 0.3),
+    normal_load=2.0, friction=np.inf,
+)  # fmt: skip
+RUBBER = sie.Elastic(210e3, 0.5)
+INFINITE = {
+    "wedge": sie.solve(sie.Scene(profile=sie.Wedge(0.2), body=STEEL, normal_load=9.0)),
+    "sharp edges": sie.solve(sie.Scene(profile=sie.Flat(1.0), body=STEEL, normal_load=9.0)),
+    "wedge, sheared": sliding(sie.Scene(profile=sie.Wedge(0.2), body=STEEL, normal_load=9.0)),
+    "incompressible": sliding(sie.Scene(profile=sie.Flat(1.0), body=RUBBER, normal_load=9.0)),
+    "bonded": sie.solve(BONDED),
+}
 
 
-@pytest.mark.parametrize("body", [STEEL, sie.Elastic(210e3, 0.5)], ids=["steel", "incompressible"])
-def test_where_the_shear_is_infinite_no_displacement_gradient_is_nan(body):
-    for profile in (sie.Wedge(0.2), sie.Flat(1.0)):
-        solution = sliding(sie.Scene(profile=profile, body=body, normal_load=9.0))
-        s = solution.surface_stress(np.array([*solution.edges, 0.0]))
-        for values in (*s.strain, *s.gradients):
-            assert not np.isnan(values).any()
-
-
-def test_displacement_gradients_next_to_an_infinite_shear_have_the_signs_of_those_there():
-    solution = sliding(sie.Scene(profile=sie.Wedge(0.2), body=STEEL, normal_load=9.0))
-    at, beside = solution.stress(0.0, 0.0).gradients, solution.stress(0.0, 1e-200).gradients
-    assert (at.xy, at.yx) == (-np.inf, np.inf) and beside.xy < 0.0 < beside.yx
-
-
-def test_at_the_edges_of_a_bonded_punch_nothing_is_nan():
-    body, indenter = sie.Elastic(3.0, 0.2), sie.Elastic(40.0, 0.3)
-    solution = sie.solve(
-        sie.Scene(
-            profile=sie.Flat(0.8), body=body, indenter=indenter, normal_load=2.0, friction=np.inf
-        )
-    )
-    s = solution.surface_stress(solution.edges)
-    for values in (*s, s.mises, *s.principal, *s.strain, *s.gradients):
+@pytest.mark.parametrize("solution", INFINITE.values(), ids=INFINITE)
+def test_where_a_traction_is_infinite_nothing_is_nan(solution):
+    s = solution.surface_stress(np.array([*solution.edges, 0.0]))
+    for values in (*s, s.j2, s.mises, s.max_shear, *s.principal, *s.strain, *s.gradients):
         assert not np.isnan(values).any()
-    assert solution.elastic_limit().load == 0.0 and solution.peak_tension().value == np.inf
 
 
-# -- only what is asked for ------------------------------------------------------------------------
-
-
-class Watched(Density):
-    """A density that records its evaluations."""
-
-    def __init__(self, density):
-        self.density, self.asked = density, []
-        self.resultant, self.moment = density.resultant, density.moment
-
-    @property
-    def interval(self):
-        return self.density.interval
-
-    def __call__(self, x):
-        self.asked.append("p")
-        return self.density(x)
-
-    def cauchy(self, z, side=1):
-        self.asked.append("F")
-        return self.density.cauchy(z, side)
-
-    def cauchy_derivative(self, z, side=1):
-        self.asked.append("F'")
-        return self.density.cauchy_derivative(z, side)
-
-    def hilbert(self, x):
-        self.asked.append("hilbert")
-        return self.density.hilbert(x)
-
-
-def watched():
-    pressure = Watched(sie.solve(PUNCH).pressure)
-    return pressure, Tractions(pressure, sie.superposed((0.3, pressure)), 0.0, 0.3)
-
-
-def test_on_the_surface_no_potential_is_computed():
-    pressure, tractions = watched()
-    s = Stress(tractions, np.linspace(-2, 2, 11), 0.0)
-    assert pressure.asked == []
-    assert s.mises.shape == s.xx.shape == (11,)
-    assert set(pressure.asked) == {"p", "hilbert"}
-
-
-def test_the_sum_of_the_in_plane_stresses_needs_no_derivative():
-    pressure, tractions = watched()
-    s = Stress(tractions, 0.2, 0.5)
-    value = s.in_plane_sum
-    assert pressure.asked == ["F"]
-    assert value == pytest.approx(float(s.xx + s.yy))
-
-
-def test_pressure_and_shear_in_full_sliding_share_one_evaluation():
-    pressure, tractions = watched()
-    s = Stress(tractions, np.array([0.2, 0.3]), 0.5)
-    assert (s.xx.shape, s.mises.shape, s.principal[0].shape) == ((2,), (2,), (2,))
-    assert pressure.asked == ["F", "F'"]
+# -- memory ----------------------------------------------------------------------------------------
 
 
 def test_a_million_points_hold_at_most_ten_arrays_of_that_size():

@@ -16,7 +16,7 @@ PROFILES = {
     "function": sie.FromFunction(slope="sinh(x)"),
     "function without slope": sie.FromFunction(slope="0*x", domain=(-1.0, 1.0)),
     "shifted": sie.Parabola(1.0).shifted(3.0),
-    "kinked": sie.Piecewise((-2.0, -0.4, 0.4, 2.0), ((-0.8, 1.0), (0.0, 0.5), (0.8, 1.0))),
+    "kinked": sie.Piecewise((-2.0, -0.4, 0.4, 2.0), ((0.6, 2.0), (0.0, 0.5), (-0.6, 2.0))),
 }
 
 

@@ -2,7 +2,6 @@
 that are misprinted.
 """
 
-import numpy as np
 import pytest
 from hypothesis import given, settings
 from strategies import between, log_between
@@ -55,10 +54,3 @@ def test_the_principal_value_of_one_over_x_is_a_logarithm():
             abs(found - mp.log(abs((1 - mp.mpf(pole)) / (1 + mp.mpf(pole)))))
             < mp.mpf(10) ** -DIGITS
         )
-
-
-def test_the_global_precision_stays():
-    import mpmath  # noqa: PLC0415
-
-    assert mpmath.mp.dps == 15
-    assert np.isfinite(float(mp.pi))

@@ -13,7 +13,6 @@ import time
 from collections.abc import Sequence
 from dataclasses import dataclass
 from html import escape
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -50,13 +49,7 @@ td.number { font-variant-numeric: tabular-nums; white-space: nowrap }
   table.claims td[data-label]::before { content: attr(data-label) ": "; color: var(--soft) }
 }
 """
-ROOT = Path(__file__).resolve().parents[2]
 HEADER = ("verdict", "claim", "by", "measured", "bar", "on a wrong input")
-
-CODE = {
-    True: "Each claim links to the file that measures it, in the repository around this page.",
-    False: "Below each topic stands the file of the repository that measures its claims.",
-}
 
 
 @dataclass(frozen=True)
@@ -76,14 +69,8 @@ class Section:
         return f"validation/topics/{self.name}.py"
 
 
-def way_to_code(out: Path) -> str:
-    """The way from a page in this folder to the repository; none from a folder outside of it."""
-    folder = out.resolve()
-    return f"{os.path.relpath(ROOT, folder)}/" if folder.is_relative_to(ROOT) else ""
-
-
-def page(sections: Sequence[Section], seconds: float, quick: bool, way: str = "") -> str:
-    """The page; with a way to the repository (`way_to_code`) each claim links to its code."""
+def page(sections: Sequence[Section], seconds: float, quick: bool) -> str:
+    """The page, which needs no other file."""
     claims = [c for s in sections for c in s.found.claims]
     counts = ", ".join(
         f"{sum(c.verdict == v for c in claims)} {v}" for v in ("holds", "refuted", "fails", "blind")
@@ -96,9 +83,10 @@ def page(sections: Sequence[Section], seconds: float, quick: bool, way: str = ""
         "has a number measured in this run, a bar, and the same measure on a wrong input, which "
         "must miss it: a measure that its wrong input passes is called blind, and proves nothing. "
         "Refuted: a claim of the paper that is listed among its errata; there the control is the "
-        f"corrected form, which must meet the bar. {CODE[bool(way)]}</p><nav>{links}</nav>"
+        "corrected form, which must meet the bar. Below each topic stands the file of the "
+        f"repository that measures its claims.</p><nav>{links}</nav>"
     ]
-    body += [_section(s, way) for s in sections]
+    body += [_section(s) for s in sections]
     return (
         '<!doctype html><html lang="en"><head><meta charset="utf-8"><meta name="viewport" '
         'content="width=device-width, initial-scale=1">'
@@ -116,11 +104,10 @@ def machine() -> str:
     )
 
 
-def _section(s: Section, way: str) -> str:
+def _section(s: Section) -> str:
     parts = [f'<section id="{s.name}"><h2>{escape(s.title)}</h2>{_prose(s.introduction)}']
     if s.found.claims:
-        link = f' <a href="{escape(way + s.code)}">code</a>' if way else ""
-        parts.append(_claims(s.found.claims, link))
+        parts.append(_claims(s.found.claims))
     if s.figures:
         parts.append('<div class="figures">' + "".join(map(_figure, s.figures)) + "</div>")
     parts += [_table(t) for t in s.found.tables]
@@ -138,7 +125,7 @@ def _prose(text: str) -> str:
     )
 
 
-def _claims(claims: Sequence[Claim], link: str) -> str:
+def _claims(claims: Sequence[Claim]) -> str:
     rows = []
     for c in claims:
         what = escape(c.what) + (
@@ -148,7 +135,7 @@ def _claims(claims: Sequence[Claim], link: str) -> str:
         cells: tuple[str, ...] = (
             f'<td><span class="badge {c.verdict}">{c.verdict}</span></td>',
             f"<td>{what}</td>",
-            _cell("by", escape(c.by) + link),
+            _cell("by", escape(c.by)),
         )
         cells += (
             _cell("measured", number(c.measured), "number"),

@@ -26,7 +26,9 @@ TITLE = "Economy: what a scene does not need is not computed"
 SECONDS = (2.0, 5.0)
 TIMED = True
 SAME = 1e-13
-SAVED, NO_LOSS = 1.3, 1.0  # least ratios of steps: all skips together, and one alone
+# least ratios of steps: all skips together, and one alone. The look at convexity, which is skipped,
+# is a fourth of the steps of a tilted rounded flat no more.
+SAVED, NO_LOSS = 1.1, 1.0
 COLUMNS = (
     "time [ms]",
     "without skips [ms]",

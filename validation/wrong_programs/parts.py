@@ -284,7 +284,7 @@ PARTS: tuple[tuple[str, str, Callable[[bool], float]], ...] = (
         "Gauss-Chebyshev weights next to frictional edges",
         partial(
             number,
-            _instead(piece_quadrature, "edge_rule", lambda right, n, power: right(n, -0.5)),
+            _instead(piece_quadrature, "gauss_jacobi", lambda right, n, a, b: right(n, a, -0.5)),
             _sliding,
             _true_sliding,
         ),

@@ -7,17 +7,21 @@ on |x| < c, and in c < |x| < 1 the body slips outwards, q = f p sgn x. With θ =
     (1 - β²) p(x) = 2/π ∫_1^∞ η D(η)/(η² - x²) dη   |x| < c, from (12) and (1) by H² = -1
     F = χ Ψ,   χ = |(c² - x²)/(1 - x²)|^h,   Ψ = 1/π ∫_-c^c (p/χ)/(z - ξ) dξ     from (1) in slip
 
-In ξ = c sn u and η = 1/sn u, with the modulus c, both steps are one symmetric positive kernel
+In ξ = c t and η = 1/(c t) both steps are one symmetric positive kernel, with o = 1 - c² t²,
 
-    K v(u') = ∫_0^K 2 cn^2θ dn^(2-2θ) v(u)/(1 - c² sn²u sn²u') du,      sqrt(1 - β²) = c^θ λ/π,
+    K v(s) = ∫_0^1 2 (1 - t²)^(θ-1/2) o^(1/2-θ) v(t)/(1 - c² t² s²) dt,     sqrt(1 - β²) = c^θ λ/π,
 
-λ its largest eigenvalue, v(u) = p(c sn u). The singularities of all functions are one quarter
-period off the interval: a Gauss-Jacobi rule converges geometrically for every c. At θ = 0 λ is π
-with v0 = 1/dn; tested with v0 the condition needs no difference of numbers of order one,
+λ its largest eigenvalue, v(t) = p(c t). At θ = 0 λ is π with v0 = o^(-1/2); tested with v0 the
+condition needs no difference of numbers of order one,
 
-    ε = c^θ λ/π - 1 = ∫ dn v expm1(θ ln(c cn²/dn²)) du / ∫ dn v du,     -ε (2 + ε) = β²,
+    ε = c^θ λ/π - 1 = ∫ w v expm1(θ ln(c (1-t²)/o)) dt / ∫ w v dt,   -ε (2 + ε) = β²,
 
-which fixes K'/K and so c and 1 - c, both to relative accuracy.
+with w = (1 - t²)^(-1/2), which fixes K'/K of the modulus c and so c and 1 - c, both to relative
+accuracy. The rule is that of `pieces`.
+
+The rates of every other contact are those of the flat punch between the same edges, whatever the
+profile (docs/derivations/coupled_slip.md): D, and the rate of the slip gradient γ = Hq + β p, are
+what is needed of it.
 
 Spence (1973, 1975) for the problem; Muskhelishvili (1953) §§ 107-114 for the exponents.
 """
@@ -25,203 +29,298 @@ Spence (1973, 1975) for the problem; Muskhelishvili (1953) §§ 107-114 for the 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import cached_property, lru_cache
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple, cast
 
 import numpy as np
 from numpy.typing import NDArray
 
-from sie.numerics.elliptic import Modulus, elliptic_functions, modulus_of_ratio
-from sie.numerics.gauss_jacobi import gauss_jacobi, with_weight
+from sie.numerics.elliptic import Modulus, modulus_of_ratio
+
+from .fields import SHIFTS, Fields, cumulative, interpolated
+from .pieces import FINEST, Pieces, Places
+from .state import Question, State
+
+if TYPE_CHECKING:
+    from .half_slope import HalfSlope
 
 Array = NDArray[np.float64]
 
-# -ln of the error that a rule may leave: of even functions, of others, and, beside a factor of at
-# most e^-12, of products of the kernel and the pressure
-DIGITS, ACROSS, OF_KERNEL = 38.0, 46.0, 25.0
-NEARER = 0.8  # of K'/K: the nearest singularity of weights and of what is derived from the solution
-SPARE = 4
-LONG = 0.4  # K'/K below it: a rule of all nodes at once would lose digits of its weights
-# Nodes of the double exponential rule for the logarithm in ε: its step, and where it is cut.
-STEP, LAST = 0.09, 42
+STEP = FINEST.step
+
+WIDE = 116.0  # |v| at the ends of the stick zone, where 1 - c has its digits
 # Where 1 - c is less than this the punch sticks all over, to the resolution of doubles.
 FULL_STICK = 1e-15
 # K'/K where 1 - c = c'²/2 is that, as c' = 4 exp(-π K/2K'); nearer than DOUBTFUL the guess cannot
 # tell
 NARROWEST_RATIO, DOUBTFUL = math.pi / math.log(8.0 / FULL_STICK), 1.05
-# beyond it c = 4 exp(-π K'/2K) is lost even beside a double's smallest lengths; c² is a double
-WIDEST_RATIO = 200.0
 SETTLED, MOST_STEPS = 1e-13, 20  # of the search for K'/K: where a step ends it
-TOGETHER = 2**13  # entries of a matrix that are computed at once
 ALIKE = 1e-8  # the ratios that bound an eigenvalue, where one more step ends the iteration
+FAINT = 1e-17  # of the load: poles of D that are left out
+# v in the slip zone between which γ is tabulated: beyond, it is a power of the distance
+NEAREST_C, NEAREST_EDGE = -28.0, 40.0
+FINER, FEW = (
+    4,
+    8,
+)  # tables of the slip gradient: finer than the rule, and points of an interpolation
+MIRRORED = 20  # places of the table beyond infinity
 
 
 @dataclass(frozen=True, eq=False)
 class FlatPunch:
-    """The solution of the eigenvalue problem, for P = 1 on |x| < 1.
+    """The flat punch for P = 1 on |x| < 1.
 
     beta, friction      β > 0 and f
     bonded              whether the slip zone is narrower than FULL_STICK; f is then that which
                         makes it about so wide
     modulus             k = c, the half-width of the stick zone
-    square, remainder   sn² and cn² at the nodes
-    weight              of the rule for 2 cn^2θ dn^(2-2θ) du
-    pressure            p(c sn u) at the nodes
-    eigenvalue          λ
+    pressure            p at the places c t of the rule, from the axis outwards
     """
 
     beta: float
     friction: float
     bonded: bool
     modulus: Modulus
-    square: Array = field(repr=False)
-    remainder: Array = field(repr=False)
-    weight: Array = field(repr=False)
     pressure: Array = field(repr=False)
-    eigenvalue: float
 
-    @cached_property
+    @property
+    def c(self) -> float:
+        return self.modulus.k
+
+    @property
+    def rest(self) -> float:
+        """1 - c to relative accuracy."""
+        return self.modulus.rest
+
+    @property
     def theta(self) -> float:
         return math.atan(self.beta * self.friction) / math.pi
 
     @property
     def exponent(self) -> float:
-        """h = 1/2 - θ, θ = arctan(βf)/π: p ~ (1 - x)^-h."""
-        # Of a large βf, 1/2 - θ would lose digits
+        """h = 1/2 - θ: p ~ (1 - x)^-h; of a large β f the difference would lose digits."""
         return math.atan2(1.0, self.beta * self.friction) / math.pi
 
+    # -- beside the contact ------------------------------------------------------------------------
+
     @cached_property
-    def kernel_of_one(self) -> Array:
-        """K 1 at the nodes."""
-        return sum_of_poles(*_poles(self.modulus, self.remainder), self.remainder, self.weight)
+    def _poles(self) -> tuple[Array, Array, Array]:
+        """Places in stick, their distances from 1, and what D has there."""
+        t, near, dt = _half_rule()
+        one, o = _squares(self.modulus, t, near)
+        mass = 2.0 * dt * self.c ** (2.0 * self.theta) * self.pressure
+        mass *= one ** (self.theta - 0.5) * o**self.exponent
+        kept = mass > FAINT
+        return self.c * t[kept], self.rest + self.c * near[kept], mass[kept]
+
+    def outside(self, E: Array) -> Array:
+        """D at 1 + E."""
+        place, distance, mass = self._poles
+        flat = E.ravel()
+        kernel = (flat[:, None] + distance) * ((1.0 + flat)[:, None] + place)
+        np.divide(1.0 / math.pi, kernel, out=kernel)
+        chi = ((flat + self.rest) * (1.0 + self.c + flat) / (flat * (2.0 + flat))) ** self.exponent
+        D: Array = chi * (1.0 + flat) * (kernel @ mass)
+        return D.reshape(E.shape)
+
+    # -- the slip gradient -------------------------------------------------------------------------
+
+    @cached_property
+    def state(self) -> State:
+        """The same as a state."""
+        return state_of_flat(self, 1.0, 1.0)
+
+    @cached_property
+    def _fields(self) -> Fields:
+        return Fields(self.state)
+
+    @cached_property
+    def _in_slip(self) -> Table:
+        """γ e^(-h v) and the integral of γ, in c < x < 1, by v = ln((x - c)/(1 - x))."""
+        first, rows = self._fields.tables[2]
+        v = first + STEP / SHIFTS * np.arange(rows.shape[1])
+        e = np.exp(-np.abs(v))
+        slip = cumulative(rows[2] * self.rest * e / (1.0 + e) ** 2) * (STEP / SHIFTS)
+        kept = (v > NEAREST_C) & (v < NEAREST_EDGE)
+        gamma = rows[2] * np.exp(-self.exponent * v)
+        return finer(float(v[kept][0]), np.stack((gamma, slip))[:, kept])
+
+    def gradient(self, from_c: Array, e: Array) -> Array:
+        """γ at c + from_c = 1 - e."""
+        v = np.log(from_c / e)
+        values: Array = self._in_slip(0, v) * np.exp(self.exponent * v)
+        return values
+
+    def slip(self, from_c: Array, e: Array) -> Array:
+        """The integral of γ from c."""
+        return self._in_slip(1, np.log(from_c / e))
+
+    @cached_property
+    def _beyond(self) -> Table:
+        """γ τ² (1 - τ^-2)^h at τ > 1, by w = ln((τ - 1)/(τ + 1)), in which it is even."""
+        step = STEP / SHIFTS
+        lowest = math.floor((-33.0 + math.log(0.5 * self.rest)) / step)
+        w = step * np.arange(lowest, 0)
+        E = 2.0 * np.exp(w) / -np.expm1(w)
+        fields, anchor = self._fields, np.full(len(E), 3)
+        none = np.zeros(len(E), dtype=int)
+        (t, (_, q, _)), outside = fields.whole, Places(anchor, E, 1.0 + E, none, none, none)
+        moment = t.weight * q * t.x / math.pi
+        values = (1.0 + E) * ((1.0 / fields.state.pieces.apart(outside, t)) @ moment)
+        values *= (E * (2.0 + E) / (1.0 + E) ** 2) ** self.exponent
+        whole = np.concatenate((values, [moment.sum()], values[: -MIRRORED - 1 : -1]))
+        return finer(lowest * step, whole[None])
+
+    def gradient_beside(self, E: Array) -> Array:
+        """γ at 1 + E, which is no more than Hq."""
+        square = (1.0 + E) ** 2
+        values = self._beyond(0, np.log(E / (2.0 + E)))
+        return values * (E * (2.0 + E) / square) ** -self.exponent / square
 
 
-def nodes_for(ratio: float) -> int:
-    """The number of nodes of a Gauss rule that resolves singularities at ±i ratio.
+@dataclass(frozen=True, eq=False)
+class Table:
+    """Rows of functions of v at equidistant v."""
 
-    It holds for even functions on (-1, 1).
-    """
-    return math.ceil(DIGITS / (4.0 * math.asinh(ratio))) + SPARE
+    first: float
+    step: float
+    rows: Array = field(repr=False)
 
-
-def long_rule(
-    ratio: float, a: float, b: float, digits: float = ACROSS
-) -> tuple[Array, Array, Array]:
-    """Nodes on (0, 1), their distances from 1, and weights for the powers a at 1 and b at 0.
-
-    The nearest singularities are at half the interval's length times ratio.
-
-    A long interval is cut, as few nodes cost less to find.
-    """
-    n = math.ceil(1.0 / ratio)
-    nodes = math.ceil(digits / (2.0 * math.asinh(NEARER * min(n * ratio, 1.5)))) + SPARE
-    if n == 1:
-        return with_weight(nodes, a, b)
-    ends = with_weight(nodes, 0.0, b), with_weight(nodes, a, 0.0)
-    panels = (ends[0], *[with_weight(nodes, 0.0, 0.0)] * (n - 2), ends[1])
-    x = np.concatenate([(k + panel.x) / n for k, panel in enumerate(panels)])
-    rest = np.concatenate([(n - 1 - k + panel.rest) / n for k, panel in enumerate(panels)])
-    return x, rest, np.concatenate([panel.weight / n for panel in panels])
+    def __call__(self, row: int, v: Array) -> Array:
+        last = self.first + self.step * (self.rows.shape[1] - 1)
+        place = (np.clip(v, self.first, last) - self.first) / self.step
+        values: Array = interpolated(self.rows[row : row + 1], place.ravel(), FEW)[0]
+        return values.reshape(v.shape)
 
 
-def _kernel(modulus: Modulus, one: Array, other: Array) -> Array:
-    """1/(1 - c² sn²u sn²u') from both cn²: nothing cancels as c approaches 1."""
-    near, rise = _poles(modulus, one)
-    kernel = rise[:, None] * other
-    kernel += near[:, None]
-    return np.divide(1.0, kernel, out=kernel)
+def finer(first: float, rows: Array) -> Table:
+    """A table from one in steps of STEP/SHIFTS, so fine that FEW points suffice."""
+    place = np.arange((rows.shape[1] - 1) * FINER + 1) / FINER
+    return Table(first, STEP / SHIFTS / FINER, interpolated(rows, place))
 
 
-def _poles(modulus: Modulus, one: Array) -> tuple[Array, Array]:
-    """Its denominator as a linear function of the other cn²."""
-    square = modulus.k**2
-    return modulus.complement**2 + square * one, square * (1.0 - one)
+def state_of_flat(flat: FlatPunch, b: float, load: float) -> State:
+    """The flat punch of the half-width b as a state."""
+    question = Question(
+        flat.beta, flat.friction, cast("HalfSlope", _NoSlope()), np.zeros_like, load, 0.0
+    )
+    widths = flat.rest * b, 2.0 * flat.c * b, flat.rest * b
+    pieces = _Sharp(-b, widths, (-1, 0, 1), (), (), flat.theta, FINEST)
+    return _Flat(pieces, question, load / b * flat.pressure)
 
 
-def sum_of_poles(near: Array, rise: Array | float, remainder: Array, masses: Array) -> Array:
-    """Σ masses/(near + rise remainder), of a few places at a time: larger matrices cost more."""
-    rise = np.broadcast_to(rise, near.shape)
-    total, step = np.empty(len(near)), max(1, TOGETHER // len(masses))
-    for k in range(0, len(near), step):
-        part = slice(k, k + step)
-        poles = rise[part, None] * remainder
-        poles += near[part, None]
-        total[part] = np.divide(1.0, poles, out=poles) @ masses
-    return total
+class _NoSlope:
+    """h' = 0."""
+
+    kinks = ()
+
+    def __call__(self, x: Array) -> Array:
+        return np.zeros(x.shape)
+
+    def principal(self, contact: tuple[float, float], x: Array, left: Array, right: Array) -> Array:
+        return np.zeros(len(x))
 
 
-def _quarter(ratio: float, theta: float) -> tuple[Array, Array, Array]:
-    """Parts of the quarter period, what remains of it, and weights; K'/K is about ratio.
+class _Sharp(Pieces):
+    """The zones of a contact whose edges are corners: the exponents there are smaller by 1."""
 
-    The rule is for even functions with the power 2θ at the end.
-    """
-    if ratio < LONG:
-        return long_rule(2.0 * ratio, 2.0 * theta, 0.0, OF_KERNEL)
-    square, rest, weight = gauss_jacobi(nodes_for(NEARER * min(ratio, 1.5)), 2.0 * theta, -0.5)
-    part = np.sqrt(square)
-    return part, rest / (1.0 + part), 0.5 * weight * rest ** (-2.0 * theta)
+    @cached_property
+    def powers(self) -> Array:
+        powers = Pieces.powers.func(self)
+        powers[[0, -1]] -= 1.0
+        return powers
 
+    @property
+    def slip_zones(self) -> int:
+        return 0
 
-class Trial(NamedTuple):
-    """What -ε (2 + ε) exceeds β² by at some K'/K, and the punch with this stick zone."""
-
-    missed: float
-    punch: FlatPunch
-
-
-def _at_ratio(
-    tau: float, punch: tuple[float, float], near: float, before: FlatPunch | None
-) -> Trial:
-    """The punch of (β, f) at K'/K = τ, by the rule for `near`, from one by the same rule."""
-    (beta, friction), modulus = punch, modulus_of_ratio(tau)
-    theta = math.atan(beta * friction) / math.pi
-    part, rest, weight = _quarter(near, theta)
-    sn, cn, dn = elliptic_functions(modulus, part, rest)
-    W = 2.0 * modulus.K * weight * cn ** (2.0 * theta) * dn ** (2.0 - 2.0 * theta)
-    remainder = cn * cn
-    start = 1.0 / dn if before is None else before.pressure
-    kernel = _kernel(modulus, remainder, remainder)
-    kernel *= W
-    eigenvalue, v = _largest(kernel, start)
-    v /= modulus.k ** (2.0 * theta) * (W @ v)
-    part, rest, dx = double_exponential()
-    _, cn, dn = elliptic_functions(modulus, part, rest)
-    tested = dx * dn * sum_of_poles(*_poles(modulus, cn * cn), remainder, W * v)
-    logarithm = np.log(modulus.k * (cn / dn) ** 2)
-    epsilon = float(tested @ np.expm1(theta * logarithm)) / float(tested.sum())
-    found = FlatPunch(beta, friction, False, modulus, sn * sn, remainder, W, v, eigenvalue)
-    return Trial(-epsilon * (2.0 + epsilon) - beta * beta, found)
+    @cached_property
+    def turns(self) -> Array:
+        return -Pieces.turns.func(self)
 
 
-def _largest(matrix: Array, v: Array) -> tuple[float, Array]:
-    """The largest eigenvalue of a positive matrix, and its positive eigenvector.
+@dataclass(frozen=True, eq=False)
+class _Flat(State):
+    """The state of the flat punch, from its pressure in stick."""
 
-    The largest ratio of (matrix v)/v bounds it, and inverse iteration with this shift keeps v
-    positive and converges quadratically (Noda 1971).
-    """
-    diagonal = matrix.reshape(-1)[:: len(v) + 1]
-    own = diagonal.copy()
-    for _ in range(MOST_STEPS):
-        ratio = (matrix @ v) / v
-        bound = float(ratio.max())
-        diagonal[:] = own - bound
-        v = -np.asarray(np.linalg.solve(matrix, v), dtype=float)
-        diagonal[:] = own
-        v /= v.max()
-        if bound - float(ratio.min()) <= ALIKE * bound:
-            break
-    v = matrix @ v
-    return float((v @ matrix @ v) / (v @ v)), v
+    pressure: Array = field(repr=False)
+
+    @cached_property
+    def _solved(self) -> tuple[Array, Array, Array]:
+        t, eta = self.nodes, self.beside
+        sticks = self.sticks(t)
+        half = self.pressure[: (np.count_nonzero(sticks) + 1) // 2]
+        p, mass = np.concatenate((half[:0:-1], half)), np.zeros(len(t.x))
+        mass[sticks] = p * t.weight[sticks] / self.chi(t)[sticks]
+        chi = np.exp(self.pieces.log_chi(eta))
+        D: Array = chi / math.pi * ((1.0 / self.pieces.apart(eta, t)) @ mass)
+        return mass, D, p
+
+
+# -- the stick zone --------------------------------------------------------------------------------
 
 
 @lru_cache(maxsize=1)
-def double_exponential() -> tuple[Array, Array, Array]:
-    """x, 1 - x and dx on (0, 1), for logarithms at the ends."""
-    t = STEP * np.arange(-LAST, LAST + 1)
-    e = np.exp(np.pi * np.sinh(t))
-    x, rest = e / (1.0 + e), 1.0 / (1.0 + e)
-    return x, rest, STEP * np.pi * np.cosh(t) * x * rest
+def _half_rule() -> tuple[Array, Array, Array]:
+    """t from 0 to 1, 1 - t, and weights for even functions."""
+    v = STEP * np.arange(math.ceil(WIDE / STEP) + 1)
+    e = np.exp(-v)
+    near = 2.0 * e / (1.0 + e)
+    dt = 0.5 * STEP * near * (2.0 - near)
+    dt[0] *= 0.5
+    return -np.expm1(-v) / (1.0 + e), near, dt
+
+
+def _squares(modulus: Modulus, t: Array, near: Array) -> tuple[Array, Array]:
+    """1 - t² and 1 - c² t²."""
+    one = near * (1.0 + t)
+    return one, modulus.complement**2 + modulus.k**2 * one
+
+
+class Trial(NamedTuple):
+    """What -ε (2 + ε) exceeds β² by at some K'/K, the modulus, and p."""
+
+    missed: float
+    modulus: Modulus
+    pressure: Array
+
+
+def _at_ratio(tau: float, pair: tuple[float, float], start: Array | None) -> Trial:
+    """The punch of (β, f) at K'/K = τ, its pressure searched from that of another."""
+    (beta, friction), modulus = pair, modulus_of_ratio(tau)
+    c, theta = modulus.k, math.atan(beta * friction) / math.pi
+    t, near, dt = _half_rule()
+    one, o = _squares(modulus, t, near)
+    weight = 2.0 * dt * one ** (theta - 0.5) * o ** (0.5 - theta)
+    kernel = weight / (o[:, None] + c * c * np.outer(1.0 - one, one))
+    v = _eigenvector(kernel, o**-0.5 if start is None else start)
+    # ln(c (1-t²)/o), which is next to 0 where 1 - t is not small beside 1 - c
+    part = -modulus.rest * (1.0 + c - c * one) / o
+    logarithm = np.where(part > -0.5, np.log1p(np.maximum(part, -0.5)), np.log(c * one / o))
+    tested = dt / np.sqrt(one) * v
+    epsilon = float(tested @ np.expm1(theta * logarithm)) / float(tested.sum())
+    v /= c ** (2.0 * theta) * (weight @ v)
+    return Trial(-epsilon * (2.0 + epsilon) - beta * beta, modulus, v)
+
+
+def _eigenvector(matrix: Array, v: Array) -> Array:
+    """The positive eigenvector of a positive matrix.
+
+    The largest ratio of (matrix v)/v bounds the eigenvalue, and inverse iteration with this shift
+    keeps v positive and converges quadratically (Noda 1971).
+    """
+    diagonal = np.arange(len(v))
+    for _ in range(MOST_STEPS):
+        ratio = (matrix @ v) / v
+        bound = float(ratio.max())
+        shifted = matrix.copy()
+        shifted[diagonal, diagonal] -= bound
+        v = -np.asarray(np.linalg.solve(shifted, v), dtype=float)
+        v /= v.max()
+        if bound - float(ratio.min()) <= ALIKE * bound:
+            break
+    return matrix @ v
 
 
 @lru_cache(maxsize=8)
@@ -232,17 +331,15 @@ def flat_punch(beta: float, friction: float) -> FlatPunch:
     wide: under a larger one the tractions differ only within such a distance of the edges.
     """
     phase = _phase(beta, friction)
-    guess = min(phase / math.atan(friction), WIDEST_RATIO)
-    if guess == WIDEST_RATIO:
-        return _at_ratio(guess, (beta, friction), guess, None).punch
+    guess = phase / math.atan(friction)
     if guess < DOUBTFUL * NARROWEST_RATIO:
         narrowest = NARROWEST_RATIO
         certain = guess < narrowest / DOUBTFUL
-        if certain or _at_ratio(narrowest, (beta, friction), narrowest, None).missed > 0.0:
+        if certain or _at_ratio(narrowest, (beta, friction), None).missed > 0.0:
             friction = math.tan(phase / narrowest)
             friction = math.tan(_phase(beta, friction) / narrowest)
-            return replace(_root(narrowest, beta, friction), bonded=True)
-    return _root(guess, beta, friction)
+            return _root(narrowest, beta, friction, bonded=True)
+    return _root(guess, beta, friction, bonded=False)
 
 
 def _phase(beta: float, friction: float) -> float:
@@ -251,14 +348,15 @@ def _phase(beta: float, friction: float) -> float:
     return beta * (1.0 + square * (0.5 + square / 3.0 + 0.054 * math.atan(friction) ** 2))
 
 
-def _root(guess: float, beta: float, friction: float) -> FlatPunch:
+def _root(guess: float, beta: float, friction: float, bonded: bool) -> FlatPunch:
     """The punch that meets the condition -ε (2 + ε) = β², by the secant method in ln K'/K."""
-    place, slope, step, missed, punch = math.log(guess), 0.0, 0.0, math.inf, None
+    place, slope, step, missed, found = math.log(guess), 0.0, 0.0, math.inf, None
     # As K'/K is about β/arctan(f), and what is missed is a function of it and of βf, less β²
     rise = 2.0 / (1.0 + friction / ((1.0 + friction * friction) * math.atan(friction)))
     for _ in range(MOST_STEPS):
         before = missed
-        missed, punch = _at_ratio(math.exp(place), (beta, friction), guess, punch)
+        found = _at_ratio(math.exp(place), (beta, friction), found.pressure if found else None)
+        missed = found.missed
         if missed == before:
             break
         if math.isfinite(before):
@@ -267,5 +365,5 @@ def _root(guess: float, beta: float, friction: float) -> FlatPunch:
         if abs(step) <= SETTLED:
             break
         place -= step
-    assert punch is not None
-    return punch
+    assert found is not None
+    return FlatPunch(beta, friction, bonded, found.modulus, found.pressure)

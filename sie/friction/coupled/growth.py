@@ -1,276 +1,326 @@
-"""The growth of the load of a symmetric convex profile with its contact.
+"""P' and the middle of the contact, as the contact of dissimilar bodies grows.
 
-Pressure and shear are coupled.
+While the load grows the rates Ṗ, Hp' ... know nothing of the profile: they are those of the flat
+punch on the present contact. With s half the width of the contact, m its middle and D the slope
+beside the flat punch (`flat`), the profile must be met as soon as the edges reach it,
 
-Beside the contact of half-width x, at its edge, equation (1) reads, with P'(s) = dP/ds,
+    ∫ P'(σ) D((x - m(σ))/σ) dσ/σ = E*/2 h'(x)      at x = m(s) + s and at x = m(s) - s,
 
-    ∫_a^x P'(s) D(x/s) ds/s = E*/2 h'(x),        D = χ Ψ of the flat outside (`functions`),
-
-a Volterra equation with D(ρ) ~ (ρ - 1)^-h; a is the half-width of a flat base, else 0. It is
-solved panel by panel from a outwards, P' = (s - a)^h times a polynomial on the first (a jump of
-h' there makes that h - 1) and a polynomial on the others, by collocation. A panel whose series
-does not decay is cut towards its beginning, where kinks of the profile leave powers of the
-distance.
-
-A power law h = A|x|^m has P' = E* A m s^(m-1)/(2 M), M(m) = ∫_1^∞ D ρ^-m dρ, in closed form.
+for all s: two equations for P' = dP/ds and m, one where the profile is symmetric and m the axis. On
+a panel they are collocated: Chebyshev series of P', but for a power of the distance from its
+beginning, and of m. A panel behind a kink of the profile has series in the logarithm of the
+distance from where an edge passed that. The integral is a trapezoidal rule as in `pieces`.
 """
 
 from __future__ import annotations
 
-import itertools
 import math
 from collections.abc import Callable
-from dataclasses import replace
-from typing import NamedTuple
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from sie.numerics import chebyshev
-from sie.numerics.elliptic import elliptic_functions
 from sie.numerics.gauss_jacobi import with_weight
-from sie.numerics.interval import EPS
 
-from .functions import FlatFunctions
-from .load_rate import GrowthPanel, Stack
-from .panels import LONGEST, NODES, graded, totals
+from .flat import FlatPunch
+from .pieces import FINEST
 
 Array = NDArray[np.float64]
 
-DEGREE = 20
-DECAYED = 2e-13  # of a series, its last coefficients
-# Part of the load: rounding of the integrals, which a short panel has to compensate
-NEGLIGIBLE = 256.0 * EPS
-NO_LESS = 0.7  # of what a panel missed before it was cut
-MOST = 300  # panels: beyond, none is cut
-CUT = 0.4  # of a panel: where it is cut
-# Of the distance from a kink: how much it grows on a panel, as a logarithm, how much more so away
-# from the half-width and from the slip zone at the kink, and the last panel at most, in such panels
-FOLDS, LONGER, ALMOST = 3.0, 0.5, 1.25
-SHORTER = 0.5 * LONGEST  # of a panel of v: beside the kernel its integrand has all of the series
-NEAR = 0.5  # of a panel's length: nearer it is integrated on panels that shrink towards x
+STEP = FINEST.step
+
+DEGREE = 24
+NEAR = 0.5  # lengths of a panel: farther from its end a Gauss rule of its DEGREE suffices
+REACH = 34.0  # e-folds of an integrand
+NEWTONS, SETTLED, ROUGH = 20, 1e-13, 1e-9  # steps, and the size of one that ends them
+SHORT_STEP = 1e-2  # after such a step the matrix is kept
+STEEP, LEAST_SHARE = 0.9999, 1e-3  # of 1, |m'|; of a step, the part that may be taken
+SHIFTED = 1e-4  # of the distance from an edge: for derivatives of the kernel
+NOISY = 1e-10
+GRID: Array = np.linspace(-1.0, 1.0, 65)
+LEAST_RISE = 1e-3  # of s: how far an edge moves at least in trials
 
 
-class Piece(NamedTuple):
-    """E*/2 h' on lo <= x <= hi as a function of x - lo.
+class Rule(NamedTuple):
+    """Parts of an interval, what is left of it, and weights."""
 
-    With it comes whether it jumps at lo, and whether it is not smooth there.
+    part: Array
+    rest: Array
+    weight: Array
+
+
+def trapezoidal(below: float, above: float) -> Rule:
+    """The rule for integrands whose powers at the ends are larger than -1 by these numbers."""
+    lo, hi = (math.ceil(REACH / room / STEP) for room in (below, above))
+    v = STEP * np.arange(-lo, hi + 1)
+    e = np.exp(-np.abs(v))
+    near, far = e / (1.0 + e), 1.0 / (1.0 + e)
+    return Rule(np.where(v < 0.0, near, far), np.where(v < 0.0, far, near), STEP * near * far)
+
+
+@dataclass(frozen=True, eq=False)
+class Panel:
+    """P' and m for lo <= s <= hi.
+
+    power       P' = (s - lo)^power times its series
+    behind      how far lo lies beyond the kink from which distances are taken; inf if series are
+                in s itself
+    middle      m at lo
+    series      of P'
+    shifts      of m less a constant
     """
 
     lo: float
     hi: float
+    power: float
+    behind: float
+    middle: float
+    series: Array = field(repr=False)
+    shifts: Array = field(repr=False)
+
+    @property
+    def length(self) -> float:
+        return self.hi - self.lo
+
+    @cached_property
+    def _unit(self) -> float:
+        """Half the length of the variable of the series."""
+        far = self.length / self.behind
+        return 0.5 * (math.log1p(far) if far else self.length)
+
+    def variable(self, ahead: Any) -> Any:
+        """That of the series at lo + ahead."""
+        return self._between(0.0, ahead) - 1.0
+
+    def _between(self, place: Any, by: Any) -> Any:
+        """How far it goes from lo + place to lo + place + by, to relative accuracy."""
+        if self.behind == math.inf:
+            return by / self._unit
+        return np.log1p(by / (self.behind + place)) / self._unit
+
+    def ahead(self, variable: Array) -> Array:
+        """The inverse of the variable."""
+        part = self._unit * (1.0 + variable)
+        return part if self.behind == math.inf else self.behind * np.expm1(part)
+
+    def _rise(self, ahead: Array) -> Array:
+        """ds over that of the variable."""
+        if self.behind == math.inf:
+            return np.full(np.shape(ahead), self._unit)
+        values: Array = self._unit * (self.behind + ahead)
+        return values
+
+    def __call__(self, ahead: Array) -> Array:
+        """P' at lo + ahead."""
+        values: Array = chebyshev.evaluate(self.series, self.variable(ahead))
+        return values * ahead**self.power if self.power else values + np.zeros(np.shape(ahead))
+
+    def moved(self, place: Array, by: Array) -> Array:
+        """m(lo + place + by) - m(lo + place), to relative accuracy however small `by` is."""
+        if not self.shifts.any():
+            return np.zeros(np.shape(by))
+        start, far = np.broadcast_arrays(self.variable(place), self._between(place, by))
+        values: Array = chebyshev.quotient(self.shifts, start, start + far) * far
+        return values
+
+    def turn(self, ahead: Array) -> Array:
+        """m' at lo + ahead."""
+        return _slope(self.shifts, self.variable(ahead)) / self._rise(ahead)
+
+    @cached_property
+    def whole_shift(self) -> float:
+        """m at hi less that at lo."""
+        return float(2.0 * self.shifts[1::2].sum())
+
+    def spread(self, side: float) -> float:
+        """How far the edge on this side moves on the panel."""
+        return self.length + side * self.whole_shift
+
+    @cached_property
+    def places(self) -> tuple[Array, Array]:
+        """s - lo and P' ds of a Gauss rule over the panel."""
+        return self.rule(self.length)
+
+    def rule(self, end: float) -> tuple[Array, Array]:
+        """s - lo and P' ds of a Gauss rule from lo to lo + end."""
+        part, _, weight = with_weight(DEGREE, 0.0, self.power)
+        if self.behind == math.inf:
+            ahead = end * part
+            return ahead, end * weight * self(ahead)
+        log = math.log1p(end / self.behind)
+        ahead = self.behind * np.expm1(log * part)
+        return ahead, log * (self.behind + ahead) * weight * self(ahead)
+
+    def load(self, end: float) -> float:
+        """∫P' ds from lo to lo + end, at most to hi."""
+        return float(self.rule(min(end, self.length))[1].sum()) if end > 0.0 else 0.0
+
+
+def _slope(series: Array, y: Array) -> Array:
+    """The derivative of a series."""
+    orders = np.arange(1, len(series))
+    values: Array = chebyshev.evaluate_second_kind(series[1:] * orders, y) + np.zeros(np.shape(y))
+    return values
+
+
+class Side(NamedTuple):
+    """The profile beside the contact on one side, between two places where it is not smooth.
+
+    slope       sign times E*/2 h' at a distance outwards from where the panel begins
+    sign        1 on the right
+    """
+
     slope: Callable[[Array], Array]
-    jumps: bool
-    kinked: bool = True
+    sign: float
 
 
-def power_law_moment(flat: FlatFunctions, m: float) -> float:
-    """M(m) = ∫_1^∞ D ρ^-m dρ."""
-    modulus = flat.punch.modulus
-    x, rest, w = with_weight(len(flat.punch.weight) + NODES, 2.0 * flat.theta, m - 1.0)
-    sn, cn, dn = elliptic_functions(modulus, x, rest)
-    D = flat.outside(sn, cn * cn / (1.0 + sn))
-    return float((w * modulus.K * cn * dn) @ (sn ** (m - 1.0) * D))
-
-
-def power_law_growth(flat: FlatFunctions, m: float, slope: float, b: float) -> GrowthPanel:
-    """P' of the slope E*/2 h' = slope (x/b)^(m-1)."""
-    factor = slope / power_law_moment(flat, m) * b ** (1.0 - m)
-    return GrowthPanel(0.0, 0.0, b, m - 1.0, np.array([factor]))
-
-
-def solved_growth(flat: FlatFunctions, pieces: list[Piece]) -> tuple[GrowthPanel, ...]:
-    """P' on panels, from the first place where h' is not zero outwards."""
-    solved: list[GrowthPanel] = []
-    load, origin = 0.0, pieces[0].lo
-    for k, piece in enumerate(pieces):
-        panels = _panels(flat, origin, piece, _first_power(flat.h, piece, k == 0))
-        todo = [(*own, math.inf) for own in reversed(_with_matrices(flat, panels))]
-        while todo:
-            empty, matrix, before = todo.pop()
-            panel = _collocated(flat, solved, piece, empty, matrix)
-            more, missed = panel.load(math.inf), _missed(panel)
-            # From a kink P' grows with its power; elsewhere it falls at most as the root of the
-            # distance from a corner grows
-            ratio = (piece.hi - piece.lo) / (panel.hi - panel.lo)
-            later = ratio ** max(0.5, 1.0 + panel.power if panel.power else 0.0)
-            negligible = missed <= NEGLIGIBLE * abs(load + more) * max(later, 1.0)
-            negligible |= panel.hi - panel.lo <= 1.01 * _narrowest(panel.power) * piece.lo
-            # Of rounding a shorter panel misses as much
-            if negligible or missed > NO_LESS * before or len(solved) > MOST:
-                solved.append(panel)
-                load += more
-                continue
-            parts = _with_matrices(flat, _halves(empty))
-            todo += [(*part, missed) for part in reversed(parts)]
-    return tuple(solved)
-
-
-def _missed(panel: GrowthPanel) -> float:
-    """The load that the last coefficients of a series carry.
-
-    It is 0 where they are small beside the others.
-    """
-    size, length = np.abs(panel.series), panel.hi - panel.lo
-    tail = float(size[-3:].max())
-    return tail * length * panel.factor(length) if tail > DECAYED * float(size.max()) else 0.0
-
-
-def _first_power(h: float, piece: Piece, first: bool) -> float:
-    """The exponent of P' at the beginning of a piece; from the axis it is regular."""
-    if piece.lo == 0.0 or not (first or piece.jumps):
-        return 0.0
-    return h - 1.0 if piece.jumps else h
-
-
-def _panels(flat: FlatFunctions, origin: float, piece: Piece, power: float) -> list[GrowthPanel]:
-    """Panels of a piece, still without their series.
-
-    From a place where P' begins with a power of the distance they grow with this distance, beyond
-    that in which the slip zones move through the place. P' over that power varies with the
-    logarithm of the distance where this is about that of the slip zones, or the half-width, only.
-    """
-    lo, hi = piece.lo - origin, piece.hi - origin
-    if not power:
-        n = 1 if piece.lo == 0.0 else max(1, math.ceil(math.log2(piece.hi / piece.lo)))
-        ends = [
-            lo,
-            *(piece.lo * (piece.hi / piece.lo) ** (k / n) - origin for k in range(1, n)),
-            hi,
-        ]
-        return [_panel(origin, lo, hi) for lo, hi in itertools.pairwise(ends)]
-    layer = piece.lo * min(flat.rest / flat.c, 1.0)
-    ends, first = [hi - lo], min(max(layer, piece.lo * _narrowest(power)), hi - lo)
-    while ends[-1] > first:
-        end = ends[-1]
-        fold = min(_fold(end / layer), _fold(end / piece.lo))
-        ends.append(first if math.log(end / first) < ALMOST * fold else end * math.exp(-fold))
-    ends.reverse()
-    later = [_panel(origin, lo + d, lo + e, power, d) for d, e in itertools.pairwise(ends)]
-    return [_panel(origin, lo, lo + ends[0], power), *later]
-
-
-def _fold(ratio: float) -> float:
-    """How much the distance may grow on a panel that ends at this ratio to a place of P'."""
-    folds = math.log(ratio)
-    return FOLDS - LONGER * folds if folds < 0.0 else (FOLDS + LONGER * folds) / (1.0 + LONGER)
-
-
-def _narrowest(power: float) -> float:
-    """The part of the half-width on which P' from a kink (power > 0) or a corner carries nothing.
-
-    Its power is 1/2 and -1/2 there, as far as the slip zone is narrower.
-    """
-    return EPS**0.75 if power > 0.0 else EPS
-
-
-def _panel(
-    origin: float, lo: float, hi: float, power: float = 0.0, behind: float = math.inf
-) -> GrowthPanel:
-    return GrowthPanel(origin, lo, hi, power, np.zeros(DEGREE), behind)
-
-
-def _halves(panel: GrowthPanel) -> list[GrowthPanel]:
-    """The panel in two; the first is shorter, as kinks of the profile leave powers there."""
-    ahead = CUT * (panel.hi - panel.lo) if panel.behind == math.inf else panel.nodes(0.5)
-    middle, behind = panel.lo + ahead, panel.behind + ahead
-    power = 0.0 if panel.behind == math.inf else panel.power
-    return [replace(panel, hi=middle), replace(panel, lo=middle, power=power, behind=behind)]
-
-
-def _collocated(
-    flat: FlatFunctions,
-    solved: list[GrowthPanel],
-    piece: Piece,
-    panel: GrowthPanel,
-    matrix: Array,
-) -> GrowthPanel:
-    """The panel with its series, given the matrix of its own integrals."""
-    ahead = panel.nodes(0.5 * (1.0 + chebyshev.points(DEGREE)))
-    x = panel.lo + ahead  # from the origin
-    known = (panel.origin + x) * piece.slope((panel.lo - (piece.lo - panel.origin)) + ahead)
-    near = [other for other in solved if panel.lo - other.hi < NEAR * (other.hi - other.lo)]
-    for other in near:
-        known -= _beside(flat, other, x, (panel.lo - other.hi) + ahead)
-    known -= _far(flat, [other for other in solved if other not in near], panel, ahead)
-    return replace(panel, series=np.asarray(np.linalg.solve(matrix, known), dtype=float))
-
-
-def _far(flat: FlatFunctions, panels: list[GrowthPanel], panel: GrowthPanel, ahead: Array) -> Array:
-    """∫P' ρ D(ρ) ds over panels half their length or more before x = panel.lo + ahead."""
+def slope_of(
+    flat: FlatPunch, panels: list[Panel], side: float, rise: Array
+) -> tuple[Array, Callable[[], Array]]:
+    """∫P' D over panels at places that lie so far beyond their last edge, and its derivative."""
+    E, s, mass, between = [], [], [], 0.0
+    for panel in reversed(panels):
+        if float(rise.min()) + between < NEAR * panel.length:
+            part, rest, dx = trapezoidal(1.0 + min(panel.power, 0.0), 1.0)
+            inside, left = panel.length * part, panel.length * rest
+            E.append(between + left - side * panel.moved(np.array(panel.length), -left))
+            mass.append(panel.length * dx * panel(inside))
+        else:
+            inside, weighted = panel.places
+            E.append(
+                between + panel.spread(side) - (inside + side * panel.moved(np.array(0.0), inside))
+            )
+            mass.append(weighted)
+        s.append(panel.lo + inside)
+        between += panel.spread(side)
     if not panels:
-        return np.zeros(len(ahead))
-    inside, weight = (
-        np.concatenate(column) for column in zip(*(p.places for p in panels), strict=True)
-    )
-    lo = np.repeat([p.lo for p in panels], [len(p.places[0]) for p in panels])
-    x = (panel.origin + panel.lo + ahead)[:, None]
-    # Differences of x and s themselves would be rounded to the half-width
-    apart = (panel.lo - lo) - inside + ahead[:, None]
-    integral: Array = flat.outside((panel.origin + lo + inside) / x, apart / x) @ weight
-    return integral
+        return np.zeros(len(rise)), lambda: np.zeros(len(rise))
+    away = np.maximum(rise[:, None] + np.concatenate(E), 1e-300)
+    widths, load = np.concatenate(s), np.concatenate(mass)
+    return kernel(flat, away, widths) @ load, lambda: kernel_rate(flat, away, widths) @ load
 
 
-def _beside(flat: FlatFunctions, panel: GrowthPanel, x: Array, beyond: Array) -> Array:
-    """∫P' ρ D(ρ) ds over a panel that ends before x, by `beyond`."""
-    return _up_to(flat, panel, panel.hi - panel.lo, x, beyond)
+def kernel(flat: FlatPunch, E: Array, s: Array) -> Array:
+    """D/s at a place that lies E beyond the edge of a contact of the half-width s."""
+    values: Array = flat.outside(E / s) / s
+    return values
 
 
-def _up_to(flat: FlatFunctions, panel: GrowthPanel, part: float, x: Array, beyond: Array) -> Array:
-    """The same over a part of the panel."""
-    length = np.full(len(x), part)
-    kink = np.full(len(x), panel.behind)
-    owner, ahead, left, weight = graded(
-        length, kink, beyond, (panel.at_start, 0.0), longest=SHORTER, near=0.0
-    )
-    at = panel.origin + x[owner][:, None]
-    t, rest = (panel.origin + panel.lo + ahead) / at, (beyond[owner][:, None] + left) / at
-    return totals(owner, flat.outside(t, rest) * panel(ahead) * weight, len(x))
+def kernel_rate(flat: FlatPunch, E: Array, s: Array) -> Array:
+    """The derivative of that with E, by a difference."""
+    step = SHIFTED * E
+    values: Array = (kernel(flat, E + step, s) - kernel(flat, E - step, s)) / (2.0 * step)
+    return values
 
 
-def load_slope(
-    flat: FlatFunctions, growth: tuple[GrowthPanel, ...], ahead: float, x: Array
-) -> Array:
-    """∫P' D(x/s) ds/s up to b = origin + ahead for each x > b.
+def collocated(
+    flat: FlatPunch, panels: list[Panel], panel: Panel, sides: tuple[Side, ...]
+) -> Panel | None:
+    """The panel with its series, from one with a guess of m; None if no step converges.
 
-    It is 1/π ∫p/(x - t) dt beside the contact.
+    Of one side alone the middle stays, and the equations are linear. The matrix of Newton's method
+    is kept while steps are short.
     """
-    total = np.zeros(len(x))
-    for panel in growth:
-        end = min(panel.hi, ahead)
-        if end > panel.lo:
-            # Next to the edge rounding may leave x on it, or behind it
-            beyond = np.maximum((x - panel.origin) - end, EPS * x)
-            total += _up_to(flat, panel, end - panel.lo, x - panel.origin, beyond)
-    return total / x
 
+    def equations(panel: Panel) -> list[Equations]:
+        return [Equations(flat, panels, panel, side) for side in sides]
 
-def _with_matrices(
-    flat: FlatFunctions, panels: list[GrowthPanel]
-) -> list[tuple[GrowthPanel, Array]]:
-    """Panels, each with its matrix of `_own`."""
-    first = [panel for panel in panels[:1] if panel.at_start]
-    same = [_own(flat, alike) for alike in (first, panels[len(first) :]) if alike]
-    return list(zip(panels, itertools.chain.from_iterable(same), strict=True))
-
-
-def _own(flat: FlatFunctions, panels: list[GrowthPanel]) -> Array:
-    """Matrices that take series to ∫P' ρ D(ρ) ds from lo to each x of a panel.
-
-    The panels begin with one power.
-    """
-    stack, part = Stack(panels), 0.5 * (1.0 + chebyshev.points(DEGREE))
-    ahead = np.concatenate([panel.nodes(part) for panel in panels])
-    panel = np.repeat(np.arange(len(panels)), DEGREE)
-    at = stack.origin + stack.lo[panel] + ahead
-    powers = panels[0].at_start, -flat.h
-    owner, inside, left, weight = graded(
-        ahead, stack.behind[panel], at * (flat.rest / flat.c), powers, longest=SHORTER, near=0.0
+    n = len(panel.series)
+    now = equations(replace(panel, series=np.zeros(n)))
+    missed, loads = (
+        np.concatenate(part) for part in zip(*((e.missed, e.loads) for e in now), strict=True)
     )
-    panel, at = panel[owner], at[owner][:, None]
-    s = (stack.origin + stack.lo[panel])[:, None] + inside
-    values = stack.times_power(panel, inside, flat.outside(s / at, left / at) * weight)
-    terms = chebyshev.polynomials(DEGREE, stack.variable(panel, inside))
-    sums = np.einsum("kij,ij->ik", terms, values)
-    rows = np.add.reduceat(sums, np.searchsorted(owner, np.arange(len(ahead))))
-    return rows.reshape(len(panels), DEGREE, DEGREE)
+    panel = replace(panel, series=np.linalg.lstsq(loads, missed, rcond=None)[0])
+    if len(sides) == 1:
+        return panel
+    matrix, before = np.zeros((0, 0)), math.inf
+    for _ in range(NEWTONS):
+        now = equations(panel)
+        missed = np.concatenate([one.missed for one in now])
+        if before > SHORT_STEP:
+            matrix = np.concatenate([one.matrix for one in now])
+        step = np.linalg.lstsq(matrix, missed, rcond=None)[0]
+        change = np.append(0.0, step[n:])
+        share = _share(panel, change) if np.isfinite(step).all() else 0.0
+        if share == 0.0:
+            return None
+        panel = replace(
+            panel, series=panel.series + share * step[:n], shifts=panel.shifts + share * change
+        )
+        moved = float(np.abs(change).max()) / panel.length
+        size = max(float(np.abs(step[:n]).max() / np.abs(panel.series).max()), moved)
+        if share == 1.0 and (size <= SETTLED or (before <= ROUGH and size > 0.5 * before)):
+            return panel
+        before = size / share
+    return None
+
+
+def _share(panel: Panel, change: Array) -> float:
+    """The part of a step that leaves |m'| < 1; 0 where none does."""
+    share, rise = 1.0, panel._rise(panel.ahead(GRID))
+    at, more = (_slope(c, GRID) / rise for c in (panel.shifts, change))
+    while np.abs(at + share * more).max() > STEEP:
+        share *= 0.5
+        if share < LEAST_SHARE:
+            return 0.0
+    return share
+
+
+class Equations:
+    """What the equation at the edge on one side misses on a panel, and its matrix."""
+
+    def __init__(self, flat: FlatPunch, panels: list[Panel], panel: Panel, side: Side) -> None:
+        self.flat, self.panel, self.side = flat, panel, side
+        self.y = chebyshev.points(len(panel.series))
+        self.ahead = panel.ahead(self.y)
+        part, rest, weight = trapezoidal(1.0 + min(panel.power, 0.0), 1.0 - flat.exponent)
+        ahead = self.ahead[:, None]
+        self.part = part
+        self.inside, left, self.weight = ahead * part, ahead * rest, ahead * weight
+        least = LEAST_RISE * self.ahead
+        self.rise = np.maximum(
+            self.ahead + side.sign * panel.moved(np.array(0.0), self.ahead), least
+        )
+        E = left - side.sign * panel.moved(ahead, -left)
+        self.E = np.maximum(E, LEAST_RISE * left)
+        self.s = panel.lo + self.inside
+        self.known, self.change = slope_of(flat, panels, side.sign, self.rise)
+        self.value = kernel(flat, self.E, self.s) * self.weight
+
+    @cached_property
+    def missed(self) -> Array:
+        own = (self.value * self.panel(self.inside)).sum(axis=1)
+        values: Array = self.side.slope(self.rise) - self.known - own
+        return values
+
+    @cached_property
+    def loads(self) -> Array:
+        """The matrix that takes the series of P' to the slope."""
+        value = self.value
+        if self.panel.power:
+            value = value * self.inside**self.panel.power
+        terms = chebyshev.polynomials(len(self.y), self.panel.variable(self.inside))
+        found: Array = np.einsum("kij,ij->ik", terms, value)
+        return found
+
+    @property
+    def matrix(self) -> Array:
+        """The derivatives of the slope less that of the profile, with both series."""
+        n, panel = len(self.y), self.panel
+        mass = kernel_rate(self.flat, self.E, self.s) * panel(self.inside) * self.weight
+        # m less that at lo, at the edge and at the nodes, for each term but the constant
+        lowest = (-1.0) ** np.arange(1, n)
+        at_end = chebyshev.polynomials(n, self.y)[1:] - lowest[:, None]
+        at_nodes = chebyshev.polynomials(n, panel.variable(self.inside))[1:]
+        apart = (at_end + lowest[:, None])[:, :, None] - at_nodes
+        apart *= self.part < 1.0 - NOISY  # nearer, rounding is larger than the difference
+        own = np.einsum("kij,ij->ik", apart, mass)
+        step = SHIFTED * self.rise
+        slopes = (self.side.slope(self.rise + way * step) for way in (1.0, -1.0))
+        steepness = np.subtract(*slopes) / (2.0 * step)
+        shifts = own + (self.change() - steepness)[:, None] * at_end.T
+        return np.concatenate((self.loads, self.side.sign * shifts), axis=1)

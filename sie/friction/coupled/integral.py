@@ -10,7 +10,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie.numerics import chebyshev
-from sie.numerics.gauss_jacobi import with_weight
 
 from .half_potential import DISTANT
 
@@ -20,8 +19,6 @@ DEGREE = 16
 RATIO, NEAREST = 3.0, 1e-14  # of panels towards an end: growth, and the first, in parts of the zone
 # Panels beside a contact: the first, in half-widths, where H has a power of the distance; growth
 NEAR_EDGE, FARTHER = 1e-9, 4.0
-# Between marks of the tractions: nodes, panels towards them, parts of the contact that are one
-ON_MARKS, SHRINKING, TOGETHER = 12, 16, 1e-10
 
 
 class Integral(NamedTuple):
@@ -64,19 +61,3 @@ def outwards(function: Callable[[Array], Array], distances: Array, width: float)
     levels = math.ceil(math.log(far / first, FARTHER)) if far > first else 0
     cuts = np.append(0.0, np.minimum(first * FARTHER ** np.arange(levels + 1.0), far))
     return integral(function, np.unique(cuts))(distances)
-
-
-def on_marks(marks: tuple[float, ...]) -> tuple[Array, Array]:
-    """Nodes and weights on panels that shrink towards every mark, but those that are one."""
-    x, _, w = with_weight(ON_MARKS, 0.0, 0.0)
-    near = np.append(0.0, RATIO ** -np.arange(SHRINKING, -0.5, -1.0))
-    part, mass = (near[:-1, None] + np.diff(near)[:, None] * x), np.diff(near)[:, None] * w
-    nodes, weights, apart = [], [], TOGETHER * (marks[-1] - marks[0])
-    lo = marks[0]
-    for hi in marks[1:]:
-        if hi - lo > apart:
-            half = 0.5 * (hi - lo)
-            nodes += [lo + half * part.ravel(), hi - half * part.ravel()]
-            weights += [half * mass.ravel()] * 2
-            lo = hi
-    return np.concatenate(nodes), np.concatenate(weights)

@@ -1,16 +1,12 @@
-"""The search for the contact of dissimilar bodies pressed with friction: P' and the half-width.
+"""The search for the contact of dissimilar bodies pressed with friction.
 
-Here the profile is symmetric and convex; others are those of `uneven_contact`.
-
-The half-width b comes from P = ∫P' ds. It is not larger than without friction, as friction
-stiffens the contact: the frictionless contact bounds the search, and refuses what no contact can
-carry. Where b reaches a corner at the indenter's end, what is left of the load is that of a flat
-punch.
+The half-width is that at which ∫P' ds = P (`growth`, `march`). It is not larger than without
+friction, as friction stiffens the contact: the frictionless contact bounds the search, and refuses
+what no contact can carry.
 """
 
 from __future__ import annotations
 
-import itertools
 import math
 from collections.abc import Callable
 
@@ -18,31 +14,164 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie.contact.known_contact import Edges, Normal
-from sie.errors import ContactError, LoadError
-from sie.numerics.interval import EPS, interval_about
-from sie.numerics.root_finding import false_position
+from sie.errors import ContactError
+from sie.numerics.interval import EPS, Interval
 from sie.problem.scene import Scene
-from sie.profiles.resolution import refined
 from sie.profiles.slope import Slope
 from sie.progress_bar import reported
 
-from .contact import FALLING, CoupledContact
-from .functions import FlatFunctions, flat_functions
-from .growth import Piece, power_law_growth, solved_growth
-from .load_rate import GrowthPanel
-from .uneven_contact import UnevenContact, uneven_contact
+from .flat import flat_punch
+from .frozen import Frozen
+from .growth import Panel
+from .march import NEGLECT, March, Touch, first_touch, refuse_turning
+from .pressed import Flat, Grown
 
 Array = NDArray[np.float64]
 
-WIDER = 1.0 + 64.0 * EPS  # than the frictionless contact: as far as P' is known
-NEARLY = 1e-6  # of P: then Newton's steps find the rest
-SETTLED, NEWTONS = 1e-8, 6  # part of the half-width that a step moves the edge at last; most steps
-TINIEST = 1e-30  # of the frictionless contact: no load is so light beside it
+WIDER = 1.0 + 64.0 * EPS  # than the frictionless contact: as far as P' is sought at first
+MORE = 1.1  # where a load asks for more
+NEARLY, BISECTIONS = 1e-14, 60  # of the load; and steps to it
+MOST_KINKS = 8  # of the profile within the contact: each cuts a state at up to five places
+NARROWEST_STICK = 1e-9  # of the contact
+RESOLVED = 3e-12  # of P: what a state may miss
+STEEPEST = 1.5  # β f: exponents at the ends of slip zones are then 0.19 and 0.81
 # Points where the symmetry of a profile is measured, and to what part of its largest slope.
 LOOKS, EVEN = 64, 1e-10
-AXIS_ROUNDING = (
-    256.0 * EPS
-)  # half-widths: such is the rounding of the frictionless contact's centre
+AXIS_ROUNDING = 256.0 * EPS  # half-widths: the rounding of the frictionless contact's centre
+
+
+@reported("contact of dissimilar bodies")
+def coupled_contact(
+    scene: Scene, frictionless: Callable[[Scene], Normal]
+) -> tuple[Edges, Grown | Flat]:
+    """The edges and the state; ContactError where no contact answers.
+
+    `frictionless` solves the normal problem of a scene; its contact bounds the search.
+    """
+    flat, half_modulus = flat_punch(abs(scene.beta), scene.friction), 0.5 * scene.Estar
+    steep = flat.beta * scene.friction
+    if steep > STEEPEST and not flat.bonded:
+        raise ContactError(
+            f"dissimilar bodies with β f = {steep:.3g}, more than {STEEPEST:g}, are not solved: "
+            f"give friction = {STEEPEST / flat.beta:.3g} or less"
+        )
+    if flat.c < NARROWEST_STICK:
+        raise ContactError(
+            f"dissimilar bodies (β = {scene.beta:.3g}) with friction = {scene.friction:g} stick "
+            f"on a part {flat.c:.1g} of the contact, less than is solved: raise friction, or "
+            f"{NEGLECT}"
+        )
+    sign = math.copysign(1.0, scene.beta)
+    bound = frictionless(_without_friction(scene))
+    contact, axis = bound.edges.contact, symmetry_axis(scene, bound.edges)
+    slope = bound.slope(scene.profile)
+    if _flat(slope, contact):
+        P = scene.normal_load
+        assert P is not None
+        state: Grown | Flat = Flat(
+            flat, P, sign, half_modulus, scene.friction, contact.m, contact.r
+        )
+        return state.edges, state
+    touch = first_touch(slope, *contact[:2])
+    _refuse_many_kinks(slope, contact, touch)
+    law = scene.profile.power_law
+    exponent = law.exponent if law is not None and axis is not None else 0.0
+    march = March(flat, slope, half_modulus, touch, axis=axis, exponent=exponent)
+    s, P = _marched(march, scene.normal_load, contact.r)
+    state = Grown(
+        flat,
+        P,
+        sign,
+        half_modulus,
+        scene.friction,
+        Frozen(flat, tuple(march.panels)),
+        (march.base, *march.kinks),
+        slope,
+        math.nan if axis is None else axis,
+        s,
+    )
+    # but for Q, which (1) tells with the digits that 1/β leaves
+    missed = float(np.abs(state.loaded.state.missed[:-1]).max())
+    if not missed <= RESOLVED:
+        raise ContactError(
+            f"the contact of dissimilar bodies under P = {P:.6g} is known to {missed:.1g} of P "
+            f"alone, as where it hardly spreads beyond a flat base: raise the load, or {NEGLECT}"
+        )
+    return state.edges, state
+
+
+def _flat(slope: Slope, contact: Interval) -> bool:
+    """Whether h' = 0 in the contact."""
+    if slope.functions:
+        return not slope(np.linspace(*contact[:2], LOOKS + 2)[1:-1]).any()
+    inside = (slope.breaks[1:] > contact.x1) & (slope.breaks[:-1] < contact.x2)
+    return bool(slope.is_zero[inside].all())
+
+
+def _refuse_many_kinks(slope: Slope, contact: Interval, touch: Touch) -> None:
+    """Raises ContactError where more places are not smooth than a state is cut at."""
+    breaks = slope.breaks
+    inside = (breaks > contact.x1) & (breaks < contact.x2)
+    kinks = int(np.count_nonzero(inside & ((breaks < touch.lo) | (breaks > touch.hi))))
+    if kinks > MOST_KINKS:
+        raise ContactError(
+            f"dissimilar bodies touch over {kinks} places where the slope of the profile is not "
+            f"smooth, as at the points of a trace; {MOST_KINKS} are solved: fit a sie.Polynomial "
+            f"to it, or {NEGLECT}"
+        )
+
+
+def _marched(march: March, P: float | None, goal: float) -> tuple[float, float]:
+    """The half-width under the load, or the goal without one, and the load."""
+    farthest = goal * WIDER
+    while True:
+        before = march.load
+        panel = march.advance(farthest)
+        end = panel.length
+        if P is None and panel.hi >= goal:
+            end = goal - panel.lo
+        if P is not None and march.load >= P:
+            end = _at_load(panel, P - before)
+        refuse_turning(panel, end, before, march.flat)
+        if panel.hi >= goal if P is None else march.load >= P:
+            return panel.lo + end, before + panel.load(end) if P is None else P
+        if march.stopped is not None:
+            raise ContactError(_at_corner(march))
+        if panel.hi >= farthest:
+            farthest *= MORE
+
+
+def _at_load(panel: Panel, missing: float) -> float:
+    """How far along the panel it carries that load."""
+    lo, hi = 0.0, panel.length
+    d = hi * missing / panel.load(hi)
+    for _ in range(BISECTIONS):
+        missed = panel.load(d) - missing
+        lo, hi = (lo, d) if missed > 0.0 else (d, hi)
+        if abs(missed) <= NEARLY * missing:
+            break
+        d -= missed / float(panel(np.array(d)))
+        if not lo < d < hi:
+            d = 0.5 * (lo + hi)
+    return d
+
+
+def _at_corner(march: March) -> str:
+    """Why there is no answer beyond a corner that an edge has reached."""
+    edge = march.stopped
+    assert edge is not None
+    return (
+        f"under P = {march.load:.6g} the contact reaches a corner of the indenter at x = "
+        f"{edge.place:.6g}: there one of its edges stays while the other one moves, and how the "
+        "stick zone between dissimilar bodies moves then is not solved; lower the load, round the "
+        f"corner, {NEGLECT}"
+    )
+
+
+def _without_friction(scene: Scene) -> Scene:
+    """The scene whose contact bounds the search."""
+    P, b = scene.normal_load, scene.half_width
+    return Scene(profile=scene.profile, modulus=scene.Estar, normal_load=P, half_width=b)
 
 
 def symmetry_axis(scene: Scene, bound: Edges) -> float | None:
@@ -66,177 +195,3 @@ def symmetry_axis(scene: Scene, bound: Edges) -> float | None:
     nearest = float(breaks[np.argmin(np.abs(breaks - contact.m))])
     # The axis of a symmetric trace is one of its points, or half-way between two
     return nearest if abs(nearest - contact.m) <= AXIS_ROUNDING * contact.r else contact.m
-
-
-def _growth(
-    flat: FlatFunctions, scene: Scene, widest: float, axis: float
-) -> tuple[tuple[GrowthPanel, ...], tuple[float, ...]]:
-    """dP/db as far as the widest contact, and the kinks of the slope."""
-    law, half_modulus = scene.profile.power_law, 0.5 * scene.Estar
-    if law is not None:
-        slope = half_modulus * law.exponent * law.coefficient * widest ** (law.exponent - 1.0)
-        return (power_law_growth(flat, law.exponent, slope, widest * WIDER),), ()
-    pieces = _pieces(scene.profile.pieces, axis, widest, half_modulus)
-    kinks = tuple(piece.lo for piece in pieces[1:] if piece.kinked)
-    return solved_growth(flat, pieces) if pieces else (), kinks
-
-
-def _without_friction(scene: Scene) -> Scene:
-    """The scene whose contact bounds the search."""
-    P, b = scene.normal_load, scene.half_width
-    return Scene(profile=scene.profile, modulus=scene.Estar, normal_load=P, half_width=b)
-
-
-@reported("contact of dissimilar bodies")
-def coupled_contact(
-    scene: Scene, frictionless: Callable[[Scene], Normal]
-) -> tuple[Edges, CoupledContact | UnevenContact]:
-    """The edges and the state; ContactError where no contact answers.
-
-    `frictionless` solves the normal problem of a scene; its contact bounds the search.
-    """
-    beta = scene.beta
-    flat = flat_functions(abs(beta), scene.friction)
-    half_modulus = 0.5 * scene.Estar
-    bound = frictionless(_without_friction(scene))
-    widest, sharp = bound.edges.contact.r, bound.edges.sharp[0]
-    axis = symmetry_axis(scene, bound.edges)
-    if axis is None:
-        return uneven_contact(scene, bound)
-    growth, kinks = _growth(flat, scene, widest, axis)
-    ahead, load, corner = _width(growth, widest, sharp, scene)
-    _refuse_falling(growth, ahead, axis)
-    b = (growth[0].origin if growth else 0.0) + ahead
-    contact = interval_about(axis, b).rounded((axis,))
-    state = CoupledContact(
-        flat,
-        growth,
-        corner,
-        axis,
-        ahead,
-        load,
-        math.copysign(1.0, beta),
-        half_modulus,
-        tuple(k for k in kinks if k < b),
-    )
-    edges = Edges(
-        contact, load, contact.m * load, 0.0, (corner > 0.0, corner > 0.0), 0.0, 0.0, 0.0, 0
-    )
-    return edges, state
-
-
-def _pieces(slope: Slope, axis: float, widest: float, half_modulus: float) -> list[Piece]:
-    """E*/2 h' on the right of the axis, piece by piece, without a flat base."""
-    hi = slope.domain[1]
-    end = min(axis + widest * WIDER, hi)
-    resolved = refined(slope, axis, end, EPS)
-    inner = resolved.breaks[(resolved.breaks > axis) & (resolved.breaks < end)]
-    ends = [axis, *inner.tolist(), end]
-    declared = set(slope.breaks.tolist())
-    rises = dict(slope.rises)
-    pieces: list[Piece] = []
-    for left, right in itertools.pairwise(ends):
-        k = int(
-            np.clip(
-                np.searchsorted(resolved.breaks, left, "right") - 1, 0, len(resolved.origins) - 1
-            )
-        )
-        if not pieces and resolved.is_zero[k]:
-            continue
-
-        def H(ahead: Array, k: int = k, left: float = left) -> Array:
-            at = np.array([left])
-            values: Array = resolved.local(np.array([k]), at, np.zeros(1), ahead.reshape(1, -1))
-            return half_modulus * values.reshape(ahead.shape)
-
-        jumps = left in rises or (not pieces and left > axis and float(H(np.zeros(1))[0]) > 0.0)
-        pieces.append(Piece(left - axis, right - axis, H, jumps, left in declared))
-    return pieces
-
-
-def _width(
-    growth: tuple[GrowthPanel, ...], widest: float, sharp: bool, scene: Scene
-) -> tuple[float, float, float]:
-    """b beyond the flat base, P and what a corner at the end of the indenter carries of it."""
-    if not growth:
-        assert scene.normal_load is not None
-        return widest, scene.normal_load, scene.normal_load
-    farthest = widest - growth[0].origin
-    if scene.normal_load is None:
-        return farthest, _load(growth, farthest), 0.0
-    P, most = scene.normal_load, _load(growth, farthest * WIDER)
-    if most >= P:
-        return _root(growth, P, farthest * WIDER), P, 0.0
-    if sharp:
-        return farthest, P, P - _load(growth, farthest)
-    raise LoadError(
-        f"the coupled contact of half-width {widest:.6g} carries {most:.6g} of {P:.6g}: "
-        "friction should not make it softer; give dundurs = 0 to neglect β"
-    )
-
-
-def _load(growth: tuple[GrowthPanel, ...], ahead: float) -> float:
-    """∫P' ds as far as that beyond the flat base."""
-    return sum(panel.load(ahead) for panel in growth)
-
-
-def _root(growth: tuple[GrowthPanel, ...], P: float, farthest: float) -> float:
-    """The distance from the first place of contact at which ∫P' = P, to relative accuracy."""
-    before = 0.0  # the load of the panels that are passed whole
-    for panel in growth:
-        whole = panel.load(min(panel.hi, farthest))
-        if before + whole >= P or panel is growth[-1]:
-            break
-        before += whole
-    missing, hi = P - before, min(panel.hi, farthest)
-    if before + whole <= P:
-        return hi
-    nearby, close = _newton(panel, missing, hi)
-    if close:
-        return nearby
-    lo = panel.lo or 0.5 * hi
-    while panel.load(lo) > missing and hi > TINIEST * farthest:
-        lo, hi = 0.5 * lo, lo
-    ends = panel.load(lo) / P - missing / P, panel.load(hi) / P - missing / P
-    root = false_position(
-        lambda a: (panel.load(a) - missing) / P,
-        lo,
-        hi,
-        ends,
-        lambda a, b, missed: abs(missed) <= NEARLY,
-    )
-    return _newton(panel, missing, root)[0]
-
-
-def _newton(panel: GrowthPanel, missing: float, start: float) -> tuple[float, bool]:
-    """Where the load on a panel is that, by Newton's steps, and whether they ended."""
-    root = start
-    for _ in range(NEWTONS):
-        load, rate = panel.load_and_rate(root)
-        step = missing - load
-        if not abs(step) < rate * (root - panel.lo):
-            break
-        root = min(root + step / rate, panel.hi)
-        # Convergence is quadratic
-        if abs(step) <= SETTLED * rate * root:
-            return root, True
-    return root, False
-
-
-def _refuse_falling(growth: tuple[GrowthPanel, ...], ahead: float, axis: float) -> None:
-    """Raises ContactError where P' < 0.
-
-    The profile is then not convex, and the contact would recede there.
-    """
-    for panel in growth:
-        inside, mass = panel.places
-        s = panel.lo + inside
-        near = s < ahead
-        if (mass[near] < -FALLING * np.abs(mass).max()).any():
-            where = axis + panel.origin + float(s[near][np.argmin(mass[near])])
-            raise ContactError(
-                "the contact of dissimilar bodies with friction would not grow steadily at x = "
-                f"{where:.6g}: "
-                "coupled slip is solved for convex profiles; smooth the profile, or give dundurs "
-                "= 0 to neglect β"
-            )

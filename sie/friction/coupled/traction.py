@@ -1,8 +1,8 @@
 """The tractions of coupled partial slip, with their potentials.
 
-Values come from the state itself; the potential from Chebyshev series on panels of half the
+Values come from the state itself; the potential from Chebyshev series on panels of each half of the
 contact, cut in two until they resolve the traction, the last one times (1 - x/b)^α with the
-exponent α of the edge. p is even and q odd: F(z) = I(z) ∓ I(-z), I that of the right half.
+exponent α of the edge.
 """
 
 from __future__ import annotations
@@ -10,8 +10,6 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, field
-from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -19,9 +17,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from sie.numerics import chebyshev
 from sie.numerics.interval import Interval
-from sie.traction.base import Complex, Density, on_line, on_surface, reflected, shallow
+from sie.traction.base import Complex, Density, on_surface, reflected, shallow
 
-from .half_potential import DEGREE, HalfPotential, Panels
+from .half_potential import DEGREE, Panels
 
 Array = NDArray[np.float64]
 
@@ -114,100 +112,6 @@ def _steepness(z: Complex, dF: Complex, side: int) -> Complex:
     """F' with the values on the surface of that side."""
     dF.imag[z.imag == 0.0] *= side
     return dF
-
-
-@dataclass(frozen=True, eq=False)
-class CoupledTraction(OnHalves):
-    """A traction on axis ± b, even or odd about the axis.
-
-    values      its values at 0 <= y <= b
-    resolved    computes the panels of the right half
-    parity      1 or -1
-    load        its resultant
-    marks       y where it or a derivative is not smooth, ascending up to b
-    contact     axis ± b
-    """
-
-    values: Callable[[Array], Array] = field(repr=False)
-    resolved: Callable[[], Panels] = field(repr=False)
-    parity: float
-    load: float
-    marks: tuple[float, ...]
-    contact: Interval
-
-    @cached_property
-    def panels(self) -> Panels:
-        panels = self.resolved()
-        first = panels.series[0]
-        jump = first[::2].sum() - first[1::2].sum()
-        if self.parity > 0.0 or abs(jump) > ROUGH * np.abs(panels.series).max():
-            return panels
-        # What the first panel misses of 0 at the axis would make the potential infinite there
-        series = panels.series.copy()
-        series[0, 0] -= jump
-        return panels._replace(series=series)
-
-    @property
-    def middle(self) -> float:
-        return self.contact.m
-
-    @property
-    def sharp(self) -> bool:
-        return self.panels.power < 0.0
-
-    @cached_property
-    def _half(self) -> HalfPotential:
-        return HalfPotential(self.panels)
-
-    @property
-    def resultant(self) -> float:  # type: ignore[override]
-        return self.load
-
-    @cached_property
-    def moment(self) -> float:  # type: ignore[override]
-        if self.parity > 0.0:
-            return self.contact.m * self.load
-        x, w = self._half.quadrature
-        return 2.0 * float(w @ x)
-
-    @property
-    def breaks(self) -> tuple[float, ...]:
-        m, b = self.contact.m, self.marks[-1]
-        told = [y for y in self.marks[:-1] if b - y > TOLD * b]
-        inner = {m - y for y in told} | {m + y for y in told}
-        return tuple(sorted(inner | set(self.interval)))
-
-    def __call__(self, x: ArrayLike) -> Array:
-        def value(flat: Array) -> Array:
-            y = np.abs(flat - self.contact.m)
-            y[(flat == self.contact.x1) | (flat == self.contact.x2)] = self.marks[-1]
-            inside = (flat >= self.contact.x1) & (flat <= self.contact.x2)
-            out = np.zeros(flat.shape)
-            out[inside] = self.values(np.minimum(y[inside], self.marks[-1]))
-            return np.where(flat < self.contact.m, self.parity * out, out) + 0.0
-
-        return on_line(value, x)
-
-    def _potentials(self, z: Complex, derivative: bool) -> tuple[Complex, Complex]:
-        F, dF = self._half(z, derivative)
-        G, dG = (v.conj() for v in self._half(-z.conj(), derivative))
-        return F - self.parity * G, dF + self.parity * dG
-
-
-def on_panels(panels: Panels, y: Array) -> Array:
-    """The values of the series at 0 <= y <= b."""
-    k = np.clip(np.searchsorted(panels.lo, y, side="right") - 1, 0, len(panels.lo) - 1)
-    length = (panels.hi - panels.lo)[k]
-    s = 2.0 * (y - panels.lo[k]) / length - 1.0
-    c = panels.series[k].T
-    high, higher = c[-1], np.zeros_like(s)
-    for a in c[-2:0:-1]:
-        high, higher = a + 2.0 * s * high - higher, high
-    values: Array = c[0] + s * high - higher
-    last = k == len(panels.lo) - 1
-    part = np.maximum((panels.hi[-1] - y[last]) / length[last], LEAST)
-    values[last] *= part**panels.power
-    return values
 
 
 def resolved_panels(

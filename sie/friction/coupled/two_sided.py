@@ -34,6 +34,7 @@ class TwoSidedTraction(OnHalves):
     marks       where it or a derivative is not smooth, ascending, with the edges
     contact     its edges
     first       ∫q x dx, where it is known
+    sharp       whether it is infinite at the edges
     """
 
     values: Callable[[Array], Array] = field(repr=False)
@@ -43,6 +44,7 @@ class TwoSidedTraction(OnHalves):
     marks: tuple[float, ...]
     contact: Interval
     first: float | None = None
+    sharp: bool = False  # type: ignore[misc]
 
     @property
     def middle(self) -> float:
@@ -110,15 +112,20 @@ class Known(NamedTuple):
 
 
 def both_tractions(
-    values: tuple[Callable[[Array], Array], ...], rows: Callable[[Array], Array], known: Known
+    values: tuple[Callable[[Array], Array], ...],
+    rows: Callable[[Array, Array], Array],
+    known: Known,
 ) -> tuple[TwoSidedTraction, TwoSidedTraction]:
-    """p and q, by their values, each alone and both as rows: they share their panels."""
+    """p and q, by their values, each alone and both as rows: they share their panels.
+
+    The rows are those at places of known distances from the edge on their side.
+    """
     split, marks, powers, loads, first = known
     contact = Interval(marks[0], marks[-1])
 
     def half(side: float, power: float) -> tuple[Panels, ...]:
         ends = sorted(side * (x - split) for x in marks if side * (x - split) > 0.0)
-        return joined_panels(lambda y, _: rows(split + side * y), tuple(ends), power)
+        return joined_panels(lambda y, rest: rows(split + side * y, rest), tuple(ends), power)
 
     @lru_cache(maxsize=1)
     def halves() -> tuple[tuple[Panels, ...], tuple[Panels, ...]]:
@@ -129,7 +136,14 @@ def both_tractions(
 
     p, q = (
         TwoSidedTraction(
-            values[k], partial(panels, k), split, loads[k], marks, contact, (first, None)[k]
+            values[k],
+            partial(panels, k),
+            split,
+            loads[k],
+            marks,
+            contact,
+            (first, None)[k],
+            min(powers) < 0.0,
         )
         for k in (0, 1)
     )

@@ -2,20 +2,23 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from sie.friction.coupled.panels import shrinking
-from sie.friction.coupled.profile import NEAREST
 from sie.friction.slip_zones import EdgeFrame, SlipZone
 from sie.numerics.gauss_jacobi import gauss_jacobi
 
 Array = NDArray[np.float64]
 
 NODES = 16
+NEAREST = 1e-17  # of the half-width, to a singularity that x may be on
+GROWTH = 2.0  # a panel's length over its distance from the singularity
+FAR = 1e300  # stands for no singularity
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,3 +71,41 @@ class DeficitFrame:
             weight.ravel(),
             weight.ravel() * values / self.friction,
         )
+
+
+def totals(owner: NDArray[np.intp], values: Array, n: int) -> Array:
+    """The sums of rows of values that belong to each of n intervals."""
+    total: Array = np.bincount(owner, values.sum(axis=1), minlength=n).astype(float)
+    return total
+
+
+def shrinking(length: Array, before: Array, after: Array) -> tuple[Array, ...]:
+    """Panels of intervals, as arrays.
+
+    These are the interval of each, its beginning, its length, what is left behind it, and the
+    number of its rule: at the start, between, or at the end.
+
+    From either end they grow in proportion to the distance from the singularity beyond it.
+    """
+    first = np.where(np.isinf(after), length, 0.5 * length)
+    owner, k, start, size = geometric(first, before)
+    backwards, j, behind, back = geometric(length - first, after)
+    return (
+        np.concatenate((owner, backwards)),
+        np.concatenate((start, length[backwards] - behind - back)),
+        np.concatenate((size, back)),
+        np.concatenate((length[owner] - start - size, behind)),
+        np.concatenate((np.minimum(k, 1), np.where(j == 0, 2, 1))),
+    )
+
+
+def geometric(length: Array, scale: Array) -> tuple[Any, ...]:
+    """(owner, number, beginning, length) of panels that grow with the distance from -scale."""
+    scale = np.minimum(scale, FAR)
+    folds = np.log1p(length / scale)
+    count = np.ceil(folds / math.log1p(GROWTH)).astype(np.intp)
+    owner = np.repeat(np.arange(len(count)), count)
+    k = np.arange(len(owner)) - np.repeat(np.cumsum(count) - count, count)
+    ratio, scale = (folds / np.maximum(count, 1))[owner], scale[owner]
+    start = scale * np.expm1(k * ratio)
+    return owner, k, start, scale * np.expm1((k + 1) * ratio) - start

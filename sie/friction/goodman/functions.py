@@ -24,13 +24,16 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from sie.friction.coupled.flat import NARROWEST_RATIO, WIDEST_RATIO
-from sie.friction.coupled.tables import chopped, summed
+from sie.friction.coupled.flat import NARROWEST_RATIO
 from sie.numerics import chebyshev
 from sie.numerics.elliptic import Modulus, elliptic_functions, modulus_of_ratio
 from sie.numerics.gauss_jacobi import gauss_jacobi
 
 Array = NDArray[np.float64]
+
+# beyond it c = 4 exp(-π K'/2K) is lost even beside a double's smallest lengths; c² is a double
+WIDEST_RATIO = 200.0
+CHOP = 2e-17  # of the largest coefficient
 
 # Nodes for a function of the slip zone's elliptic coordinate, and how many more a long zone needs
 NODES, PER_RATIO = 24, 14.0
@@ -87,7 +90,7 @@ class GoodmanFlat:
         square = from_edge * (1.0 + t)
         inner = past * (t + self.k)
         s = np.sqrt(square) * _first_kind(inner, t * t * complement**2, complement**2)
-        return summed(self._slip, 2.0 * s / self.modulus.K_complement - 1.0)
+        return chebyshev.evaluate(self._slip, 2.0 * s / self.modulus.K_complement - 1.0)
 
     @property
     def slip_places(self) -> tuple[Array, Array, Array]:
@@ -125,3 +128,9 @@ class GoodmanFlat:
 def goodman_flat(beta: float, friction: float) -> GoodmanFlat:
     """Where the slip zone would be narrower than rounding, f is that which makes it so wide."""
     return GoodmanFlat(beta, min(friction, beta / NARROWEST_RATIO))
+
+
+def chopped(c: Array, least: float = CHOP) -> Array:
+    """A series without its last coefficients below this part of the largest one."""
+    kept = np.flatnonzero(np.abs(c) > least * np.abs(c).max())
+    return c[: kept[-1] + 1] if kept.size else c[:1]

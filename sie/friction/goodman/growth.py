@@ -22,10 +22,11 @@ from numpy.typing import NDArray
 from sie.contact.edges import Search
 from sie.contact.known_contact import Edges
 from sie.errors import ContactError
-from sie.friction.coupled.tables import chopped, summed
 from sie.numerics import chebyshev
 from sie.numerics.interval import EPS, Interval, interval_about
 from sie.profiles.power_law import PowerLaw
+
+from .functions import chopped
 
 Array = NDArray[np.float64]
 
@@ -72,7 +73,8 @@ class Panel:
         """dP/dr at r = lo + ahead."""
         root = np.sqrt(np.maximum((self.lo - self.begin + ahead) / self.scale, 0.0))
         first, last = self.depths
-        rate = summed(self.load_rates, 2.0 * (np.arcsinh(root) - first) / (last - first) - 1.0)
+        place = 2.0 * (np.arcsinh(root) - first) / (last - first) - 1.0
+        rate = chebyshev.evaluate(self.load_rates, place)
         if self.corner:
             rate = rate / np.maximum(root, NOWHERE)
         return rate * (self.lo + ahead) ** self.power if self.power else rate

@@ -28,10 +28,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from sie.friction.coupled.panels import totals
-from sie.friction.coupled.profile import NEAREST
 from sie.numerics.gauss_jacobi import gauss_jacobi
 
+from .frame import NEAREST, totals
 from .functions import GoodmanFlat
 from .growth import ContactTable, Panel
 

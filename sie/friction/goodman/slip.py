@@ -26,10 +26,9 @@ from numpy.typing import NDArray
 
 from sie.contact.edges import Search
 from sie.errors import ContactError
-from sie.friction.coupled.contact import PARTS
 from sie.friction.coupled.half_potential import Panels
 from sie.friction.coupled.normal import symmetry_axis
-from sie.friction.coupled.profile import NEAREST
+from sie.friction.coupled.pressed import PARTS
 from sie.friction.coupled.traction import resolved_panels
 from sie.friction.coupled.two_sided import TwoSidedTraction
 from sie.friction.slip_state import Slip, Step
@@ -39,7 +38,7 @@ from sie.numerics.interval import EPS, Interval
 from sie.problem.load_limit import refuse_corner, refuse_sliding, remaining
 from sie.traction.in_contact import InContact
 
-from .frame import DeficitFrame
+from .frame import NEAREST, DeficitFrame
 from .functions import GoodmanFlat, goodman_flat
 from .growth import ContactTable
 from .shear import GoodmanGrowth
@@ -143,6 +142,8 @@ class GoodmanSlip(Slip):
             return (lo, hi), replace(self, step=replace(self.step, Q=0.0), zones=None)
         c1, c2 = light.stick[0] if light is not None else self.normal_stick
         return (max(lo, c1), min(hi, c2)), light
+
+    strain_kept = 0.0
 
     @property
     def least_slip(self) -> float:

@@ -1,0 +1,200 @@
+"""The answer for dissimilar bodies after P, and then Q and bulk stress at constant P.
+
+States are solved about an origin in the contact, for β > 0; β < 0 turns the signs of q, of the
+slip and of the strain.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from sie.errors import ContactError
+from sie.traction.base import on_line
+
+from .integral import integral, towards_ends
+from .step import Loaded
+from .view import View
+from .work import work
+
+if TYPE_CHECKING:
+    from .pressed import Pressed
+
+Array = NDArray[np.float64]
+
+WINDOW = 1.3  # half-widths from the middle: what no contact under Q leaves
+LEAST = 1e-300
+GRADED: Array = 3.0 ** -np.arange(30.0)  # of a half-width: panels towards where γ is not smooth
+PRESSED = 1e-9  # of P: what the state of the normal load may miss
+NARROWEST = 1e-15  # of the contact: slip zones of the normal load, as wide at least
+
+
+@dataclass(frozen=True, eq=False)
+class LoadedContact(View):
+    """A state at constant P in the coordinates of the scene.
+
+    loaded      the state
+    pressed     that under P alone
+    origin      of the places of the states
+    sign        of β
+    previous    the state at the point of the path before
+    """
+
+    loaded: Loaded
+    pressed: Pressed
+    origin: float
+    sign: float
+    previous: LoadedContact | None = None
+
+    @property
+    def half_modulus(self) -> float:  # type: ignore[override]
+        return self.pressed.half_modulus
+
+    def under(self, Q: float, tau: float) -> LoadedContact:
+        """The state after a step to Q and τ; ContactError where friction is kept by none."""
+        known = float(np.abs(self._first.state.missed).max())
+        if not known <= PRESSED:
+            raise ContactError(
+                f"the slip that the normal load left is known to {known:.1g} of f p alone, too "
+                "little to go on from; raise friction, or give dundurs = 0 to neglect β"
+            )
+        after = self.loaded.stepped(self.sign * Q, self.sign * tau)
+        if after is None:
+            raise refused(self, Q)
+        return replace(self, loaded=after, previous=self)
+
+    @property
+    def _first(self) -> Loaded:
+        """The state under P alone."""
+        first = self.loaded
+        while first.before is not None:
+            first = first.before
+        return first
+
+    # -- slip --------------------------------------------------------------------------------------
+
+    def relative_slip(self, x: ArrayLike) -> Array:
+        """The slip at x, same shape: 0 outside the contact."""
+
+        def value(flat: Array) -> Array:
+            lo, hi = self.contact[:2]
+            inside = (flat >= lo) & (flat <= hi)
+            g = np.zeros(flat.shape)
+            at = flat[inside]
+            g[inside] = self.sign / self.half_modulus * self._gained(at - self.origin)
+            g[inside] += self.pressed.relative_slip(at)
+            return g
+
+        return on_line(value, x)
+
+    def _gained(self, x: Array) -> Array:
+        """E*/2 times the slip since P alone, turn by turn."""
+        total, now = np.zeros(len(x)), self.loaded
+        while now.before is not None:
+            total += slipped(now, now.before, x)
+            now = now.before
+        return total
+
+    @property
+    def least_slip(self) -> float:
+        """The least slip in its direction, over the largest."""
+        verdict = self.loaded.verdict
+        return min(verdict.slip, verdict.rate)
+
+    @property
+    def kept(self) -> tuple[tuple[float, float], Any]:
+        """What sticks, and the state that its slip gradient was locked in by."""
+        before = self.loaded.before
+        earlier: Any = self.pressed
+        if before is not None and before.before is not None:
+            earlier = replace(self, loaded=before)
+        return self.stick[0], earlier
+
+    @property
+    def strain_kept(self) -> float:
+        """What a bulk stress changed γ by since that state."""
+        before = self.loaded.before
+        return self.sign * (self.loaded.strain - (before.strain if before else 0.0))
+
+    @cached_property
+    def energy(self) -> float:
+        """The dissipated energy since P was applied."""
+        if self.previous is None:
+            return self.pressed.energy
+        done = work(self.previous.loaded, self.loaded)
+        if done is None:
+            raise ContactError(
+                "the energy of this step is a sum over states on the way, of which one was not "
+                "found; give the step in two parts"
+            )
+        return self.previous.energy + done / self.half_modulus
+
+    @cached_property
+    def shift(self) -> float:
+        """The shift of the indenter, less that of a contact bonded as P left it.
+
+        That is Q/π [ln(2X/b) - Re ψ(1/2 + iη) + ψ(1/2)] to a far X, tanh πη = β, ψ the digamma
+        function.
+        """
+        from scipy.special import digamma  # noqa: PLC0415 -- heavy, and seldom asked for
+
+        first = self.loaded
+        while first.before is not None:
+            first = first.before
+        start, b = self.loaded.zones.stick[0][1], 0.5 * float(np.ptp(first.zones.ends))
+        eta = math.atanh(self.loaded.question.beta) / math.pi
+        bonded = math.log(0.5 * b) + float((digamma(0.5 + 1j * eta) - digamma(0.5)).real)
+        moved = _to_far(self.loaded, start) - _to_far(first, start)
+        return self.sign * (moved + self.loaded.Q / math.pi * bonded) / self.half_modulus
+
+
+def slipped(after: Loaded, before: Loaded, x: Array) -> Array:
+    """E*/2 times the slip from one state to a later one."""
+    out, ends = np.zeros(len(x)), after.zones.ends
+    lo, hi = before.zones.ends[[0, -1]]
+    places = np.array([*before.state.pieces.cuts.tolist(), *after.question.slope.kinks])
+    near = 0.5 * (hi - lo) * np.concatenate((-GRADED, [0.0], GRADED))
+    inner = (places[:, None] + near).ravel()
+
+    def gain(u: Array) -> Array:
+        gamma, touched = after.fields.gamma(u), (u >= lo) & (u <= hi)
+        gamma[touched] -= before.fields.gamma(u[touched])
+        if not touched.all():
+            gamma[~touched] -= before.state.beside_contact(u[~touched])[1]
+        return gamma - (after.strain - before.strain)
+
+    for first, last, on_left in ((ends[0], ends[1], True), (ends[-2], ends[-1], False)):
+        own = (x >= first) & (x <= last)
+        if own.any():
+            total = integral(gain, towards_ends(first, last, inner))
+            out[own] = total(x[own]) - (total(np.array([last])) if on_left else 0.0)
+    return out
+
+
+def _to_far(state: Loaded, start: float) -> float:
+    """∫γ dx from a place to a far X, less Q/π ln X."""
+    at, (p, q, _) = state.fields.whole
+    log = np.log(np.maximum(np.abs(at.x - start), LEAST)) / math.pi
+    beta = state.question.beta
+    return float(at.weight @ (beta * (at.x > start) * p - q * log))
+
+
+def pressed_contact(pressed: Pressed) -> LoadedContact:
+    """The state under P alone, as the first of others at constant P."""
+    return LoadedContact(pressed.loaded, pressed, pressed.origin, pressed.sign)
+
+
+def refused(state: LoadedContact, Q: float) -> ContactError:
+    """The ContactError: no zones keep the friction law."""
+    question = state.loaded.question
+    P, limit = question.P, question.friction * question.P
+    return ContactError(
+        f"dissimilar bodies (β f = {question.beta * question.friction:.3g}) under P = {P:.6g}, "
+        f"|Q| = {abs(Q):.6g} ({abs(Q) / limit:.3g} f P): slip turns inside a zone, or contact that "
+        "is gained sticks, which is not solved; change Q, or give dundurs = 0"
+    )

@@ -1,0 +1,293 @@
+"""p, q and γ of a state at any place, from tables in the variable of the quadrature.
+
+The fields are computed at four shifts of the rule, and interpolated between equidistant v: whatever
+power of the distance they have at an end, they are smooth in v.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.special import sici
+
+from .pieces import Places
+from .state import State
+
+Array = NDArray[np.float64]
+
+SHIFTS = 4
+POINTS = 14  # of the interpolation
+FARTHEST = 22.0  # |v| beyond which fields go on as a power of the distance from an edge
+DEEP = 33.0  # |v| up to which p and γ are told at marks inside the contact
+DEEPEST = 50.0  # the same next to the end of a zone: slip zones may be as narrow as 1e-15
+NEAR_EDGE = 1e-3  # of the contact: up to there the distance from an edge tells a place best
+LEFT_OUT = 24.0  # e-folds that a rule goes on beyond: what it leaves out is then 4e-11 of p
+LAST = 745.0  # e-folds that doubles have
+FLAT = 1e-8  # of p and q: what changes less in v is no logarithm
+SMALL = 0.05  # β below which q loses digits by (1)
+NEAREST = 1e-8  # of the contact: nodes that are nearer to a mark are not looked at
+
+
+@dataclass(frozen=True, eq=False)
+class Fields:
+    """The fields of a state."""
+
+    state: State
+
+    def __call__(self, x: Array, rest: Array | None = None) -> Array:
+        """Rows of p, q and γ at places in contact, at distances `rest` from the nearer edge."""
+        cuts, (k, lo, hi) = self.state.pieces.cuts, self._located(x, rest)
+        with np.errstate(divide="ignore"):
+            v = np.log(np.maximum(lo, 0.0)) - np.log(np.maximum(hi, 0.0))
+        v = np.clip(v, -LAST, LAST)
+        rows, last, step = np.empty((3, len(x))), len(cuts) - 2, self.state.pieces.fineness.step
+        for piece in np.unique(k):
+            own = k == piece
+            first, table = self.tables[piece]
+            lowest, highest = (self._last_pressure(piece, side) for side in (-1, 1))
+            ends = -self._last_shear(piece, -1), self._last_shear(piece, 1)
+            for row, far in (([0, 2], (-lowest, highest)), ([1], ends)):
+                place = (np.clip(v[own], *far) - first) * (SHIFTS / step)
+                rows[np.ix_(row, own)] = interpolated(table[row], place)
+            for side in (-1, 1):
+                if 0 <= piece + side <= last:
+                    self._next_to_cut((int(piece), side), own, v, rows)
+        powers = self.state.pieces.powers
+        for edge, side, sign in ((0, k == 0, -1.0), (-1, k == len(cuts) - 2, 1.0)):
+            beyond = side & (sign * v > FARTHEST)
+            rows[:2, beyond] *= np.exp(powers[edge] * (FARTHEST - sign * v[beyond]))
+        signs = self.state.pieces.sign[self.state.pieces.zone_of_piece[k]]
+        slips = signs != 0.0
+        rows[1, slips] = signs[slips] * self.state.question.friction * rows[0, slips]
+        return rows
+
+    def _located(self, x: Array, rest: Array | None) -> tuple[NDArray[np.intp], Array, Array]:
+        """The piece of each place, and its distances from the ends of that."""
+        pieces = self.state.pieces
+        cuts, last = pieces.cuts, len(pieces.cuts) - 2
+        k = np.clip(np.searchsorted(cuts, x, side="right") - 1, 0, last)
+        lo, hi = x - cuts[k], cuts[k + 1] - x
+        if rest is None:
+            return k, lo, hi
+        # next to an edge distances from that tell more
+        for left in (True, False):
+            lengths = pieces.lengths if left else pieces.lengths[::-1]
+            ends = np.append(0.0, np.cumsum(lengths))
+            own = (rest < NEAR_EDGE * pieces.length) & ((x < 0.5 * (cuts[0] + cuts[-1])) == left)
+            j = np.clip(np.searchsorted(ends, rest[own], side="right") - 1, 0, last)
+            outer, inner = rest[own] - ends[j], ends[j + 1] - rest[own]
+            k[own] = j if left else last - j
+            lo[own], hi[own] = (outer, inner) if left else (inner, outer)
+        return k, lo, hi
+
+    def _last_pressure(self, piece: int, side: int) -> float:
+        """|v| up to which p and γ are told."""
+        pieces = self.state.pieces
+        if not 0 <= piece + side < len(pieces.lengths):
+            return FARTHEST
+        sticks = not pieces.sign[pieces.zone_of_piece[piece]]
+        deepest = sticks and pieces.powers[piece + (side > 0)] != 0.0
+        return self._within(piece, side, DEEPEST if deepest else DEEP)
+
+    def _within(self, piece: int, side: int, far: float) -> float:
+        """|v| that the table reaches, at most this."""
+        first, table = self.tables[piece]
+        last = first + (table.shape[1] - 1) * self.state.pieces.fineness.step / SHIFTS
+        return min(far, last if side > 0 else -first)
+
+    def _last_shear(self, piece: int, side: int) -> float:
+        """|v| up to which q is told: nearer to a narrow slip zone, next to which it varies more."""
+        pieces, other = self.state.pieces, piece + side
+        if not 0 <= other < len(pieces.lengths):
+            return FARTHEST
+        if not pieces.powers[piece + (side > 0)]:
+            return max(FARTHEST, pieces.fineness.inner - LEFT_OUT)
+        width = pieces.widths[pieces.zone_of_piece[other]]
+        more = 0.5 * max(math.log(pieces.lengths[piece] / width), 0.0)
+        return self._within(piece, side, min(DEEPEST, FARTHEST + more))
+
+    def _next_to_cut(
+        self, where: tuple[int, int], own: NDArray[np.bool_], v: Array, rows: Array
+    ) -> None:
+        """Sets p and q too near to a cut on that side of a piece for what tables tell.
+
+        At marks both may have a logarithm; next to slip f p - |q| is a power of the distance.
+        """
+        (piece, side), pieces = where, self.state.pieces
+        signs, power = pieces.sign[pieces.zone_of_piece], pieces.powers[piece + (side > 0)]
+        (first, table), step = self.tables[piece], pieces.fineness.step
+        for row, last in enumerate(
+            (self._last_pressure(piece, side), self._last_shear(piece, side))
+        ):
+            near = np.flatnonzero(own & (side * v > last))
+            if not near.size or (row == 0 and power):
+                continue
+            place = side * np.array([last, last - 1.0])
+            (p, _), (q, _) = both = interpolated(table[:2], (place - first) * (SHIFTS / step))
+            beyond = side * v[near] - last
+            if power:
+                full = signs[piece + side] * self.state.question.friction
+                rows[1, near] = full * rows[0, near] - (full * p - q) * np.exp(-power * beyond)
+                continue
+            rise = both[row, 0] - both[row, 1]
+            if abs(rise) < FLAT * np.abs(both).max():
+                continue
+            rows[row, near] = both[row, 0] + rise * beyond
+
+    def gamma(self, x: Array) -> Array:
+        """γ in contact."""
+        values: Array = self(x)[2]
+        return values
+
+    @cached_property
+    def _rules(self) -> tuple[list[Places], list[Array]]:
+        """The four rules, and rows of p, q and γ on each.
+
+        With ω the product of the roots of both distances over the stick zones, by (12)
+
+            1/π ∫q/(z - t) dt = ω/π ∫μ/(z - t) dt,   μ = (γ - β p)/|ω| in stick, q/ω in slip,
+
+        which gives γ in slip and loses nothing as β tends to 0. Where β is SMALL it gives q in
+        stick too, which else makes (1) hold.
+        """
+        state, question = self.state, self.state.question
+        beta, f, pieces = question.beta, question.friction, state.pieces
+        rules = [pieces.rule(shift / SHIFTS) for shift in range(SHIFTS)]
+        stuck, flows, cos = [], [], math.cos(math.pi * question.theta)
+        for at in rules:
+            sticks = state.sticks(at)
+            held = at.chosen(sticks)
+            gamma = question.gamma(held.x)
+            p = (state.A(held) - beta * gamma) / (1.0 - beta**2)
+            H1, chi = question.slope(at.x), state.chi(at)
+            mass = -cos * H1
+            mass[sticks] = p
+            stuck.append((sticks, gamma, p, H1, chi))
+            flows.append(mass * at.weight / chi)
+        small, roots = beta < SMALL, [self._root(at) for at in rules]
+        rows, sources = [], []
+        for k, at in enumerate(rules):
+            (sticks, gamma, held, H1, chi), other = stuck[k], (k + SHIFTS // 2) % SHIFTS
+            slips, place = ~sticks, at.chosen(~sticks) if small else at
+            flow = np.zeros(len(at.x))
+            flow[slips if small else slice(None)] = state.psi(place, rules[other], flows[other])
+            flow *= chi
+            kappa = pieces.sign[at.zone] * beta * f
+            p = cos * flow - kappa * H1 / (1.0 + kappa**2)
+            p[sticks] = held
+            q = np.where(sticks, (flow - H1) / beta, pieces.sign[at.zone] * f * p)
+            mass = np.where(sticks, 0.0, q)
+            mass[sticks] = beta * held - gamma
+            sources.append(mass * at.weight / roots[k])
+            rows.append(np.stack((p, q, beta * p)))
+        for k, at in enumerate(rules):
+            sticks, gamma, *_ = stuck[k]
+            other, slips = (k + SHIFTS // 2) % SHIFTS, ~sticks
+            place = at if small else at.chosen(slips)
+            flow = state.psi(place, rules[other], sources[other])
+            flow *= roots[k] if small else roots[k][slips]
+            rows[k][2, slips] += flow[slips] if small else flow
+            rows[k][2, sticks] = gamma
+            if small:
+                rows[k][1, sticks] = flow[sticks]
+        return rules, rows
+
+    def _root(self, at: Places) -> Array:
+        """ω in slip; in stick, where ω is imaginary, i ω above the contact."""
+        pieces = self.state.pieces
+        log, zones = np.zeros(len(at.x)), np.flatnonzero(pieces.sign == 0.0)
+        for zone in zones:
+            for cut in pieces.cut_of_ends[[zone, zone + 1]]:
+                log += 0.5 * np.log(np.abs(pieces.from_cut(at, int(cut))))
+        # ω changes its sign across each stick zone to the right
+        ahead = np.array([np.count_nonzero(zones > k) for k in range(len(pieces.sign))])
+        turns = (-1.0) ** (ahead + (pieces.sign == 0.0))
+        values: Array = turns[at.zone] * np.exp(log)
+        return values
+
+    @cached_property
+    def tables(self) -> list[tuple[float, Array]]:
+        """The first v and the rows of each piece."""
+        rules, rows = self._rules
+        lengths, tables = self.state.pieces.lengths, []
+        for piece in range(len(lengths)):
+            first = rules[0].offset[rules[0].piece == piece][0] / lengths[piece]
+            tables.append((math.log(first), self._merged(rules, rows, piece)))
+        return tables
+
+    def _merged(self, rules: list[Places], rows: list[Array], piece: int) -> Array:
+        columns = [row[:, rule.piece == piece] for rule, row in zip(rules, rows, strict=True)]
+        merged: Array = np.stack(columns, axis=2).reshape(len(rows[0]), -1)
+        return merged
+
+    @cached_property
+    def whole(self) -> tuple[Places, Array]:
+        """The nodes of all shifts, piece by piece in ascending order, and rows of p, q and γ."""
+        rules, rows = self._rules
+        numbers = [
+            SHIFTS * np.arange(len(rule.x), dtype=float)[None] + k for k, rule in enumerate(rules)
+        ]
+        pieces = range(len(self.state.pieces.lengths))
+        order = np.concatenate([self._merged(rules, numbers, piece)[0] for piece in pieces])
+        order = order.astype(int)
+        every = Places(*(np.stack(c, axis=1).ravel()[order] for c in zip(*rules, strict=True)))
+        fields = np.stack(rows, axis=2).reshape(3, -1)[:, order]
+        return every._replace(weight=every.weight / SHIFTS), fields
+
+    @cached_property
+    def nodes(self) -> tuple[Places, Array]:
+        """The same without those that are nearer to a cut than what matters."""
+        every, fields = self.whole
+        kept = np.abs(every.offset) > NEAREST * self.state.pieces.length
+        return every.chosen(kept), fields[:, kept]
+
+
+def interpolated(table: Array, place: Array, points: int = POINTS) -> Array:
+    """Columns of a table at fractional places by Lagrange's polynomials."""
+    first = np.clip(np.floor(place).astype(int) - points // 2 + 1, 0, table.shape[1] - points)
+    apart = (place - first)[:, None] - np.arange(points)
+    exact = apart == 0.0
+    weights = _binomial(points) / np.where(exact, 1.0, apart)
+    weights = np.where(exact.any(axis=1)[:, None], exact, weights)
+    weights /= weights.sum(axis=1)[:, None]
+    values: Array = np.einsum("rmk,mk->rm", table[:, first[:, None] + np.arange(points)], weights)
+    return values
+
+
+@lru_cache(maxsize=4)
+def _binomial(points: int) -> Array:
+    """The weights of equidistant points."""
+    return np.array([(-1.0) ** j * math.comb(points - 1, j) for j in range(points)])
+
+
+def cumulative(values: Array) -> Array:
+    """The integral of equidistant values up to each place, in steps, by the sinc series.
+
+    The integrand vanishes towards both ends: error e^(-π²/h).
+    """
+    k = np.arange(1 - len(values), len(values))
+    total: Array = np.convolve(values, 0.5 + sici(math.pi * k)[0] / math.pi, "valid")
+    return total
+
+
+def summed(values: Array) -> Array:
+    """The same by neighbours alone, where what is far away may not be smooth."""
+    half = len(_STENCIL) // 2
+    padded = np.concatenate((np.zeros(half), values, np.zeros(half)))
+    total: Array = np.cumsum(np.convolve(padded, _STENCIL[::-1], "valid")[: len(values)])
+    return total
+
+
+def _integral_of_step(points: int) -> Array:
+    """Weights of equidistant values for the integral between the two in the middle."""
+    t = np.arange(points) - (points - 1) / 2.0
+    powers = np.arange(points)
+    exact = np.where(powers % 2 == 0, 2.0 * 0.5 ** (powers + 1) / (powers + 1), 0.0)
+    return np.asarray(np.linalg.solve(t ** powers[:, None], exact))
+
+
+_STENCIL = _integral_of_step(10)

@@ -1,0 +1,381 @@
+"""The growth of a contact of dissimilar bodies from first touch to the load.
+
+Each panel of `growth` ends where an edge reaches a place at which the profile is not smooth, where
+its series ask for it, or beyond the load. What is refused is refused with the load at which it
+happens.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from functools import partial
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sie.errors import ContactError
+from sie.numerics import chebyshev
+from sie.numerics.root_finding import false_position
+from sie.profiles.slope import Slope
+from sie.progress_bar import step_done
+
+from .flat import FlatPunch
+from .growth import DEGREE, Panel, Side, collocated
+
+Array = NDArray[np.float64]
+
+DECAYED = 1e-13  # of a series, its last coefficients
+NEGLIGIBLE = 1e-12  # of the load, or of the half-width: what a short panel may miss
+UNRESOLVED = 1e-9  # of the same: what is refused
+NO_LESS = 0.5  # of what a panel missed before it was cut
+CUT = 0.4  # of a panel that is cut
+FOLDS = 5.0  # e-folds of the distance from a kink, that a panel behind it may reach over
+# What a panel misses that begins at a kink: its power of the length, and the shortest cut
+STEEPLY, LEAST_CUT = 0.7, 1e-4
+SHORTEST = 1e-13  # of the half-width, a panel
+MOST = 400  # panels
+BEYOND = 1.01  # of the length at which an edge seems to reach a kink, a panel
+LANDED, LANDINGS = 1e-14, 12  # of the half-width: an edge at a kink; and trials
+CLOSE = 1e-12  # of the half-width: kinks so near the place of first contact are that place
+FIRST = 1e-8  # of the half-width from first contact: where the power of the slope is measured
+WHOLE = 1e-3  # of twice a power, from a whole number
+FALLING = 1e-9  # of the largest P': below it a negative one is not rounding
+LOOKS = 200  # places of a panel at which the middle is looked at
+# Before them, in parts of the panel from first touch on: under low friction it turns back early
+NEAR_START = 10.0 ** np.arange(-12.0, -2.0)
+NEGLECT = "set friction = 0, or give dundurs = 0 to neglect β"
+
+
+def never(a: float, b: float, missed: float) -> bool:
+    """False: a root is sought to rounding."""
+    return False
+
+
+class Touch(NamedTuple):
+    """The flat base, or the place, that touches first, and on each side the slope beside it.
+
+    powers      (q, q'), h' ~ d^q at a distance d
+    strengths   the factors of these, both positive
+    """
+
+    lo: float
+    hi: float
+    powers: tuple[float, float]
+    strengths: tuple[float, float]
+
+
+@dataclass
+class Edge:
+    """An edge on its way: the piece of the slope, where that was entered, and how far ago."""
+
+    sign: float
+    piece: int
+    entered: float
+    since: float
+    slope: Slope
+    half_modulus: float
+
+    @property
+    def place(self) -> float:
+        return self.entered + self.sign * self.since
+
+    @property
+    def end(self) -> float:
+        """The distance to the next place where the profile is not smooth."""
+        ahead = self.piece + (1 if self.sign > 0.0 else 0)
+        return self.sign * (float(self.slope.breaks[ahead]) - self.entered) - self.since
+
+    @property
+    def stays(self) -> bool:
+        """Whether the edge would stay there: at the indenter's end, or where its slope jumps."""
+        if self.piece == (len(self.slope.origins) - 1 if self.sign > 0.0 else 0):
+            return True
+        ahead = self.piece + (1 if self.sign > 0.0 else 0)
+        return self.slope.corner(float(self.slope.breaks[ahead]))[0] != 0.0
+
+    def values(self, rise: Array) -> Array:
+        """E*/2 h' ahead, as it rises outwards."""
+        u = self.sign * (self.since + rise)
+        at = np.array([self.entered])
+        found = self.slope.local(np.array([self.piece]), at, np.zeros(1), u.reshape(1, -1))
+        values: Array = self.sign * self.half_modulus * found.reshape(rise.shape)
+        return values
+
+    def moved(self, rise: float) -> None:
+        self.since += rise
+
+    def passed(self) -> None:
+        """Enters the next piece."""
+        ahead = self.piece + (1 if self.sign > 0.0 else 0)
+        self.entered, self.since = float(self.slope.breaks[ahead]), 0.0
+        self.piece += int(self.sign)
+
+
+def first_touch(slope: Slope, lo: float, hi: float) -> Touch:
+    """Where a convex profile touches first, given a contact; ContactError at a corner of it."""
+    r = 0.5 * (hi - lo)
+    breaks = slope.breaks
+    pieces = [k for k in range(len(breaks) - 1) if breaks[k] < hi and breaks[k + 1] > lo]
+    flat = [k for k in pieces if slope.is_zero[k]]
+    if flat:
+        start, end = float(breaks[flat[0]]), float(breaks[flat[-1] + 1])
+    else:
+        start = end = _minimum(slope, pieces, (lo, hi))
+        near = float(breaks[np.argmin(np.abs(breaks - start))])
+        if abs(near - start) <= CLOSE * r:
+            start = end = near
+    sides = [_beside(slope, place, sign, r) for place, sign in ((start, -1.0), (end, 1.0))]
+    powers, strengths = zip(*sides, strict=True)
+    return Touch(start, end, (powers[0], powers[1]), (strengths[0], strengths[1]))
+
+
+def _minimum(slope: Slope, pieces: list[int], within: tuple[float, float]) -> float:
+    """The place where h' changes sign."""
+
+    def value(x: float, k: int) -> float:
+        at = np.array([x])
+        return float(slope.local(np.array([k]), at, np.zeros(1), np.zeros((1, 1)))[0, 0])
+
+    for k in pieces:
+        lo, hi = max(within[0], float(slope.breaks[k])), min(within[1], float(slope.breaks[k + 1]))
+        ends = value(lo, k), value(hi, k)
+        if ends[0] >= 0.0:
+            return lo
+        if ends[1] > 0.0:
+            return false_position(partial(value, k=k), lo, hi, ends, never)
+    return within[1]
+
+
+def _beside(slope: Slope, place: float, sign: float, r: float) -> tuple[float, float]:
+    """The power of the slope beside a place, outwards, and its factor."""
+    side = edge_at(slope, place, sign, 1.0)
+    if side is None:
+        return 0.0, math.inf
+    d = min(FIRST * r, 1e-3 * side.end)
+    one, two = side.values(np.array([d, 2.0 * d])).tolist()
+    if one <= 0.0 or two <= 0.0:
+        return 0.0, 0.0
+    power = math.log2(two / one)
+    if abs(2.0 * power - round(2.0 * power)) < WHOLE:
+        power = 0.5 * round(2.0 * power)
+    return power, one / d**power
+
+
+def edge_at(slope: Slope, place: float, sign: float, half_modulus: float) -> Edge | None:
+    """An edge that starts outwards there; None where the indenter ends."""
+    right = int(np.searchsorted(slope.breaks, place, side="right")) - 1
+    left = int(np.searchsorted(slope.breaks, place, side="left")) - 1
+    piece = right if sign > 0.0 else left
+    if not 0 <= piece < len(slope.origins):
+        return None
+    return Edge(sign, piece, place, 0.0, slope, half_modulus)
+
+
+class March:
+    """The panels from first touch on; about an axis of symmetry the middle stays."""
+
+    def __init__(
+        self,
+        flat: FlatPunch,
+        slope: Slope,
+        half_modulus: float,
+        touch: Touch,
+        *,
+        axis: float | None = None,
+        exponent: float = 0.0,
+    ) -> None:
+        self.flat, self.touch, self.even = flat, touch, axis is not None
+        self.panels: list[Panel] = []
+        self.base = 0.5 * (touch.hi - touch.lo)
+        self.middle = touch.lo + self.base if axis is None else axis
+        edges = [
+            edge_at(slope, place, sign, half_modulus)
+            for place, sign in ((touch.lo, -1.0), (touch.hi, 1.0))
+        ]
+        start = self._start(edges[0] is None or edges[1] is None)
+        assert edges[0] is not None and edges[1] is not None
+        self.edges = (edges[1],) if self.even else (edges[1], edges[0])
+        self.power, self.rate = start
+        # of a power law, h = C |x|^m: P' is one power then
+        self.exponent = exponent
+        if exponent:
+            self.power = exponent - 1.0
+        self.load = 0.0
+        # Where the last panel began that P' begins with a broken power of the distance from
+        self.kinked = self.base
+        self.kinks: list[float] = []
+        self._scale = 0.0  # the largest load that any panel carried
+
+    def _start(self, ends: bool) -> tuple[float, float]:
+        """The power of P' and m' at first touch."""
+        (q, other), (left, right) = self.touch.powers, self.touch.strengths
+        uneven = abs(q - other) > WHOLE or min(left, right) <= 0.0
+        if ends or uneven or math.inf in (left, right):
+            where = f"x = {self.touch.lo:.6g}" + (f" ... {self.touch.hi:.6g}" if self.base else "")
+            raise ContactError(
+                f"the profile touches first at {where}, and rises so unlike on both sides, as at a "
+                "corner, that one edge of contact stays there: behind it what stuck would slip, "
+                f"which is not solved; round the corner, change the tilt, {NEGLECT}"
+            )
+        power = self.flat.exponent - 1.0 + q if self.base else q
+        turn = (left / right) ** (1.0 / (q + self.flat.exponent)) if self.base else 1.0
+        return power, 0.0 if self.even else (turn - 1.0) / (turn + 1.0)
+
+    @property
+    def s(self) -> float:
+        return self.panels[-1].hi if self.panels else self.base
+
+    def advance(self, goal: float) -> Panel:
+        """One more panel, as far as goal at most."""
+        lo = self.s
+        length, before, landing = self._longest(goal), math.inf, 0
+        fresh = lo == self.kinked
+        while True:
+            step_done(0)
+            if length < SHORTEST * goal or len(self.panels) > MOST:
+                raise ContactError(self._unresolved())
+            panel = self._solved(lo, length)
+            if panel is None:
+                length *= CUT
+                continue
+            reached = self._crossing(panel)
+            if reached < length and landing < LANDINGS:
+                length, landing = reached, landing + 1
+                continue
+            self._scale = max(self._scale, self.load + panel.load(math.inf))
+            missed = self._missed(panel, goal)
+            if missed > NEGLIGIBLE and missed <= NO_LESS * before:
+                before, landing = missed, 0
+                length *= max((NEGLIGIBLE / missed) ** STEEPLY, LEAST_CUT) if fresh else CUT
+                continue
+            if missed > UNRESOLVED:
+                raise ContactError(self._unresolved())
+            break
+        self._accept(panel)
+        return panel
+
+    def _longest(self, goal: float) -> float:
+        """How long a panel is tried."""
+        lo = self.s
+        length, rate = goal - lo, self.rate
+        if self.panels:
+            last = self.panels[-1]
+            rate = float(last.turn(np.array(last.length)))
+        if lo > self.kinked:
+            length = min(length, math.expm1(FOLDS) * (lo - self.kinked))
+        for edge in self.edges:
+            length = min(length, BEYOND * edge.end / (1.0 + edge.sign * rate))
+        return length
+
+    def _solved(self, lo: float, length: float) -> Panel | None:
+        last = self.panels[-1] if self.panels else None
+        behind, power = (lo - self.kinked or math.inf, 0.0) if last else (math.inf, self.power)
+        middle = last.middle + last.whole_shift if last else self.middle
+        rate = float(last.turn(np.array(last.length))) if last else self.rate
+        degree = 1 if self.exponent else DEGREE
+        series = np.zeros(degree)
+        empty = Panel(lo, lo + length, power, behind, middle, series, series)
+        shifts = chebyshev.transform(rate * empty.ahead(chebyshev.points(degree)))
+        sides = tuple(Side(edge.values, edge.sign) for edge in self.edges)
+        return collocated(self.flat, self.panels, replace(empty, shifts=shifts), sides)
+
+    def _missed(self, panel: Panel, goal: float) -> float:
+        """What the last coefficients of both series carry, in parts of the load and of the goal."""
+        if self.exponent:
+            return 0.0
+        size, length = np.abs(panel.series), panel.length
+        tail = float(size[-3:].max())
+        load = tail * length ** (1.0 + panel.power) if tail > DECAYED * size.max() else 0.0
+        turned = float(np.abs(panel.shifts[-3:]).max())
+        return max(load / self._scale, turned / goal if turned > DECAYED * length else 0.0)
+
+    def _crossing(self, panel: Panel) -> float:
+        """How far ahead an edge meets its next kink, the length of the panel if none does."""
+        ahead = panel.length
+        for edge in self.edges:
+            far = edge.end
+            if panel.spread(edge.sign) <= far + LANDED * panel.hi:
+                continue
+
+            def beyond(d: float, edge: Edge = edge, far: float = far) -> float:
+                moved = float(panel.moved(np.array(0.0), np.array(d)))
+                return d + edge.sign * moved - far
+
+            ends = -far, beyond(panel.length)
+            found = false_position(beyond, 0.0, panel.length, ends, never)
+            ahead = min(ahead, found)
+        return ahead
+
+    def _accept(self, panel: Panel) -> None:
+        self.load += panel.load(math.inf)
+        self.panels.append(panel)
+        for edge in self.edges:
+            edge.moved(panel.spread(edge.sign))
+            if not edge.stays and abs(edge.end) <= 10.0 * LANDED * panel.hi:
+                edge.passed()
+                self.kinked = panel.hi
+                self.kinks.append(panel.hi)
+
+    @property
+    def stopped(self) -> Edge | None:
+        """The edge that reached a corner of the indenter."""
+        hi = self.s
+        for edge in self.edges:
+            if edge.stays and edge.end <= 10.0 * LANDED * hi:
+                return edge
+        return None
+
+    def _unresolved(self) -> str:
+        return (
+            f"the contact of half-width {self.s:.6g} under P = {self.load:.6g} of dissimilar "
+            "bodies would not grow steadily, or its growth is not resolved: smooth the profile, "
+            f"change the tilt, {NEGLECT}"
+        )
+
+
+def refuse_turning(panel: Panel, ahead: float, before: float, flat: FlatPunch) -> None:
+    """Raises ContactError where an end of the stick zone would move back, or P' < 0."""
+    even = ahead * (np.arange(LOOKS) + 1.0) / LOOKS
+    start = ahead * NEAR_START if panel.power else np.zeros(1)
+    places = np.append(start, even)
+    excess, load = np.abs(panel.turn(places)) - flat.c, panel(even)
+    turned = np.flatnonzero(excess >= 0.0)
+    if turned.size:
+        k = int(turned[0])
+        first = float(places[k])
+        if k:
+            ends = float(excess[k - 1]), float(excess[k])
+            first = false_position(
+                lambda d: abs(float(panel.turn(np.array(d)))) - flat.c,
+                float(places[k - 1]),
+                first,
+                ends,
+                never,
+            )
+        turn = float(panel.turn(np.array(first)))
+        raise ContactError(_turning(panel.lo + first, before + panel.load(first), turn, flat.c))
+    if (load < -FALLING * np.abs(load).max()).any():
+        raise ContactError(
+            "the contact of dissimilar bodies with friction would not grow steadily under P = "
+            f"{before:.6g}: coupled slip is solved for convex profiles; smooth the profile, or "
+            "give dundurs = 0 to neglect β"
+        )
+
+
+def _turning(s: float, P: float, turn: float, c: float) -> str:
+    """Why there is no answer beyond the half-width s and the load P."""
+    start = f"from P = {P:.6g} on, at the half-width {s:.6g}," if P > 0.0 else "at once"
+    way, less = "right" if turn > 0.0 else "left", "lower the load, " if P > 0.0 else ""
+    return (
+        f"{start} the middle of the contact moves to the {way} {_below_one(abs(turn))} times as "
+        "fast as its half-width grows. Both ends of the stick zone of dissimilar bodies move "
+        f"outwards only below {_below_one(c)}; beyond, what stuck slips again, and how is not "
+        f"solved; {less}change the tilt, {NEGLECT}"
+    )
+
+
+def _below_one(part: float) -> str:
+    """A part in words that tell it from 1."""
+    return f"{part:.3g}" if part < 0.99 else f"(1 - {1.0 - part:.2g})"

@@ -1,0 +1,299 @@
+"""The contact of dissimilar bodies under a normal load alone.
+
+Its zones are those of a flat punch on the same contact. With the slip gradient that growing left
+where the bodies stick (`frozen`) they make a state like any other; slip and dissipated energy are
+integrals over the growth.
+"""
+
+from __future__ import annotations
+
+import itertools
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from sie.numerics.gauss_jacobi import with_weight
+from sie.numerics.interval import Interval
+from sie.profiles.slope import Slope
+from sie.traction.base import on_line
+
+from .fields import Fields
+from .flat import FlatPunch, state_of_flat
+from .frozen import Frozen, Gradient
+from .half_slope import HalfSlope
+from .pieces import FINEST, Pieces
+from .state import Question, State
+from .step import Loaded
+from .view import View
+
+Array = NDArray[np.float64]
+
+WINDOW = 1.3  # half-widths from the middle: what no contact under Q leaves
+LIGHTER = 0.9  # of the growth beyond the flat base: what sticks then sticks already
+PARTS: Array = np.linspace(0.0625, 0.9375, 8)  # of a slip zone, at which slip is tested
+TOLD = 1e-7  # of the contact: places in narrower slip zones are not told by x
+# Places of s between two kinks at which the power of friction is summed, and the root of the
+# distance from a kink in which it is smooth
+ENERGY_NODES, FOLD = 12, 3.0
+FEW, MANY_NODES = 4, 32  # kinks; and places where there are more
+
+
+@dataclass(frozen=True, eq=False)
+class Pressed(View):
+    """What a contact that grew and a flat punch have in common.
+
+    flat            functions of the flat punch; |β| and f
+    load            P
+    sign            of β
+    half_modulus    E*/2
+    friction        f of the scene; where nothing would slip that of `flat` is smaller
+    """
+
+    flat: FlatPunch
+    load: float
+    sign: float
+    half_modulus: float
+    friction: float
+
+    shift = strain_kept = 0.0
+
+    @cached_property
+    def contact(self) -> Interval:
+        middle, b = self.middle, self.half_width
+        return Interval(middle - b, middle + b)
+
+    @property
+    def middle(self) -> float:
+        """That of the contact."""
+        return self.origin
+
+    @property
+    def half_width(self) -> float:
+        raise NotImplementedError
+
+    @property
+    def full_stick(self) -> bool:
+        """Whether the slip zones are narrower than a part FULL_STICK of the contact."""
+        return self.flat.bonded
+
+    @property
+    def stick(self) -> tuple[tuple[float, float], ...]:
+        return (self.contact[:2],) if self.full_stick else super().stick
+
+    @property
+    def slip_width(self) -> float:
+        """The width of each zone of slip, to full relative accuracy."""
+        return 0.0 if self.full_stick else self.flat.rest * self.half_width
+
+    @property
+    def slip_zones(self) -> tuple[tuple[float, float, float], ...]:
+        """(lo, hi, sign of q)."""
+        return () if self.full_stick else super().slip_zones
+
+    @property
+    def kind(self) -> str:
+        """The slip under a normal load alone, in words."""
+        if self.full_stick:
+            return "full stick, its zones narrower than 1e-15 of the contact; β couples p and q"
+        way = "outwards" if self.sign > 0.0 else "inwards"
+        return f"{way} on both sides while the normal load grew; β couples p and q"
+
+    def relative_slip(self, x: ArrayLike) -> Array:
+        """The slip at x since it came into contact, same shape: 0 outside the contact."""
+
+        def value(flat: Array) -> Array:
+            g, (lo, hi) = np.zeros(flat.shape), self.contact[:2]
+            inside = (flat >= lo) & (flat <= hi)
+            g[inside] = self.sign / self.half_modulus * self._slip(flat[inside] - self.origin)
+            return g
+
+        return on_line(value, x)
+
+    def _slip(self, x: Array) -> Array:
+        """E*/2 times the slip for β > 0, at places about the origin."""
+        raise NotImplementedError
+
+    @cached_property
+    def least_slip(self) -> float:
+        """The least slip outwards in a slip zone, over the largest."""
+        if self.flat.rest < TOLD:
+            return 0.0
+        ends = self.loaded.zones.ends
+        inner = ends[[1, 2]][:, None] + (ends[[0, 3]] - ends[[1, 2]])[:, None] * PARTS
+        slip = self._slip(inner.ravel()) * np.repeat((-1.0, 1.0), len(PARTS))
+        return min(0.0, float(slip.min() / np.abs(slip).max()))
+
+    def rate(self) -> float:
+        """∫ f p g^ dx over the slip zones, g^ the slip of a flat punch under P = 1."""
+        state, flat = self.loaded.state, self.flat
+        at, q = state.halfway, state.shear_halfway
+        edges = -state.pieces.from_cut(at, len(state.pieces.cuts) - 1), state.pieces.from_cut(at, 0)
+        e, right = np.minimum(*edges), edges[0] < edges[1]
+        slips = ~state.sticks(at)
+        inner = [np.abs(state.pieces.from_cut(at, k)) for k in state.pieces.cut_of_ends[[1, 2]]]
+        from_c = np.where(right, inner[1], inner[0])[slips] / self.half_width
+        g = flat.slip(from_c, e[slips] / self.half_width)
+        return float((at.weight * np.abs(q))[slips] @ g)
+
+
+@dataclass(frozen=True, eq=False)
+class Grown(Pressed):
+    """A contact that grew to the half-width s.
+
+    frozen      integrals over all contacts
+    events      half-widths at which the growth began, or an edge passed a kink of the profile
+    slope       h'
+    axis        of symmetry; nan if there is none
+    s           half the width
+    """
+
+    frozen: Frozen
+    events: tuple[float, ...]
+    slope: Slope
+    axis: float
+    s: float
+
+    @property
+    def half_width(self) -> float:
+        return self.s
+
+    @property
+    def middle(self) -> float:
+        return self.frozen.middle(self.s)
+
+    @property
+    def base(self) -> float:
+        """Half the width of the flat base."""
+        return self.events[0]
+
+    @cached_property
+    def origin(self) -> float:  # type: ignore[override]
+        """The place that touched first, or the middle of the flat base."""
+        return self.frozen.panels[0].middle
+
+    @cached_property
+    def marks_of_growth(self) -> tuple[float, ...]:
+        return self.frozen.marks(self.events)
+
+    @cached_property
+    def gradient(self) -> Gradient:
+        """γ where the bodies stick."""
+        c, m = self.flat.c * self.s, self.frozen.middle(self.s)
+        stick = m - c, m + c
+        return Gradient(self.frozen, self.marks_of_growth, stick, self.axis)
+
+    @cached_property
+    def loaded(self) -> Loaded:  # type: ignore[override]
+        """The state about the origin."""
+        s, flat, origin, gradient = self.s, self.flat, self.origin, self.gradient
+        m = self.frozen.middle(s) - origin
+        slope = self.slope.shifted(-origin) if origin else self.slope
+        half = HalfSlope(slope, self.half_modulus, (m - WINDOW * s, m + WINDOW * s))
+        question = Question(
+            flat.beta, flat.friction, half, lambda x: gradient(x + origin), self.load, 0.0
+        )
+        marks = (x - origin for x in self.marks_of_growth)
+        pieces = Pieces(
+            m - s,
+            (flat.rest * s, 2.0 * flat.c * s, flat.rest * s),
+            (-1, 0, 1),
+            tuple(x for x in marks if m - s < x < m + s),
+            half.kinks,
+            flat.theta,
+            FINEST,
+        )
+        return Loaded(Fields(State(pieces, question)), 0.0, 0.0, friction=self.friction)
+
+    def rows(self, x: Array, rest: Array | None = None) -> Array:
+        """Rows of p and q in contact; at a tip of the profile p is infinite, and q is told as 0."""
+        rows = super().rows(x, rest)
+        if self.frozen.panels[0].power == 0.0:
+            rows[0, x == self.origin], rows[1, x == self.origin] = np.inf, 0.0
+        return rows
+
+    def _slip(self, x: Array) -> Array:
+        at, base, g = x + self.origin, self.frozen.base, np.zeros(len(x))
+        for side, own in ((1.0, at > base[1]), (-1.0, at < base[0])):
+            if own.any():
+                g[own] = side * self.frozen.slip(at[own], side, self.s)
+        return g
+
+    @property
+    def kept(self) -> tuple[tuple[float, float], Grown]:
+        """What stuck under a lighter load, and the state under that."""
+        before = self.at(self.base + LIGHTER * (self.s - self.base))
+        return before.stick[0], before
+
+    def at(self, s: float) -> Grown:
+        """The state when the contact was so wide."""
+        before = replace(self, s=s, load=self.frozen.load(s))
+        before.__dict__["gradient"] = self.gradient
+        return before
+
+    @cached_property
+    def energy(self) -> float:
+        """The dissipated energy: ∫ f p |dg| over both slip zones, while P grew.
+
+        The kinks of traces are many and faint: they only cost.
+        """
+        many = len(self.events) > FEW
+        events = self.events[:1] if many else self.events
+        nodes, total = MANY_NODES if many else ENERGY_NODES, 0.0
+        passings = self.frozen.passings(events, self.s)
+        cuts = sorted({*events, *(s for s in passings if s < self.s), self.s})
+        first = self.frozen.panels[0]
+        for lo, hi in itertools.pairwise(cuts):
+            start = lo == cuts[0]
+            # a broken power of the distance from a kink is smooth in the root of its FOLD
+            fold = FOLD if len(cuts) > 2 or lo else 1.0
+            power = (1.0 + first.power if lo else 2.0 * first.power + 2.0) if start else 1.0
+            x, _, weight = with_weight(nodes, 0.0, fold * power - 1.0)
+            s, part = lo + (hi - lo) * x**fold, fold * (hi - lo) * weight * x ** (fold - 1.0)
+            rates = np.array([self.at(width).rate() for width in s.tolist()])
+            total += float((part * self.frozen.rate(s)) @ rates)
+        return total / self.half_modulus
+
+
+@dataclass(frozen=True, eq=False)
+class Flat(Pressed):
+    """A flat punch, whose edges are corners.
+
+    origin      its middle
+    b           half its width
+    """
+
+    origin: float
+    b: float
+    sharp = True
+
+    @property
+    def axis(self) -> float:
+        return self.origin
+
+    @property
+    def half_width(self) -> float:
+        return self.b
+
+    @cached_property
+    def loaded(self) -> Loaded:  # type: ignore[override]
+        state = state_of_flat(self.flat, self.b, self.load)
+        return Loaded(Fields(state), 0.0, 0.0, friction=self.friction)
+
+    def _slip(self, x: Array) -> Array:
+        t, flat = np.abs(x) / self.b, self.flat
+        slips, g = t > flat.c, np.zeros(len(x))
+        e = np.maximum((self.b - np.abs(x[slips])) / self.b, 1e-300)
+        g[slips] = self.load * flat.slip(np.maximum(flat.rest - e, 1e-300), e)
+        return np.sign(x) * g
+
+    @property
+    def kept(self) -> tuple[tuple[float, float], None]:
+        """What stuck from the first."""
+        return self.stick[0], None
+
+    @cached_property
+    def energy(self) -> float:
+        """The dissipated energy: p and the slip grow with the load."""
+        return 0.5 * self.load * self.rate() / self.half_modulus

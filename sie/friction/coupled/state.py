@@ -1,0 +1,261 @@
+"""The state of dissimilar bodies for any zones of stick and slip.
+
+With H1 = E*/2 h', γ = E*/2 g', F(z) = 1/π ∫p/(z - t) dt and D = F beside the contact,
+
+    (1)  H1 = Hp - β q      (12)  γ = Hq + β p      β > 0,   q = s f p where the bodies slip,
+
+H² = -1 and F± = H1 + (κ ∓ i) p in slip, κ = s β f, leave one integral equation. With χ the product
+of (z - l)^(1/2-sθ) (z - r)^(1/2+sθ) over the slip zones [l, r], θ = atan(β f)/π,
+
+    A = 1/π ∫_beside D/(η - x) dη + 1/π PV∫_contact H1/(t - x) dt,   (1 - β²) p = A - β γ
+    F = χ Ψ,   Ψ = 1/π ∫μ/(z - t) dt,   μ = p/χ in stick,  -cos πθ H1/χ in slip
+    p = cos πθ χ PVΨ - κ H1/(1 + κ²) in slip,   q = (χ PVΨ - H1)/β in stick.
+
+γ is given in stick. p is bounded at all ends if the moments ∫μ t^k dt vanish for k below the number
+n of slip zones; that with k = n is P. D is found from its values on the nodes beside the contact.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .half_slope import HalfSlope
+from .pieces import Pieces, Places
+
+Array = NDArray[np.float64]
+Gradient = Callable[[Array], Array]
+
+
+class Question(NamedTuple):
+    """What a state is asked for, but for the zones.
+
+    beta, friction  β > 0 and f
+    slope           H1
+    gamma           γ where the bodies stick
+    P, Q            the loads
+    """
+
+    beta: float
+    friction: float
+    slope: HalfSlope
+    gamma: Gradient
+    P: float
+    Q: float
+
+    @property
+    def theta(self) -> float:
+        return math.atan(self.beta * self.friction) / math.pi
+
+
+@dataclass(frozen=True, eq=False)
+class State:
+    """p, q and γ for zones that need not be right: `missed` says what they miss."""
+
+    pieces: Pieces
+    question: Question
+
+    # -- the integral equation ---------------------------------------------------------------------
+
+    @cached_property
+    def nodes(self) -> Places:
+        return self.pieces.rule(0.0)
+
+    @cached_property
+    def halfway(self) -> Places:
+        return self.pieces.rule(0.5)
+
+    @cached_property
+    def beside(self) -> Places:
+        return self.pieces.outside()
+
+    @property
+    def middle(self) -> float:
+        return 0.5 * float(self.pieces.ends[0] + self.pieces.ends[-1])
+
+    @property
+    def half_width(self) -> float:
+        return 0.5 * self.pieces.length
+
+    def chi(self, at: Places) -> Array:
+        """χ in stick, and in slip its real factor; in units of half_width^n."""
+        size = np.exp(self.pieces.log_chi(at) - self.pieces.slip_zones * math.log(self.half_width))
+        turn = self.pieces.turns[at.zone]
+        values: Array = np.where(self.sticks(at), turn, -turn) * size
+        return values
+
+    def sticks(self, at: Places) -> NDArray[np.bool_]:
+        return self.pieces.sign[at.zone] == 0.0
+
+    @cached_property
+    def _solved(self) -> tuple[Array, Array, Array]:
+        """μ times weights on the nodes, D beside the contact, and p on the nodes that stick."""
+        beta, n, t, eta = self.question.beta, self.pieces.slip_zones, self.nodes, self.beside
+        sticks, chi = self.sticks(t), self.chi(t)
+        size = np.exp(self.pieces.log_chi(eta) - n * math.log(self.half_width))
+        chi_beside = np.where(eta.anchor == 0, (-1.0) ** n, 1.0) * size
+        kernel = self.pieces.apart(eta, t)
+        np.divide(1.0 / math.pi, kernel, out=kernel)
+        weight = t.weight / chi
+        factor = weight * self._arm(t) ** n
+        L = kernel * (chi_beside * self._arm(eta) ** -n)[:, None]
+        L *= factor
+        M = kernel.T[sticks] * eta.weight
+        slip = -math.cos(math.pi * self.question.theta) * self.question.slope(t.x[~sticks])
+        d0 = L[:, ~sticks] @ slip
+        stuck = t.chosen(sticks)
+        source = (self.of_slope(stuck) - beta * self.question.gamma(stuck.x)) / (1.0 - beta**2)
+        L, M = L[:, sticks], M / (1.0 - beta**2)
+        D = np.asarray(np.linalg.solve(np.eye(len(d0)) - L @ M, L @ source + d0), dtype=float)
+        p = M @ D + source
+        mass = np.empty(len(t.x))
+        mass[sticks], mass[~sticks] = p, slip
+        return mass * weight, D, p
+
+    def _arm(self, at: Places) -> Array:
+        """(x - middle) over half the width."""
+        to_left, to_right = self._to_edges(at)
+        arm: Array = 0.5 * (to_left - to_right) / self.half_width
+        return arm
+
+    def _to_edges(self, at: Places) -> tuple[Array, Array]:
+        last = len(self.pieces.cuts) - 1
+        return self.pieces.from_cut(at, 0), -self.pieces.from_cut(at, last)
+
+    def of_slope(self, at: Places) -> Array:
+        """1/π PV∫H1/(t - x) dt over the contact."""
+        ends = self.pieces.ends
+        contact = float(ends[0]), float(ends[-1])
+        return self.question.slope.principal(contact, at.x, *self._to_edges(at))
+
+    # -- fields ------------------------------------------------------------------------------------
+
+    def psi(self, at: Places, sources: Places | None = None, mass: Array | None = None) -> Array:
+        """PVΨ at places half a step from the sources, the nodes unless given."""
+        kernel = self.pieces.apart(at, self.nodes if sources is None else sources)
+        np.divide(1.0 / math.pi, kernel, out=kernel)
+        values: Array = kernel @ (self._solved[0] if mass is None else mass)
+        return values
+
+    def A(self, at: Places) -> Array:
+        """A in contact."""
+        kernel = self.pieces.apart(at, self.beside)
+        np.divide(-1.0 / math.pi, kernel, out=kernel)
+        values: Array = kernel @ (self.beside.weight * self._solved[1]) + self.of_slope(at)
+        return values
+
+    @cached_property
+    def shear_halfway(self) -> Array:
+        """q on the nodes halfway."""
+        at, question = self.halfway, self.question
+        sticks, psi, H1 = self.sticks(at), self.psi(at), question.slope(at.x)
+        flow = self.chi(at) * psi
+        q = (flow - H1) / question.beta
+        kappa = self.pieces.sign[at.zone] * question.beta * question.friction
+        slip = math.cos(math.pi * question.theta) * flow - kappa * H1 / (1.0 + kappa**2)
+        values: Array = np.where(sticks, q, self.pieces.sign[at.zone] * question.friction * slip)
+        return values
+
+    @cached_property
+    def missed(self) -> Array:
+        """What moments, P and Q miss, as parts of P and of f P; 0 for the right zones."""
+        question, n = self.question, self.pieces.slip_zones
+        arm, mass = self._arm(self.nodes), self._solved[0]
+        moments = np.array([mass @ arm**k for k in range(n + 1)]) / question.P
+        moments[n] -= 1.0
+        Q = float(self.halfway.weight @ self.shear_halfway)
+        return np.append(moments, (Q - question.Q) / (question.friction * question.P))
+
+    # -- beside the contact ------------------------------------------------------------------------
+
+    def beside_contact(self, x: Array) -> tuple[Array, Array]:
+        """Hp and Hq beside the contact."""
+        left = x < self.middle
+        ends = self.pieces.ends[[0, -1]]
+        anchor = np.where(left, 0, len(self.pieces.cuts) - 1)
+        offset = x - np.where(left, *ends)
+        none, (order, back) = np.zeros(len(x), dtype=int), _sorted(anchor)
+        at = Places(anchor[order], offset[order], x[order], none, none, none)
+        t, n = self.nodes, self.pieces.slip_zones
+        kernel = self._arm(t) ** n / self.pieces.apart(at, t)
+        size = np.exp(self.pieces.log_chi(at) - n * math.log(self.half_width))
+        size *= np.where(at.anchor == 0, (-1.0) ** n, 1.0) * self._arm(at) ** -n / math.pi
+        Hp = size * (kernel @ self._solved[0])
+        q = self.halfway.weight * self.shear_halfway
+        Hq = (1.0 / self.pieces.apart(at, self.halfway)) @ q / math.pi
+        return Hp[back], Hq[back]
+
+    # -- rates -------------------------------------------------------------------------------------
+
+    def rates(self, dQ: float, strain: float) -> Rates:
+        """The rates of p, q and γ with these zones while Q grows by dQ and γ by strain in stick.
+
+        All ends e move, so that exponents are smaller by 1: F = χ (Ψ + polynomial)/Π(z - e), the
+        polynomial of the degree n - 2 as P is constant.
+        """
+        question, pieces, n = self.question, self.pieces, self.pieces.slip_zones
+        beta, eta = question.beta, pieces.outside(1.0)
+        t, at = pieces.rule(0.0, 1.0), pieces.rule(0.5, 1.0)
+        t = t.chosen(self.sticks(t))
+        chi, chi_at = self._chi_of_rates(t), self._chi_of_rates(at)
+        chi_beside = np.where(eta.anchor == 0, (-1.0) ** n, 1.0) * np.exp(self._log_rates(eta))
+        kernel = pieces.apart(eta, t)
+        np.divide(1.0 / math.pi, kernel, out=kernel)
+        # in units of χ, which is infinite at the edges
+        L = kernel * (t.weight / chi)
+        M = kernel.T * (eta.weight * chi_beside) / (1.0 - beta**2)
+        source = np.full(len(t.x), -beta / (1.0 - beta**2))
+        right = np.stack((np.ones(len(eta.x)), L @ source), axis=1)
+        D = np.linalg.solve(np.eye(len(eta.x)) - L @ M, right)
+        p = M @ D
+        p[:, 1] += source
+        psi = self.psi(at, t, p * (t.weight / chi)[:, None])
+        psi[:, 0] += 1.0
+        flow, sticks = chi_at[:, None] * psi, self.sticks(at)
+        sign = pieces.sign[at.zone][:, None]
+        slipping = math.cos(math.pi * question.theta) * flow
+        q = np.where(sticks[:, None], flow / beta, sign * question.friction * slipping)
+        mixed = np.array([0.0, strain])
+        resultants = at.weight @ q
+        mixed[0] = (dQ - resultants[1] * strain) / resultants[0]
+        slips = ~sticks
+        places = at.chosen(slips)
+        kernel = pieces.apart(places, eta)
+        np.divide(-1.0 / math.pi, kernel, out=kernel)
+        A = kernel @ (eta.weight * chi_beside * (D @ mixed))
+        gamma = (A - (1.0 - beta**2) * (slipping[slips] @ mixed)) / beta
+        return Rates(places, gamma)
+
+    def pressure_in_slip(self, at: Places) -> Array:
+        """p at places in slip half a step from the nodes."""
+        kappa = self.pieces.sign[at.zone] * self.question.beta * self.question.friction
+        p = math.cos(math.pi * self.question.theta) * self.chi(at) * self.psi(at)
+        values: Array = p - kappa * self.question.slope(at.x) / (1.0 + kappa**2)
+        return values
+
+    def _log_rates(self, at: Places) -> Array:
+        n = self.pieces.slip_zones
+        values: Array = self.pieces.log_chi(at, 1.0) + n * math.log(self.half_width)
+        return values
+
+    def _chi_of_rates(self, at: Places) -> Array:
+        values: Array = self.pieces.turns[at.zone] * np.exp(self._log_rates(at))
+        return values
+
+
+def _sorted(anchor: NDArray[np.intp]) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    order = np.argsort(anchor, kind="stable")
+    return order, np.argsort(order, kind="stable")
+
+
+class Rates(NamedTuple):
+    """The rate of γ at places that slip."""
+
+    at: Places
+    gamma: Array

@@ -1,0 +1,339 @@
+"""Dissimilar bodies under P, then Q and bulk stress at constant P."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scenes import dissimilar
+from sheared_cases import PROFILES, scene, solved, zones
+
+import sie
+from oracles import oblique_edges
+from sie.certificate.coupled_check import coupled_certificate
+
+P = 0.5 * math.pi
+STEEL, TITANIUM = sie.Elastic(210e3, 0.3), sie.Elastic(110e3, 0.34)
+
+
+def ends(solution):
+    """The edges and the ends of the stick zone, ascending."""
+    return zones(solution)
+
+
+def followed(*parts, beta=0.3, friction=0.3, strain=0.0):
+    """A parabola under P, then parts of f P, with a bulk stress in proportion."""
+    pressed = dissimilar(None, beta, friction, normal_load=P)
+    points = [(P, part * friction * P, 4.0 * strain * part) for part in parts]
+    return sie.follow(pressed, sie.Path([(P, 0.0, 0.0), *points]))
+
+
+# -- zones, by other programs ----------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("case", oblique_edges.EDGES)
+def test_edges_of_contact_and_stick_agree_with_another_program(case):
+    found = ends(solved(None, *case, load=P))
+    assert found == pytest.approx(np.array(oblique_edges.EDGES[case]), abs=1e-11)
+
+
+@pytest.mark.parametrize(
+    ("case", "near"),
+    [
+        ((0.3, 0.3, 0.9), (-1.052, -0.61, -0.244, 0.947)),
+        ((0.25, 0.6, 0.8), (-1.078, -0.685, 0.008, 0.92)),
+    ],
+)
+def test_another_program_finds_the_same_edges(case, near):
+    *pair, part = case
+    other = oblique_edges.edges(pair, (P, part), near)
+    assert other == pytest.approx(ends(solved(None, *case, load=P)), abs=1e-11)
+
+
+# A prototype of other code, whose states agree to a cell with those of an incremental grid
+REVERSED = {
+    0.4: (-1.0132983321, -0.9974867883, 0.9387502091, 0.9690657215),
+    0.0: (-0.9848064050, -0.8757203238, 0.8405886338, 0.9973968281),
+    -0.5: (-0.9617850977, -0.1657215240, 0.6695820717, 1.0289310776),
+}
+
+
+@pytest.mark.slow(but=1)
+@pytest.mark.parametrize("part", REVERSED)
+def test_zones_after_a_reversal_agree_with_another_program(part):
+    history = followed(0.5, part)
+    assert ends(history[2]) == pytest.approx(np.array(REVERSED[part]), abs=1e-9)
+    assert history[2].check().ok
+
+
+# γ of what sticks changes by the strain: ends of stick and edges, from the same program
+STRAINED = {0.05: (0.893837890, 0.992595693), -0.05: (0.302589824, 0.973597385)}
+
+
+@pytest.mark.parametrize("strain", STRAINED)
+def test_zones_under_a_bulk_stress_alone_agree_with_another_program(strain):
+    solution = sie.solve(dissimilar(None, normal_load=P, bulk_stress=4.0 * strain))
+    c, b = STRAINED[strain]
+    assert ends(solution) == pytest.approx([-b, -c, c, b], abs=1e-8)
+    assert solution.check().ok and solution.shear.resultant == 0.0
+
+
+def test_zones_under_both_loads_agree_with_another_program():
+    loads = {"tangential_load": 0.15 * P, "bulk_stress": -0.2}
+    solution = sie.solve(dissimilar(None, normal_load=P, **loads))
+    expected = (-1.018785704, -0.889428347, -0.052684626, 0.957631460)
+    assert ends(solution) == pytest.approx(expected, abs=1e-8)
+    assert solution.check().ok
+
+
+# -- every answer is certified ---------------------------------------------------------------------
+
+
+@pytest.mark.slow(but=2)
+@pytest.mark.parametrize("name", PROFILES)
+def test_certificate_holds_for_every_profile(name):
+    certificate = solved(PROFILES[name], load=0.3 if name == "uneven" else 1.0).check()
+    assert certificate.ok
+    assert max(certificate.error, certificate.shear.error) < 1e-10
+
+
+@pytest.mark.parametrize(
+    ("profile", "beta", "friction", "part"),
+    [
+        (None, 0.1, 1.0, 0.5),
+        (None, 0.05, 0.8, 0.4),
+        (None, 0.3, 2.0, 0.99),
+        (sie.RoundedFlat(0.5, 1.0), 0.5, 0.5, 0.99),
+        (sie.RoundedFlat(0.5, 1.0), 0.3, 0.3, 1e-3),
+    ],
+)
+def test_certificate_holds_from_narrow_slip_zones_to_incipient_sliding(
+    profile, beta, friction, part
+):
+    assert solved(profile, beta, friction, part).check().ok
+
+
+def test_certificate_is_not_ok_for_another_mismatch_or_load():
+    right = solved()
+    for wrong in ({"dundurs": 0.3001}, {"tangential_load": right.tangential_load * (1.0 + 1e-6)}):
+        assert not coupled_certificate(right.coupled[1], replace(right.scene, **wrong), 1e-13).ok
+
+
+def test_a_cycle_of_steel_on_titanium_is_certified_at_every_point():
+    pad = sie.Scene(
+        profile=sie.Parabola(50.0), body=TITANIUM, indenter=STEEL, normal_load=100.0, friction=0.4
+    )
+    points = [(100.0, 20.0, 0.0), (100.0, 5.0, 0.0), (100.0, -20.0, 0.0)]
+    history = sie.follow(pad, sie.Path([(100.0, 0.0, 0.0), *points]))
+    assert all(point.energy_lost >= 0.0 for point in history)
+    assert all(point.check().ok for point in history)
+    assert history[3].tangential_load == -20.0
+
+
+# -- mirror images, scale and limits ---------------------------------------------------------------
+
+
+@pytest.mark.parametrize(("beta", "part"), [(0.3, -0.5), (-0.3, 0.5), (-0.3, -0.5)])
+def test_signs_of_the_load_and_of_the_mismatch_give_mirror_images(beta, part):
+    one, other = solved(), solved(None, beta, 0.3, part)
+    flip = math.copysign(1.0, beta * part)
+    expected = ends(one) if flip > 0.0 else -ends(one)[::-1]
+    assert ends(other) == pytest.approx(expected, abs=1e-11)
+    x = np.linspace(*other.edges, 41)[1:-1]
+    sign = math.copysign(1.0, part)
+    assert other.pressure(x) == pytest.approx(one.pressure(flip * x), rel=1e-10)
+    assert other.shear(x) == pytest.approx(sign * one.shear(flip * x), abs=1e-11)
+    assert other.slip(x) == pytest.approx(sign * one.slip(flip * x), abs=1e-11)
+
+
+def test_lengths_and_moduli_only_scale_the_answer():
+    one = solved(sie.RoundedFlat(0.5, 1.0))
+    small = sie.solve(
+        replace(
+            one.scene,
+            profile=sie.RoundedFlat(0.5e-6, 1e-6),
+            modulus=2e12,
+            normal_load=1e6,
+            tangential_load=one.tangential_load * 1e6,
+        )
+    )
+    assert ends(small) * 1e6 == pytest.approx(ends(one), rel=1e-11)
+
+
+def test_zones_tend_to_cattaneos_in_proportion_to_the_mismatch():
+    alike = ends(solved(None, beta=0.0))
+    near, nearer = (np.abs(ends(solved(None, b)) - alike).max() for b in (4e-2, 2e-2))
+    assert near / nearer == pytest.approx(2.0, rel=0.1)
+
+
+def test_contact_tends_to_that_of_full_sliding():
+    sliding = sie.solve(replace(scene(part=0.0), sliding=1))
+    last = solved(part=1.0 - 1e-8)
+    assert last.edges == pytest.approx(sliding.edges, abs=1e-7)
+    assert np.ptp(last.stick) < 1e-3
+
+
+def test_zones_leave_those_of_the_normal_load_like_the_root_of_a_small_load():
+    c = solved(part=0.0).stick[0][1]
+    grown = [(c - ends(solved(part=q))[2]) / math.sqrt(q) for q in (1e-2, 1e-3)]
+    assert grown[0] == pytest.approx(grown[1], rel=0.05)
+
+
+def test_a_tilted_parabola_is_a_parabola_about_another_axis():
+    tilted, upright = sie.solve(replace(scene(), tilt=0.1)), solved()
+    assert ends(tilted) == pytest.approx(ends(upright) - 0.1, abs=1e-11)
+    assert tilted.tilt == 0.1 and tilted.check().ok
+    assert tilted.gap(2.0) == pytest.approx(float(upright.gap(2.1)), rel=1e-9)
+
+
+# -- tractions, slip, energy -----------------------------------------------------------------------
+
+
+def test_shear_is_friction_times_pressure_in_slip_and_less_in_stick():
+    solution = solved()
+    x1, e1, e2, x2 = ends(solution)
+    slip = np.append(x1 + (e1 - x1) * np.linspace(0.01, 0.99, 9), np.linspace(e2, x2, 11)[1:-1])
+    assert solution.shear(slip) == pytest.approx(0.3 * solution.pressure(slip), rel=1e-12)
+    stick = np.linspace(e1, e2, 32)[1:-1]
+    assert (np.abs(solution.shear(stick)) < 0.3 * solution.pressure(stick)).all()
+
+
+@pytest.mark.parametrize("name", ["parabola", "rounded flat"])
+def test_potentials_are_those_of_the_tractions(name):
+    solution = solved(PROFILES[name])
+    z = np.array([1e6 + 1e6j]) * solution.half_width
+    for traction, load in (
+        (solution.pressure, solution.normal_load),
+        (solution.shear, solution.tangential_load),
+    ):
+        assert traction.resultant == load
+        assert math.pi * traction.cauchy(z) * z == pytest.approx(np.array([load]), rel=1e-5)
+        x = solution.half_width * np.array([-0.83, -0.31, 0.07, 0.55])
+        assert traction.cauchy(x).imag == pytest.approx(-traction(x), abs=1e-11)
+
+
+def test_slip_beyond_that_of_the_normal_load_goes_with_the_load():
+    before, after = solved(part=0.0), solved()
+    _, e1, e2, x2 = ends(after)
+    b = before.half_width
+    stick = np.linspace(e1, e2, 9)
+    slip = np.append(np.linspace(-b, e1, 7)[:-1], np.linspace(e2, x2, 7)[1:])
+    assert after.slip(stick) == pytest.approx(before.slip(stick), abs=1e-13)
+    assert (after.slip(slip) > before.slip(slip)).all()
+
+
+def test_energy_is_the_work_of_friction_on_the_slip():
+    one, other = (solved(part=part) for part in (0.49, 0.51))
+    lo, hi = max(one.edges[0], other.edges[0]), min(one.edges[1], other.edges[1])
+    phi = (np.arange(1000) + 0.5) * math.pi / 1000
+    x = 0.5 * (lo + hi) + 0.5 * (hi - lo) * np.cos(phi)
+    carried = 0.5 * 0.3 * (one.pressure(x) + other.pressure(x))
+    work = carried * (other.slip(x) - one.slip(x)) * np.sin(phi)
+    lost = other.energy_lost - one.energy_lost
+    assert lost == pytest.approx(work.sum() * 0.5 * (hi - lo) * math.pi / 1000, rel=1e-3)
+
+
+def test_energy_does_not_depend_on_how_a_load_is_divided():
+    whole, parts = followed(0.45), followed(0.2, 0.45)
+    assert parts[2].energy_lost == pytest.approx(whole[1].energy_lost, rel=1e-6)
+    assert ends(parts[2]) == pytest.approx(ends(whole[1]), abs=1e-10)
+
+
+@pytest.mark.slow
+def test_energy_of_a_step_in_which_stick_passes_earlier_ends_is_that_of_its_parts():
+    whole, parts = followed(0.5, -0.5), followed(0.5, 0.1, -0.2, -0.4, -0.5)
+    assert parts[5].energy_lost == pytest.approx(whole[2].energy_lost, rel=1e-6)
+
+
+def test_slip_within_the_stick_zone_is_refused():
+    history = [(P, 0.0, 0.0), (P, 0.15 * P, 0.0), (P, 0.15 * P, 0.2)]
+    with pytest.raises(sie.ContactError, match="dundurs = 0"):
+        sie.follow(dissimilar(None, normal_load=P), sie.Path(history))
+
+
+@pytest.mark.slow
+def test_a_closed_loop_leaves_the_state_in_which_it_began():
+    history = followed(0.5, -0.5, 0.5, -0.4, -0.5)
+    assert ends(history[5]) == pytest.approx(ends(history[2]), abs=1e-9)
+    assert np.abs(ends(history[3]) - ends(history[1])).max() > 0.1
+
+
+@pytest.mark.slow
+def test_the_steady_cycle_is_that_of_many_cycles():
+    pressed = dissimilar(None, normal_load=P)
+    Q = 0.15 * P
+    steady = sie.steady_cycle(pressed, (P, Q, 0.0), (P, -Q, 0.0))
+    history = followed(0.5, -0.5, 0.5, -0.5, 0.5)
+    first, last = history[5].stick[0], history[4].stick[0]
+    lo, hi = max(first[0], last[0]), min(first[1], last[1])
+    assert steady.stick[0] == pytest.approx((lo, hi), abs=1e-8)
+    assert steady.slip_range([0.5 * (lo + hi)]) == pytest.approx([0.0], abs=1e-10)
+
+
+# -- with other loads, and refusals ----------------------------------------------------------------
+
+
+def test_another_tangential_load_keeps_the_state_of_the_normal_load():
+    one = solved()
+    _ = one.edges
+    other = one.with_(tangential_load=0.1)
+    assert other.locked_in is one.locked_in
+    assert ends(other) == pytest.approx(ends(sie.solve(other.scene)), rel=1e-12)
+
+
+def test_full_load_slides():
+    assert solved(part=1.0).stick == ()
+
+
+def test_plan_names_the_stages_that_are_filled():
+    planned = sie.plan(scene(), want=("edges", "pressure", "check"))
+    solution = solved()
+    _ = solution.edges, solution.pressure(0.0), solution.check()
+    assert planned.stages <= set(vars(solution))
+
+
+@pytest.mark.parametrize(
+    "profile", [sie.Flat(1.0), sie.Flat(0.1).shifted(3.0), sie.Piecewise((-1.0, 1.0), ((0.0,),))]
+)
+def test_a_sharp_flat_is_refused_before_anything_is_solved(profile):
+    with pytest.raises(sie.ContactError, match="corner of the indenter"):
+        solved(profile)
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({"normal_load": None, "half_width": 1.0}, "give normal_load"),
+        ({"moment": 0.01}, "a moment that is held"),
+        ({"bulk_stress": 0.01, "coupling": "goodman"}, "coupling = 'full'"),
+    ],
+)
+def test_what_is_not_solved_is_refused_before_any_work(changes, words):
+    with pytest.raises(sie.ContactError, match=words) as refusal:
+        sie.solve(replace(scene(), **changes))
+    assert len(str(refusal.value).split()) <= 40
+
+
+@pytest.mark.parametrize(("beta", "friction", "part"), [(0.36, 0.57, 1e-5), (0.3, 2.0, 0.5)])
+def test_a_load_under_which_gained_contact_sticks_is_refused(beta, friction, part):
+    with pytest.raises(sie.ContactError, match="dundurs = 0") as refusal:
+        _ = solved(None, beta, friction, part).edges
+    assert len(str(refusal.value).split()) <= 40
+
+
+def test_a_path_whose_normal_load_changes_is_refused_with_the_scene_that_is_answered():
+    path = sie.Path([(1.0, 0.0), (1.0, 0.1), (0.9, 0.1)])
+    with pytest.raises(sie.ContactError, match="hold P at its mean") as refusal:
+        sie.follow(scene(part=0.0), path)
+    assert len(str(refusal.value).split()) <= 40
+    held = sie.Path([(1.0, 0.0), (1.0, 0.1), (1.0, 0.08)])
+    assert sie.follow(scene(part=0.0), held)[2].check().ok
+
+
+@pytest.mark.parametrize("part", [0.0, 0.3])
+def test_the_gap_far_away_is_what_the_profile_rises(part):
+    gaps = solved(None, 0.3, 0.3, part).gap(np.array([-1e300, -1e120, 1e120, 1e160]))
+    assert gaps[1] == pytest.approx(0.5e240, rel=1e-12) == gaps[2]
+    assert gaps[0] == gaps[3] == math.inf
