@@ -200,10 +200,10 @@ class Equations:
             signs[(middle > lo) & (middle < hi)] = s
         return signs * self.after.limit.on(rule) - self.before.shear.on(rule)
 
-    def ratios(self, apart: Callable[[float], Array]) -> Array:
+    def ratios(self, apart: Callable[[float], Any]) -> Any:
         """Π_i [d(z, a_i) d(z, b_i)/d(z, μ_i)²]^(1/2)."""
         d = self.chord
-        out: Array = np.ones(())
+        out: Any = np.ones(())
         for (a, b), m in zip(self.stick, self.centres, strict=True):
             middle = d(apart(m))
             ratio = (d(apart(a)) / middle) * (d(apart(b)) / middle)

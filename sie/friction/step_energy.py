@@ -21,7 +21,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from contextlib import suppress
 from dataclasses import dataclass, field
-from functools import lru_cache
+from functools import lru_cache, partial
 from itertools import pairwise
 
 import numpy as np
@@ -65,8 +65,10 @@ def work(part: Part | StripPart, step: LoadStep) -> float:
     contact = part.state.contact
     whole, error = _paired(contact, part.equations, contact.limit.on), 0.0
     if not step.constant:
-        of_pressure = _of_panel if isinstance(part, StripPart) else _of_finite_part
-        moved, error = of_pressure(part, step, whole)
+        if isinstance(part, StripPart):
+            moved, error = _of_panel(part)
+        else:
+            moved, error = _of_finite_part(part, step, whole)
         whole -= moved
     if error > REFUSED * whole:
         raise ContactError(
@@ -98,7 +100,8 @@ def _clenshaw_curtis(n: int) -> tuple[Array, Array, Array]:
     k = np.arange(n + 1)
     of_polynomials = np.where(k % 2, 0.0, 1.0 / (1.0 - np.where(k % 2, 0.0, k) ** 2))
     transform = np.linalg.inv(chebvander(2.0 * nodes - 1.0, n))
-    return nodes, of_polynomials @ transform, transform
+    weights: Array = of_polynomials @ transform
+    return nodes, weights, np.asarray(transform, dtype=float)
 
 
 def _integral(values: Array) -> tuple[float, float]:
@@ -112,7 +115,7 @@ def _integral(values: Array) -> tuple[float, float]:
     return float(weights @ values), float(tail) / n**2
 
 
-def _of_panel(part: StripPart, step: LoadStep, whole: float) -> tuple[float, float]:
+def _of_panel(part: StripPart) -> tuple[float, float]:
     """∫ dt ∫ f dp/dt s Δg dx of a part on which something comes to stick, and its error."""
     panel = part.panel
     values = [_by_pressure(*one) for one in zip(panel.equations, panel.rates, strict=True)]
@@ -335,20 +338,22 @@ def _cuts(way: Way, shares: list[float]) -> list[float]:
         first, last = way.known[sooner], way.known[later]
         if len(first.zones.stick) != len(last.zones.stick):
             continue
+        turned = first.zones.signs != last.zones.signs
         ends = way.coordinates(first), way.coordinates(last)
+        for crossed in np.flatnonzero(ends[0] * ends[1] < 0.0) if turned else ():
+            found.append(_root(partial(_coordinate, way, int(crossed)), way, sooner, later))
         for j, (a, b) in enumerate(zip(_places(first), _places(last), strict=True)):
-            if (
-                j < len(ends[0])
-                and first.zones.signs != last.zones.signs
-                and ends[0][j] * ends[1][j] < 0.0
-            ):
-                found.append(_root(lambda now, j=j: way.coordinates(now)[j], way, sooner, later))
-            inside = (way.before.marks - a) * (b - way.before.marks) > near**2
-            for mark in way.before.marks[inside]:
-                found.append(
-                    _root(lambda now, j=j, m=mark: _places(now)[j] - m, way, sooner, later)
-                )
+            for mark in way.before.marks[(way.before.marks - a) * (b - way.before.marks) > near**2]:
+                found.append(_root(partial(_beyond, float(mark), j), way, sooner, later))
     return found
+
+
+def _coordinate(way: Way, j: int, now: Equations) -> float:
+    return float(way.coordinates(now)[j])
+
+
+def _beyond(mark: float, j: int, now: Equations) -> float:
+    return float(_places(now)[j]) - mark
 
 
 def _places(now: Equations) -> Array:
