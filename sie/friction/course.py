@@ -8,6 +8,7 @@ alone. An end that recedes no longer, and slip that turns, end a part.
 from __future__ import annotations
 
 from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import cached_property
 
@@ -346,28 +347,33 @@ def clipped(zones: Zones, old: Contact, new: Contact) -> Zones:
 
 def _end_of_part(state: State, step: LoadStep, good: Verdict, bad: Verdict) -> float:
     """The share at which a part ends that passes at one share and fails at another."""
-    same = bad.equations is not None and bad.equations.zones.signs == good.equations.zones.signs
-    if same and len(bad.margins) == len(good.margins):
-        k = int(bad.margins.argmin())
-        if bad.margins[k] < 0.0 < good.margins[k]:
-
-            def rate(share: float) -> float:
-                found = _verdict(state, step, share, good.equations.zones)
-                return found.margins[k] if len(found.margins) else np.nan
-
-            def settled(lo: float, hi: float, value: float) -> bool:
-                return hi - lo < 1e-13 or abs(value) < STILL
-
-            ends = float(good.margins[k]), float(bad.margins[k])
-            share = false_position(rate, good.share, bad.share, ends, settled)
-            if np.isfinite(share):
-                return float(share)
-    lo, hi, zones = good.share, bad.share, good
-    while hi - lo > FINE * (hi - lo + good.share):
-        middle = 0.5 * (lo + hi)
-        now = _verdict(state, step, middle, zones.equations.zones)
-        if now.why or not _within(now, zones):
-            hi = middle
+    while bad.share - good.share > FINE * bad.share:
+        with suppress(ContactError):
+            return _stop(state, step, good, bad)
+        middle = 0.5 * (good.share + bad.share)
+        now = _verdict(state, step, middle, good.equations.zones)
+        if now.why or not _within(now, good):
+            bad = now
         else:
-            lo, zones = middle, now
-    return lo
+            good = now
+    return good.share
+
+
+def _stop(state: State, step: LoadStep, good: Verdict, bad: Verdict) -> float:
+    """The share at which an end recedes no longer. Raises ContactError where that is not known."""
+    alike = bad.equations is not None and bad.equations.zones.signs == good.equations.zones.signs
+    k = int(bad.margins.argmin()) if alike and len(bad.margins) == len(good.margins) else -1
+    if k < 0 or not bad.margins[k] < 0.0 < good.margins[k]:
+        raise ContactError("no end of a stick zone stops")
+
+    def rate(share: float) -> float:
+        found = _verdict(state, step, share, good.equations.zones)
+        if len(found.margins) != len(good.margins):
+            raise ContactError(found.why)
+        return float(found.margins[k])
+
+    def settled(lo: float, hi: float, value: float) -> bool:
+        return hi - lo < 1e-13 or abs(value) < STILL
+
+    ends = float(good.margins[k]), float(bad.margins[k])
+    return float(false_position(rate, good.share, bad.share, ends, settled))

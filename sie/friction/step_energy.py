@@ -54,7 +54,8 @@ APART = 1e-4  # of a part: cuts that are closer are one
 CLOSE = 1e-2  # of a part: between times so close to each other values may be interpolated
 ACCURATE = 1e-8  # of the energy: pieces of time are halved until it is known to so much
 REFUSED = 1e-7  # of the energy: it is refused if it is known to less
-MOST_PIECES, MOST_FAILED = 24, 30  # where a time cannot be solved, as next to a leap
+NEARER = 0.6  # times the distance of a share that was not solved: the next that is tried
+MOST_PIECES, MOST_MISSED = 40, 60
 
 
 def work(part: Part | StripPart, step: LoadStep) -> float:
@@ -151,7 +152,9 @@ class Way:
     start: Array  # the coordinates at the start; none if the number of zones changes
     values: dict[float, float] = field(default_factory=dict)
     allowed: float = 0.0  # error of a value
-    failed: int = 0  # how often no zones were found
+    missed: int = 0  # how often no zones were found
+    # a share at which no zones were found, by the known ones that it lies between
+    failed: dict[tuple[float, float], float] = field(default_factory=dict)
 
     @classmethod
     def back(cls, part: Part, step: LoadStep) -> Way:
@@ -192,29 +195,34 @@ class Way:
         They are not found next to where they leap, and the integrand is continuous there.
         """
         if share not in self.known:
-            between, doubt, close = self._between(share)
-            if close and doubt <= self.allowed:
+            between, doubt, (a, b) = self._between(share)
+            known = b - a < CLOSE * (self.span[1] - self.span[0]) and doubt <= self.allowed
+            failed = self.failed.get((a, b))
+            if known or (
+                failed and min((share - a) / (failed - a), (b - share) / (b - failed)) > NEARER
+            ):
                 return between, doubt
             try:
                 self.equations(share)
             except ContactError:
-                if self.failed > MOST_FAILED:
+                self.missed += 1
+                if self.missed > MOST_MISSED:
                     raise
+                self.failed[a, b] = share
                 return between, doubt
         if share not in self.values:
             now = self.known[share]
             self.values[share] = _by_pressure(now, rates_of(now, self.step))
         return self.values[share], 0.0
 
-    def _between(self, share: float) -> tuple[float, float, bool]:
-        """The value between those at known shares, its error, and whether these are close."""
-        begun, until = self.span
-        a = max((k for k in self.known if k < share), default=begun)
+    def _between(self, share: float) -> tuple[float, float, tuple[float, float]]:
+        """The value between those at the nearest known shares, its error, and these shares."""
+        a = max((k for k in self.known if k < share), default=self.span[0])
         b = min(k for k in self.known if k > share)
         first = self.value(a)[0] if a in self.known else 0.0  # before any slip
         last = self.value(b)[0]
         found = first + (last - first) * (share - a) / (b - a)
-        return found, abs(last - first), b - a < CLOSE * (until - begun)
+        return found, abs(last - first), (a, b)
 
     def equations(self, share: float) -> Equations:
         """The equations at a share, whose zones go on as they have to."""
@@ -223,7 +231,6 @@ class Way:
             found = (self._passed(after, guess) for guess in self._guesses(share))
             one = next((now for now in found if now is not None), None)
             if one is None:
-                self.failed += 1
                 raise ContactError(
                     f"the energy lost is not known: no zones of slip are found at {share:.6g} of "
                     "the step; the state at its end is not concerned"
