@@ -39,6 +39,7 @@ SEEN = 1e-2  # of the contact: ends that move less are not seen well on cells
 STOPS = -1e-7  # of the largest K: an end that recedes so little goes on
 TURNS = -1e-7  # of the largest rate of slip
 MOST_PARTS, SHORT, MOST_SHORT = 30, 1e-4, 5  # of a step; of them so short ones of it
+MOST_MOMENTS = 250  # of a step at which states are asked for: some 20 seconds
 LONGER = 5.0  # times the last part, where a longer one was not solved
 FINE = 1e-2  # of a part: so well it is known where it ends, if by no event
 STILL, STOPPED = 1e-13, 1e-8  # of the largest K
@@ -81,7 +82,8 @@ def course(before: State, step: LoadStep) -> tuple[Part | StripPart, ...]:
         parts.append(part)
         state, done = part.state, part.until
         short = sum(part.until - part.begun < SHORT for part in parts)
-        if len(parts) > MOST_PARTS or short > MOST_SHORT:
+        tried = len(step.known) > MOST_MOMENTS and done < 1.0
+        if len(parts) > MOST_PARTS or short > MOST_SHORT or tried:
             raise _lost(done, f"{len(parts)} parts, {short} of them short")
     return tuple(parts)
 
