@@ -62,11 +62,19 @@ def work(part: Part | StripPart, step: LoadStep) -> float:
     """The energy of a part. Raises ContactError where it is not known to `REFUSED`."""
     if not part.state.slip:
         return 0.0
+    sticking = [_sticking(state) for state in (part.before, part.state)]
+    if not step.constant and sticking[0] != sticking[1]:
+        raise ContactError(
+            "a patch begins to slide as a whole, or sticks again, while P or the tilt changes: the "
+            "energy lost is not covered; ask for the state alone, or change Q at constant P"
+        )
     contact = part.state.contact
     whole, error = _paired(contact, part.equations, contact.limit.on), 0.0
     if not step.constant:
-        of_pressure = _of_panel if isinstance(part, StripPart) else _of_finite_part
-        moved, error = of_pressure(part, step, whole)
+        if isinstance(part, StripPart):
+            moved, error = _of_panel(part, step, whole)
+        else:
+            moved, error = _of_finite_part(part, step, whole)
         whole -= moved
     if error > REFUSED * whole:
         raise ContactError(
@@ -86,6 +94,11 @@ def _paired(contact: Contact, now: Equations, density: Callable[[Rule], Array]) 
     return total
 
 
+def _sticking(state: State) -> list[bool]:
+    """For each patch whether some of it sticks."""
+    return [any(x1 <= a and b <= x2 for a, b in state.stick) for x1, x2 in state.contact.patches]
+
+
 def _by_pressure(now: Equations, rates: Rates) -> float:
     """∫ f dp/dt s Δg dx."""
     return rates.friction * _paired(now.after, now, rates.pressure.density)
@@ -97,8 +110,8 @@ def _clenshaw_curtis(n: int) -> tuple[Array, Array, Array]:
     nodes = 0.5 * (1.0 - np.cos(np.pi * np.arange(n + 1) / n))
     k = np.arange(n + 1)
     of_polynomials = np.where(k % 2, 0.0, 1.0 / (1.0 - np.where(k % 2, 0.0, k) ** 2))
-    transform = np.linalg.inv(chebvander(2.0 * nodes - 1.0, n))
-    return nodes, of_polynomials @ transform, transform
+    transform = np.asarray(np.linalg.inv(chebvander(2.0 * nodes - 1.0, n)), dtype=np.float64)
+    return nodes, np.asarray(of_polynomials @ transform), transform
 
 
 def _integral(values: Array) -> tuple[float, float]:
@@ -342,13 +355,33 @@ def _cuts(way: Way, shares: list[float]) -> list[float]:
                 and first.zones.signs != last.zones.signs
                 and ends[0][j] * ends[1][j] < 0.0
             ):
-                found.append(_root(lambda now, j=j: way.coordinates(now)[j], way, sooner, later))
+                found.append(_root(_Coordinate(way, j), way, sooner, later))
             inside = (way.before.marks - a) * (b - way.before.marks) > near**2
             for mark in way.before.marks[inside]:
-                found.append(
-                    _root(lambda now, j=j, m=mark: _places(now)[j] - m, way, sooner, later)
-                )
+                found.append(_root(_Beyond(j, float(mark)), way, sooner, later))
     return found
+
+
+@dataclass(frozen=True)
+class _Coordinate:
+    """Coordinate j of the zones."""
+
+    way: Way
+    j: int
+
+    def __call__(self, now: Equations) -> float:
+        return float(self.way.coordinates(now)[self.j])
+
+
+@dataclass(frozen=True)
+class _Beyond:
+    """How far end j is beyond a mark."""
+
+    j: int
+    mark: float
+
+    def __call__(self, now: Equations) -> float:
+        return float(_places(now)[self.j] - self.mark)
 
 
 def _places(now: Equations) -> Array:

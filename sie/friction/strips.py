@@ -87,7 +87,7 @@ class StripEquations(Equations):
     series: Array  # c of each strip, (strips, n)
 
     @cached_property
-    def sources(self) -> Array:  # type: ignore[override]
+    def sources(self) -> Array:
         """The intervals beside the stick zones, then the strips."""
         ends = [strip.reaches(self.stick.ravel()[strip.j]) for strip in self.strips]
         return np.concatenate((self.beside, np.array(ends).reshape(-1, 2)))
