@@ -203,7 +203,7 @@ class Equations:
     def ratios(self, apart: Callable[[float], Any]) -> Array:
         """Π_i [d(z, a_i) d(z, b_i)/d(z, μ_i)²]^(1/2)."""
         d = self.chord
-        out: Array = np.ones(())
+        out: Any = np.ones(())
         for (a, b), m in zip(self.stick, self.centres, strict=True):
             middle = d(apart(m))
             ratio = (d(apart(a)) / middle) * (d(apart(b)) / middle)
