@@ -21,7 +21,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from contextlib import suppress
 from dataclasses import dataclass, field
-from functools import lru_cache, partial
+from functools import lru_cache
 from itertools import pairwise
 
 import numpy as np
@@ -125,7 +125,7 @@ def _integral(values: Array) -> tuple[float, float]:
     return float(weights @ values), float(tail) / n**2
 
 
-def _of_panel(part: StripPart) -> tuple[float, float]:
+def _of_panel(part: StripPart, step: LoadStep, whole: float) -> tuple[float, float]:
     """∫ dt ∫ f dp/dt s Δg dx of a part on which something comes to stick, and its error."""
     panel = part.panel
     values = [_by_pressure(*one) for one in zip(panel.equations, panel.rates, strict=True)]
@@ -348,10 +348,7 @@ def _cuts(way: Way, shares: list[float]) -> list[float]:
         first, last = way.known[sooner], way.known[later]
         if len(first.zones.stick) != len(last.zones.stick):
             continue
-        turned = first.zones.signs != last.zones.signs
         ends = way.coordinates(first), way.coordinates(last)
-        for crossed in np.flatnonzero(ends[0] * ends[1] < 0.0) if turned else ():
-            found.append(_root(partial(_coordinate, way, int(crossed)), way, sooner, later))
         for j, (a, b) in enumerate(zip(_places(first), _places(last), strict=True)):
             if (
                 j < len(ends[0])
