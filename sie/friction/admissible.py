@@ -98,7 +98,7 @@ def opposing_slip(before: State, state: State, stuck: Ends) -> float:
             tested += places
             signs += [s] * len(places)
             nearest += [stick[np.abs(stick - y).argmin()] for y in places]
-    x, c, direction = np.array(tested), np.array(nearest), np.array(signs)
+    x, c, senses = np.array(tested), np.array(nearest), np.array(signs)
     inner = x[~np.isin(x, stick)]
     cuts = np.unique(np.concatenate((marks, inner)))
     touched = united(old.patches, new.patches)
@@ -113,7 +113,7 @@ def opposing_slip(before: State, state: State, stuck: Ends) -> float:
             slip[j] = change @ np.where(np.isfinite(log), log, 0.0) / np.pi
             slip[j] -= (new.tau - old.tau) * (y - e)
     largest = float(np.abs(slip).max(initial=0.0))
-    return float((-direction * slip).max(initial=0.0)) / largest if largest else 0.0
+    return float((-senses * slip).max(initial=0.0)) / largest if largest else 0.0
 
 
 # -- how well states satisfy the equation ----------------------------------------------------------

@@ -148,8 +148,8 @@ class Verdict:
     why: str = ""
 
     @property
-    def found(self) -> Equations:
-        """The equations of one that passes."""
+    def solution(self) -> Equations:
+        """The equations, where there are some."""
         assert self.equations is not None
         return self.equations
 
@@ -171,7 +171,7 @@ def finite_part(state: State, step: LoadStep, begun: float) -> Part:
     why = ""
     if good == len(shares):
         try:
-            return Part(state, solved(state, step.at(1.0), verdicts[-1].found.zones), begun, 1.0)
+            return Part(state, solved(state, step.at(1.0), verdicts[-1].solution.zones), begun, 1.0)
         except ContactError as problem:
             why, good = str(problem), good - 1
     if good == 0:
@@ -189,13 +189,13 @@ def finite_part(state: State, step: LoadStep, begun: float) -> Part:
         until = _end_of_part(state, step, verdicts[good - 1], verdicts[good])
     last = verdicts[good - 1]
     while True:
-        found = _verdict(state, step, until, last.found.zones)
+        found = _verdict(state, step, until, last.solution.zones)
         if found.equations is not None:
             break
         if until == last.share:
             raise ContactError(found.why)
         until = last.share
-    ended = solved(state, step.at(until), found.equations.zones)
+    ended = solved(state, step.at(until), found.solution.zones)
     return Part(state, ended, begun, until, _stopped(found))
 
 
@@ -236,10 +236,10 @@ def _leading(verdicts: list[Verdict]) -> int:
 
 def _within(now: Verdict, last: Verdict) -> bool:
     """Whether zones lie in those before."""
-    room = 1e-9 * now.found.after.width
+    room = 1e-9 * now.solution.after.width
     return all(
-        any(lo - room <= a and b <= hi + room for lo, hi in last.found.zones.stick)
-        for a, b in now.found.zones.stick
+        any(lo - room <= a and b <= hi + room for lo, hi in last.solution.zones.stick)
+        for a, b in now.solution.zones.stick
     )
 
 
@@ -252,7 +252,7 @@ def _tested(state: State, step: LoadStep, begun: float, shares: Array) -> list[V
         state, step, float(shares[-1]), _as_they_set_out(state, step, float(shares[-1] - begun))
     )
     if last.why == ADVANCES:
-        first = _continued(state, step, float(shares[0]), last.found.zones)
+        first = _continued(state, step, float(shares[0]), last.solution.zones)
         if first.why == ADVANCES:
             return [first]
     found = [last]
@@ -357,7 +357,7 @@ def _end_of_part(state: State, step: LoadStep, good: Verdict, bad: Verdict) -> f
         with suppress(ContactError):
             return _stop(state, step, good, bad)
         middle = 0.5 * (good.share + bad.share)
-        now = _verdict(state, step, middle, good.found.zones)
+        now = _verdict(state, step, middle, good.solution.zones)
         if now.why or not _within(now, good):
             bad = now
         else:
@@ -367,13 +367,13 @@ def _end_of_part(state: State, step: LoadStep, good: Verdict, bad: Verdict) -> f
 
 def _stop(state: State, step: LoadStep, good: Verdict, bad: Verdict) -> float:
     """The share at which an end recedes no longer. Raises ContactError where that is not known."""
-    alike = bad.equations is not None and bad.equations.zones.signs == good.found.zones.signs
+    alike = bad.equations is not None and bad.solution.zones.signs == good.solution.zones.signs
     k = int(bad.margins.argmin()) if alike and len(bad.margins) == len(good.margins) else -1
     if k < 0 or not bad.margins[k] < 0.0 < good.margins[k]:
         raise ContactError("no end of a stick zone stops")
 
     def rate(share: float) -> float:
-        found = _verdict(state, step, share, good.found.zones)
+        found = _verdict(state, step, share, good.solution.zones)
         if len(found.margins) != len(good.margins):
             raise ContactError(found.why)
         return float(found.margins[k])

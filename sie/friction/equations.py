@@ -200,7 +200,7 @@ class Equations:
             signs[(middle > lo) & (middle < hi)] = s
         return signs * self.after.limit.on(rule) - self.before.shear.on(rule)
 
-    def ratios(self, apart: Callable[[float], Any]) -> Any:
+    def ratios(self, apart: Callable[[float], Any]) -> Array:
         """Π_i [d(z, a_i) d(z, b_i)/d(z, μ_i)²]^(1/2)."""
         d = self.chord
         out: Any = np.ones(())

@@ -225,8 +225,9 @@ def _edge(state: State, now: Onset, rates: Rates, j: int) -> End:
 def _share_of_limit(state: State, edge: float) -> float:
     """q/(f p) next to an edge."""
     lo, hi = next(patch for patch in state.contact.patches if edge in patch)
-    x = np.array([edge + (1e-9 if edge == lo else -1e-9) * (hi - lo)])
-    return float(np.clip(state.shear(x) / state.contact.limit(x), -1.0, 1.0)[0])
+    x = edge + (1e-9 if edge == lo else -1e-9) * (hi - lo)
+    at = np.array([x])
+    return float(np.clip(state.shear(at) / state.contact.limit(at), -1.0, 1.0)[0])
 
 
 def _inner(state: State, now: Onset, rates: Callable[[Onset], Rates], j: int) -> End | None:

@@ -21,7 +21,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from contextlib import suppress
 from dataclasses import dataclass, field
-from functools import lru_cache, partial
+from functools import lru_cache
 from itertools import pairwise
 
 import numpy as np
@@ -62,11 +62,17 @@ def work(part: Part | StripPart, step: LoadStep) -> float:
     """The energy of a part. Raises ContactError where it is not known to `REFUSED`."""
     if not part.state.slip:
         return 0.0
+    sticking = [_sticking(state) for state in (part.before, part.state)]
+    if not step.constant and sticking[0] != sticking[1]:
+        raise ContactError(
+            "a patch begins to slide as a whole, or sticks again, while P or the tilt changes: the "
+            "energy lost is not covered; ask for the state alone, or change Q at constant P"
+        )
     contact = part.state.contact
     whole, error = _paired(contact, part.equations, contact.limit.on), 0.0
     if not step.constant:
         if isinstance(part, StripPart):
-            moved, error = _of_panel(part)
+            moved, error = _of_panel(part, step, whole)
         else:
             moved, error = _of_finite_part(part, step, whole)
         whole -= moved
@@ -88,6 +94,11 @@ def _paired(contact: Contact, now: Equations, density: Callable[[Rule], Array]) 
     return total
 
 
+def _sticking(state: State) -> list[bool]:
+    """For each patch whether some of it sticks."""
+    return [any(x1 <= a and b <= x2 for a, b in state.stick) for x1, x2 in state.contact.patches]
+
+
 def _by_pressure(now: Equations, rates: Rates) -> float:
     """∫ f dp/dt s Δg dx."""
     return rates.friction * _paired(now.after, now, rates.pressure.density)
@@ -99,9 +110,8 @@ def _clenshaw_curtis(n: int) -> tuple[Array, Array, Array]:
     nodes = 0.5 * (1.0 - np.cos(np.pi * np.arange(n + 1) / n))
     k = np.arange(n + 1)
     of_polynomials = np.where(k % 2, 0.0, 1.0 / (1.0 - np.where(k % 2, 0.0, k) ** 2))
-    transform = np.linalg.inv(chebvander(2.0 * nodes - 1.0, n))
-    weights: Array = of_polynomials @ transform
-    return nodes, weights, np.asarray(transform, dtype=float)
+    transform = np.asarray(np.linalg.inv(chebvander(2.0 * nodes - 1.0, n)), dtype=np.float64)
+    return nodes, np.asarray(of_polynomials @ transform), transform
 
 
 def _integral(values: Array) -> tuple[float, float]:
@@ -115,7 +125,7 @@ def _integral(values: Array) -> tuple[float, float]:
     return float(weights @ values), float(tail) / n**2
 
 
-def _of_panel(part: StripPart) -> tuple[float, float]:
+def _of_panel(part: StripPart, step: LoadStep, whole: float) -> tuple[float, float]:
     """∫ dt ∫ f dp/dt s Δg dx of a part on which something comes to stick, and its error."""
     panel = part.panel
     values = [_by_pressure(*one) for one in zip(panel.equations, panel.rates, strict=True)]
@@ -338,22 +348,40 @@ def _cuts(way: Way, shares: list[float]) -> list[float]:
         first, last = way.known[sooner], way.known[later]
         if len(first.zones.stick) != len(last.zones.stick):
             continue
-        turned = first.zones.signs != last.zones.signs
         ends = way.coordinates(first), way.coordinates(last)
-        for crossed in np.flatnonzero(ends[0] * ends[1] < 0.0) if turned else ():
-            found.append(_root(partial(_coordinate, way, int(crossed)), way, sooner, later))
         for j, (a, b) in enumerate(zip(_places(first), _places(last), strict=True)):
-            for mark in way.before.marks[(way.before.marks - a) * (b - way.before.marks) > near**2]:
-                found.append(_root(partial(_beyond, float(mark), j), way, sooner, later))
+            if (
+                j < len(ends[0])
+                and first.zones.signs != last.zones.signs
+                and ends[0][j] * ends[1][j] < 0.0
+            ):
+                found.append(_root(_Coordinate(way, j), way, sooner, later))
+            inside = (way.before.marks - a) * (b - way.before.marks) > near**2
+            for mark in way.before.marks[inside]:
+                found.append(_root(_Beyond(j, float(mark)), way, sooner, later))
     return found
 
 
-def _coordinate(way: Way, j: int, now: Equations) -> float:
-    return float(way.coordinates(now)[j])
+@dataclass(frozen=True)
+class _Coordinate:
+    """Coordinate j of the zones."""
+
+    way: Way
+    j: int
+
+    def __call__(self, now: Equations) -> float:
+        return float(self.way.coordinates(now)[self.j])
 
 
-def _beyond(mark: float, j: int, now: Equations) -> float:
-    return float(_places(now)[j]) - mark
+@dataclass(frozen=True)
+class _Beyond:
+    """How far end j is beyond a mark."""
+
+    j: int
+    mark: float
+
+    def __call__(self, now: Equations) -> float:
+        return float(_places(now)[self.j] - self.mark)
 
 
 def _places(now: Equations) -> Array:

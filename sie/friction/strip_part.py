@@ -207,7 +207,7 @@ def _receded(span: Span) -> Array:
 def _transform(first: int) -> Array:
     """Coefficients in T_k(2τ - 1) from values at the moments, from `first` on."""
     values = np.polynomial.chebyshev.chebvander(2.0 * TAU[first:] - 1.0, MOMENTS - first)
-    return np.asarray(np.linalg.inv(values), dtype=float)
+    return np.asarray(np.linalg.inv(values), dtype=np.float64)
 
 
 def _series(values: Array) -> Array:
@@ -216,8 +216,8 @@ def _series(values: Array) -> Array:
 
 
 def _at(series: Array, share: float | Array) -> Array:
-    values = np.polynomial.chebyshev.chebval(2.0 * np.asarray(share) - 1.0, series)
-    return np.asarray(values, dtype=float)
+    value = np.polynomial.chebyshev.chebval(2.0 * np.asarray(share) - 1.0, series)
+    return np.asarray(value, dtype=np.float64)
 
 
 def _places(panel: Panel, share: float) -> Array:
@@ -273,7 +273,7 @@ def _of_ends(panel: Panel, last: Event | None, upto: float) -> Iterator[Event]:
                 yield Event(share, j, End(0.0, end.sense, Motion.ADVANCES))
         outward = 1.0 if j % 2 else -1.0
         if end.motion is Motion.ADVANCES:
-            speed = np.asarray(np.polynomial.chebyshev.chebder(outward * series), dtype=float)
+            speed = np.asarray(np.polynomial.chebyshev.chebder(outward * series), np.float64)
             share = _root(speed)
             if share is not None:
                 yield Event(share, j, End(0.0, end.sense, Motion.RECEDES))

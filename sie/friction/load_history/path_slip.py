@@ -315,8 +315,9 @@ def step_slip(history: Followed, index: int, x: Array) -> Array:
     """The slip in one step, where x was in contact all along it."""
     state = history.turning_points[index]
     normal, out = state.loads.normal, np.zeros(x.shape)
-    if state.step is not None:
-        out += sum(slip(part, state.step, x) for part in state.parts)
+    for part in state.parts:
+        assert state.step is not None
+        out += slip(part, state.step, x)
     if state.last is not None:  # zones that slipped before have left the contact
         for o in state.last.layers:
             for depth, sign in ((o.lower, 1.0), (o.upper, -1.0)):
