@@ -17,8 +17,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from sie.friction.admissible import change_of_shear, excess_in_stick, opposing_slip
 from sie.friction.course import Part
-from sie.friction.finite_step import change_of_shear, excess_in_stick, opposing_slip
 from sie.friction.slip_state import Slip
 from sie.friction.state import SAME, intervals
 from sie.friction.strip_part import StripPart

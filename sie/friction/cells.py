@@ -14,14 +14,14 @@ from numpy.typing import NDArray
 
 from sie.errors import ContactError
 
-from .finite_step import Chord, Zones
+from .equations import Chord, Zones
 from .state import SAME, Contact, State, intervals, united
 
 Array = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
-CELLS = 24  # between neighbouring marks, graded to both
-FEWEST = 96  # on a patch
+CELLS = 16  # between neighbouring marks, graded to both
+FEWEST = 64  # on a patch
 MOST = 120  # changes of the set
 BEYOND, OPPOSING = 1e-12, 1e-12  # of f p, and of the slip: less is rounding
 LIMIT = 2e-3  # of f p: q so close to it may have reached it

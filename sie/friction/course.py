@@ -8,6 +8,7 @@ alone. An end that recedes no longer, and slip that turns, end a part.
 from __future__ import annotations
 
 from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import cached_property
 
@@ -17,8 +18,10 @@ from numpy.typing import NDArray
 from sie.errors import ContactError
 from sie.numerics.root_finding import false_position
 
+from .admissible import EXCEEDED
 from .cells import zones_on_cells
-from .finite_step import EXCEEDED, Equations, Zones, balanced, newton, solved, without_idle
+from .equations import Equations, Zones
+from .finite_step import balanced, newton, on_earlier_zones, solved, without_idle
 from .loading import LoadStep
 from .onset import End, Motion, Onset, onset, set_out
 from .rates import Rates
@@ -36,8 +39,9 @@ SEEN = 1e-2  # of the contact: ends that move less are not seen well on cells
 STOPS = -1e-7  # of the largest K: an end that recedes so little goes on
 TURNS = -1e-7  # of the largest rate of slip
 MOST_PARTS, SHORT, MOST_SHORT = 30, 1e-4, 5  # of a step; of them so short ones of it
+MOST_MOMENTS = 250  # of a step at which states are asked for: some 20 seconds
 LONGER = 5.0  # times the last part, where a longer one was not solved
-FINE = 1e-4  # of a part: so well it is known where it ends, if by no event
+FINE = 1e-2  # of a part: so well it is known where it ends, if by no event
 STILL, STOPPED = 1e-13, 1e-8  # of the largest K
 
 
@@ -78,7 +82,8 @@ def course(before: State, step: LoadStep) -> tuple[Part | StripPart, ...]:
         parts.append(part)
         state, done = part.state, part.until
         short = sum(part.until - part.begun < SHORT for part in parts)
-        if len(parts) > MOST_PARTS or short > MOST_SHORT:
+        tried = len(step.known) > MOST_MOMENTS and done < 1.0
+        if len(parts) > MOST_PARTS or short > MOST_SHORT or tried:
             raise _lost(done, f"{len(parts)} parts, {short} of them short")
     return tuple(parts)
 
@@ -143,6 +148,12 @@ class Verdict:
     why: str = ""
 
     @property
+    def solution(self) -> Equations:
+        """The equations, where there are some."""
+        assert self.equations is not None
+        return self.equations
+
+    @property
     def decisive(self) -> bool:
         """Whether the rates say that a finite step does not go on."""
         return self.why in (ADVANCES, TURNED)
@@ -160,9 +171,7 @@ def finite_part(state: State, step: LoadStep, begun: float) -> Part:
     why = ""
     if good == len(shares):
         try:
-            return Part(
-                state, solved(state, step.at(1.0), verdicts[-1].equations.zones), begun, 1.0
-            )
+            return Part(state, solved(state, step.at(1.0), verdicts[-1].solution.zones), begun, 1.0)
         except ContactError as problem:
             why, good = str(problem), good - 1
     if good == 0:
@@ -180,13 +189,13 @@ def finite_part(state: State, step: LoadStep, begun: float) -> Part:
         until = _end_of_part(state, step, verdicts[good - 1], verdicts[good])
     last = verdicts[good - 1]
     while True:
-        found = _verdict(state, step, until, last.equations.zones)
+        found = _verdict(state, step, until, last.solution.zones)
         if found.equations is not None:
             break
         if until == last.share:
             raise ContactError(found.why)
         until = last.share
-    ended = solved(state, step.at(until), found.equations.zones)
+    ended = solved(state, step.at(until), found.solution.zones)
     return Part(state, ended, begun, until, _stopped(found))
 
 
@@ -227,24 +236,39 @@ def _leading(verdicts: list[Verdict]) -> int:
 
 def _within(now: Verdict, last: Verdict) -> bool:
     """Whether zones lie in those before."""
-    room = 1e-9 * now.equations.after.width
+    room = 1e-9 * now.solution.after.width
     return all(
-        any(lo - room <= a and b <= hi + room for lo, hi in last.equations.zones.stick)
-        for a, b in now.equations.zones.stick
+        any(lo - room <= a and b <= hi + room for lo, hi in last.solution.zones.stick)
+        for a, b in now.solution.zones.stick
     )
 
 
 def _tested(state: State, step: LoadStep, begun: float, shares: Array) -> list[Verdict]:
-    """The verdicts on zones at some shares, found from the last to the first."""
-    found: list[Verdict] = []
-    zones = _as_they_set_out(state, step, float(shares[-1] - begun))
-    for share in shares[::-1]:
-        verdict = _verdict(state, step, float(share), zones)
-        if verdict.why and zones is not None:
-            verdict = _verdict(state, step, float(share), None)
-        zones = verdict.equations.zones if verdict.equations is not None else None
-        found.append(verdict)
+    """The verdicts on zones at some shares, found from the last to the first.
+
+    Where an end advances at the last one and at the first one, that at the first is enough.
+    """
+    last = _continued(
+        state, step, float(shares[-1]), _as_they_set_out(state, step, float(shares[-1] - begun))
+    )
+    if last.why == ADVANCES:
+        first = _continued(state, step, float(shares[0]), last.solution.zones)
+        if first.why == ADVANCES:
+            return [first]
+    found = [last]
+    for share in shares[-2::-1]:
+        equations = found[-1].equations
+        guess = equations.zones if equations is not None else None
+        found.append(_continued(state, step, float(share), guess))
     return found[::-1]
+
+
+def _continued(state: State, step: LoadStep, share: float, guess: Zones | None) -> Verdict:
+    """The verdict from a guess; from cells where it fails for another reason than an end's way."""
+    verdict = _verdict(state, step, share, guess)
+    if verdict.why and verdict.why != ADVANCES and guess is not None:
+        verdict = _verdict(state, step, share, None)
+    return verdict
 
 
 def _as_they_set_out(state: State, step: LoadStep, length: float) -> Zones | None:
@@ -281,6 +305,12 @@ def _verdict(state: State, step: LoadStep, share: float, guess: Zones | None) ->
         if not now.why:
             return now
         first = first or now
+    if share == 1.0:  # a point of the path, at which loads may come back to what they were
+        for zones in guesses:
+            for found in on_earlier_zones(state, after, zones):
+                now = _judged(found, step, share)
+                if not now.why:
+                    return now
     assert first is not None
     return first
 
@@ -323,28 +353,33 @@ def clipped(zones: Zones, old: Contact, new: Contact) -> Zones:
 
 def _end_of_part(state: State, step: LoadStep, good: Verdict, bad: Verdict) -> float:
     """The share at which a part ends that passes at one share and fails at another."""
-    same = bad.equations is not None and bad.equations.zones.signs == good.equations.zones.signs
-    if same and len(bad.margins) == len(good.margins):
-        k = int(bad.margins.argmin())
-        if bad.margins[k] < 0.0 < good.margins[k]:
-
-            def rate(share: float) -> float:
-                found = _verdict(state, step, share, good.equations.zones)
-                return found.margins[k] if len(found.margins) else np.nan
-
-            def settled(lo: float, hi: float, value: float) -> bool:
-                return hi - lo < 1e-13 or abs(value) < STILL
-
-            ends = float(good.margins[k]), float(bad.margins[k])
-            share = false_position(rate, good.share, bad.share, ends, settled)
-            if np.isfinite(share):
-                return float(share)
-    lo, hi, zones = good.share, bad.share, good
-    while hi - lo > FINE * (hi - lo + good.share):
-        middle = 0.5 * (lo + hi)
-        now = _verdict(state, step, middle, zones.equations.zones)
-        if now.why or not _within(now, zones):
-            hi = middle
+    while bad.share - good.share > FINE * bad.share:
+        with suppress(ContactError):
+            return _stop(state, step, good, bad)
+        middle = 0.5 * (good.share + bad.share)
+        now = _verdict(state, step, middle, good.solution.zones)
+        if now.why or not _within(now, good):
+            bad = now
         else:
-            lo, zones = middle, now
-    return lo
+            good = now
+    return good.share
+
+
+def _stop(state: State, step: LoadStep, good: Verdict, bad: Verdict) -> float:
+    """The share at which an end recedes no longer. Raises ContactError where that is not known."""
+    alike = bad.equations is not None and bad.solution.zones.signs == good.solution.zones.signs
+    k = int(bad.margins.argmin()) if alike and len(bad.margins) == len(good.margins) else -1
+    if k < 0 or not bad.margins[k] < 0.0 < good.margins[k]:
+        raise ContactError("no end of a stick zone stops")
+
+    def rate(share: float) -> float:
+        found = _verdict(state, step, share, good.solution.zones)
+        if len(found.margins) != len(good.margins):
+            raise ContactError(found.why)
+        return float(found.margins[k])
+
+    def settled(lo: float, hi: float, value: float) -> bool:
+        return hi - lo < 1e-13 or abs(value) < STILL
+
+    ends = float(good.margins[k]), float(bad.margins[k])
+    return float(false_position(rate, good.share, bad.share, ends, settled))

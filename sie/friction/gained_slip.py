@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from sie.numerics.graded_panels import Pieces, Rule
 
-from .finite_step import Equations, Gap
+from .equations import Equations, Gap
 from .strips import StripEquations
 
 Array = NDArray[np.float64]

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from sie.errors import ContactError
 from sie.numerics.root_finding import false_position
 
-from .finite_step import Zones
+from .equations import Zones
 from .rates import LoadRates, Rates
 from .state import State
 
@@ -226,7 +226,8 @@ def _share_of_limit(state: State, edge: float) -> float:
     """q/(f p) next to an edge."""
     lo, hi = next(patch for patch in state.contact.patches if edge in patch)
     x = edge + (1e-9 if edge == lo else -1e-9) * (hi - lo)
-    return float(np.clip(state.shear(x) / state.contact.limit(x), -1.0, 1.0))
+    at = np.array([x])
+    return float(np.clip(state.shear(at) / state.contact.limit(at), -1.0, 1.0)[0])
 
 
 def _inner(state: State, now: Onset, rates: Callable[[Onset], Rates], j: int) -> End | None:

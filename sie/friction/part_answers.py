@@ -12,7 +12,7 @@ from sie.errors import ContactError
 from sie.numerics.graded_panels import Rule
 
 from .course import Part
-from .finite_step import Equations
+from .equations import Equations
 from .gained_slip import GainedSlip
 from .loading import LoadStep
 from .state import SAME, intervals, united

@@ -34,11 +34,13 @@ from sie.numerics.root_finding import false_position
 
 from .cells import zones_on_cells
 from .course import Part
-from .finite_step import Equations, Zones, newton
+from .equations import Equations, Zones
+from .finite_step import newton
 from .gained_slip import GainedSlip
 from .loading import LoadStep
+from .onset import onset
 from .rates import Rates
-from .state import SAME, Contact, State, intervals
+from .state import SAME, Contact, Ends, Slips, State, intervals
 from .strip_part import StripPart
 from .strips import TAU
 
@@ -52,18 +54,27 @@ APART = 1e-4  # of a part: cuts that are closer are one
 CLOSE = 1e-2  # of a part: between times so close to each other values may be interpolated
 ACCURATE = 1e-8  # of the energy: pieces of time are halved until it is known to so much
 REFUSED = 1e-7  # of the energy: it is refused if it is known to less
-MOST_PIECES = 40
+NEARER = 0.6  # times the distance of a share that was not solved: the next that is tried
+MOST_PIECES, MOST_MISSED = 40, 60
 
 
 def work(part: Part | StripPart, step: LoadStep) -> float:
     """The energy of a part. Raises ContactError where it is not known to `REFUSED`."""
     if not part.state.slip:
         return 0.0
+    sticking = [_sticking(state) for state in (part.before, part.state)]
+    if not step.constant and sticking[0] != sticking[1]:
+        raise ContactError(
+            "a patch begins to slide as a whole, or sticks again, while P or the tilt changes: the "
+            "energy lost is not covered; ask for the state alone, or change Q at constant P"
+        )
     contact = part.state.contact
     whole, error = _paired(contact, part.equations, contact.limit.on), 0.0
     if not step.constant:
-        of_pressure = _of_panel if isinstance(part, StripPart) else _of_finite_part
-        moved, error = of_pressure(part, step, whole)
+        if isinstance(part, StripPart):
+            moved, error = _of_panel(part, step, whole)
+        else:
+            moved, error = _of_finite_part(part, step, whole)
         whole -= moved
     if error > REFUSED * whole:
         raise ContactError(
@@ -83,6 +94,11 @@ def _paired(contact: Contact, now: Equations, density: Callable[[Rule], Array]) 
     return total
 
 
+def _sticking(state: State) -> list[bool]:
+    """For each patch whether some of it sticks."""
+    return [any(x1 <= a and b <= x2 for a, b in state.stick) for x1, x2 in state.contact.patches]
+
+
 def _by_pressure(now: Equations, rates: Rates) -> float:
     """∫ f dp/dt s Δg dx."""
     return rates.friction * _paired(now.after, now, rates.pressure.density)
@@ -94,8 +110,8 @@ def _clenshaw_curtis(n: int) -> tuple[Array, Array, Array]:
     nodes = 0.5 * (1.0 - np.cos(np.pi * np.arange(n + 1) / n))
     k = np.arange(n + 1)
     of_polynomials = np.where(k % 2, 0.0, 1.0 / (1.0 - np.where(k % 2, 0.0, k) ** 2))
-    transform = np.linalg.inv(chebvander(2.0 * nodes - 1.0, n))
-    return nodes, of_polynomials @ transform, transform
+    transform = np.asarray(np.linalg.inv(chebvander(2.0 * nodes - 1.0, n)), dtype=np.float64)
+    return nodes, np.asarray(of_polynomials @ transform), transform
 
 
 def _integral(values: Array) -> tuple[float, float]:
@@ -145,13 +161,34 @@ class Way:
     step: LoadStep
     span: tuple[float, float]
     known: dict[float, Equations]
+    retreating: NDArray[np.int_]  # which edges retreat
+    start: Array  # the coordinates at the start; none if the number of zones changes
     values: dict[float, float] = field(default_factory=dict)
     allowed: float = 0.0  # error of a value
+    missed: int = 0  # how often no zones were found
+    # a share at which no zones were found, by the known ones that it lies between
+    failed: dict[tuple[float, float], float] = field(default_factory=dict)
 
     @classmethod
     def back(cls, part: Part, step: LoadStep) -> Way:
         """Through a part, from its end on."""
-        return cls(part.before, step, (part.begun, part.until), {part.until: part.equations})
+        zones = onset(part.before, step.rates, step.friction)
+        start = zones.stick if len(zones.stick) == len(part.state.stick) else ()
+        old, new = part.before.contact.patches, part.state.contact.patches
+        inward = (
+            np.array([[1.0, -1.0]]) * (np.array(new) - np.array(old))
+            if len(old) == len(new)
+            else ()
+        )
+        retreating = np.flatnonzero(np.ravel(inward) > 0.0)
+        coordinates = smooth_coordinates(start, zones.slip, np.ravel(old)[retreating])
+        known = {part.until: part.equations}
+        return cls(part.before, step, (part.begun, part.until), known, retreating, coordinates)
+
+    def coordinates(self, now: Equations) -> Array:
+        """The smooth coordinates of zones on the way."""
+        edges = np.ravel(now.after.patches)[self.retreating]
+        return smooth_coordinates(now.zones.stick, now.slip, edges)
 
     def integral(self, a: float, b: float) -> tuple[float, float]:
         """∫ dt ∫ f dp/dt s Δg dx between two shares, and its error."""
@@ -171,27 +208,34 @@ class Way:
         They are not found next to where they leap, and the integrand is continuous there.
         """
         if share not in self.known:
-            between, doubt, close = self._between(share)
-            if close and doubt <= self.allowed:
+            between, doubt, (a, b) = self._between(share)
+            known = b - a < CLOSE * (self.span[1] - self.span[0]) and doubt <= self.allowed
+            failed = self.failed.get((a, b))
+            if known or (
+                failed and min((share - a) / (failed - a), (b - share) / (b - failed)) > NEARER
+            ):
                 return between, doubt
             try:
                 self.equations(share)
             except ContactError:
+                self.missed += 1
+                if self.missed > MOST_MISSED:
+                    raise
+                self.failed[a, b] = share
                 return between, doubt
         if share not in self.values:
             now = self.known[share]
             self.values[share] = _by_pressure(now, rates_of(now, self.step))
         return self.values[share], 0.0
 
-    def _between(self, share: float) -> tuple[float, float, bool]:
-        """The value between those at known shares, its error, and whether these are close."""
-        begun, until = self.span
-        a = max((k for k in self.known if k < share), default=begun)
+    def _between(self, share: float) -> tuple[float, float, tuple[float, float]]:
+        """The value between those at the nearest known shares, its error, and these shares."""
+        a = max((k for k in self.known if k < share), default=self.span[0])
         b = min(k for k in self.known if k > share)
         first = self.value(a)[0] if a in self.known else 0.0  # before any slip
         last = self.value(b)[0]
         found = first + (last - first) * (share - a) / (b - a)
-        return found, abs(last - first), b - a < CLOSE * (until - begun)
+        return found, abs(last - first), (a, b)
 
     def equations(self, share: float) -> Equations:
         """The equations at a share, whose zones go on as they have to."""
@@ -223,8 +267,10 @@ class Way:
         nearest = sorted(self.known, key=lambda other: abs(other - share))
         count = len(self.known[nearest[0]].zones.stick)
         alike = [k for k in nearest if len(self.known[k].zones.stick) == count]
+        if self.start.size == 2 * count:
+            alike = sorted([*alike, self.span[0]], key=lambda other: abs(other - share))
         for several in (3, 2, 1):
-            if len(alike) >= several:
+            if len(alike) >= several and any(k in self.known for k in alike[:several]):
                 zones = self._continued(alike[:several], share)
                 if zones is not None:
                     yield zones
@@ -237,12 +283,13 @@ class Way:
 
     def _continued(self, shares: list[float], share: float) -> Zones | None:
         """The zones by a polynomial through those at some shares."""
-        known = [smooth_coordinates(self.known[k]) for k in shares]
+        known = [self.coordinates(self.known[k]) if k in self.known else self.start for k in shares]
         found = np.zeros(len(known[0]))
         for k, value in zip(shares, known, strict=True):
             others = [other for other in shares if other != k]
             found += value * np.prod([(share - other) / (k - other) for other in others])
-        return _zones_at(found, self.known[shares[0]], self.step.at(share))
+        like = next(self.known[k] for k in shares if k in self.known)
+        return _zones_at(found, like, self.step.at(share), self.retreating)
 
 
 def rates_of(now: Equations, step: LoadStep) -> Rates:
@@ -257,28 +304,30 @@ def rates_of(now: Equations, step: LoadStep) -> Rates:
     )
 
 
-def smooth_coordinates(now: Equations) -> Array:
-    """S sqrt(d) for ends beside a slip zone of length d at an edge, and the places of others."""
-    left, right = ({zone[k]: zone for zone in now.slip} for k in (0, 1))
-    edges = np.array(now.after.patches).ravel()
-    found = now.stick.ravel().copy()
-    for j, e in enumerate(now.stick.ravel()):
-        lo, hi, s = (left if j % 2 else right)[e]
+def smooth_coordinates(stick: Ends, slip: Slips, edges: Array) -> Array:
+    """S sqrt(d) for ends beside a slip zone of length d at one of these edges, places of others."""
+    left, right = ({zone[k]: zone for zone in slip} for k in (0, 1))
+    ends = np.array(stick).ravel()
+    found = ends.copy()
+    for j, e in enumerate(ends):
+        lo, hi, s = (left if j % 2 else right).get(e, (e, e, 0.0))
         if (hi if j % 2 else lo) in edges:
             found[j] = s * np.sqrt(hi - lo)
     return found
 
 
-def _zones_at(coordinates: Array, like: Equations, contact: Contact) -> Zones | None:
+def _zones_at(
+    coordinates: Array, like: Equations, contact: Contact, retreating: NDArray[np.int_]
+) -> Zones | None:
     """The zones of coordinates, beside the same patches; None where they are none."""
     ends, signs, patches = coordinates.copy(), list(like.zones.signs), like.after.patches
     for j, e in enumerate(like.stick.ravel()):
         zones = [k for k, zone in enumerate(like.slip) if zone[j % 2 == 0] == e]
         outer = like.slip[zones[0]][j % 2]
-        for old, new in zip(patches, contact.patches, strict=True):
-            if outer == old[j % 2]:
+        for k in retreating:
+            if outer == np.ravel(patches)[k]:
                 inward = -1.0 if j % 2 else 1.0
-                ends[j] = new[j % 2] + inward * coordinates[j] ** 2
+                ends[j] = np.ravel(contact.patches)[k] + inward * coordinates[j] ** 2
                 signs[zones[0]] = 1.0 if coordinates[j] > 0.0 else -1.0
     edges = np.array(contact.patches)
     inside = ((edges[:, :1] < ends) & (ends < edges[:, 1:])).any(axis=0).all()
@@ -299,20 +348,40 @@ def _cuts(way: Way, shares: list[float]) -> list[float]:
         first, last = way.known[sooner], way.known[later]
         if len(first.zones.stick) != len(last.zones.stick):
             continue
-        ends = smooth_coordinates(first), smooth_coordinates(last)
+        ends = way.coordinates(first), way.coordinates(last)
         for j, (a, b) in enumerate(zip(_places(first), _places(last), strict=True)):
             if (
                 j < len(ends[0])
                 and first.zones.signs != last.zones.signs
                 and ends[0][j] * ends[1][j] < 0.0
             ):
-                found.append(_root(lambda now, j=j: smooth_coordinates(now)[j], way, sooner, later))
+                found.append(_root(_Coordinate(way, j), way, sooner, later))
             inside = (way.before.marks - a) * (b - way.before.marks) > near**2
             for mark in way.before.marks[inside]:
-                found.append(
-                    _root(lambda now, j=j, m=mark: _places(now)[j] - m, way, sooner, later)
-                )
+                found.append(_root(_Beyond(j, float(mark)), way, sooner, later))
     return found
+
+
+@dataclass(frozen=True)
+class _Coordinate:
+    """Coordinate j of the zones."""
+
+    way: Way
+    j: int
+
+    def __call__(self, now: Equations) -> float:
+        return float(self.way.coordinates(now)[self.j])
+
+
+@dataclass(frozen=True)
+class _Beyond:
+    """How far end j is beyond a mark."""
+
+    j: int
+    mark: float
+
+    def __call__(self, now: Equations) -> float:
+        return float(_places(now)[self.j] - self.mark)
 
 
 def _places(now: Equations) -> Array:

@@ -17,8 +17,8 @@ from numpy.typing import NDArray
 
 from sie.errors import ContactError
 
+from .admissible import built
 from .cells import zones_on_cells
-from .finite_step import built
 from .loading import LoadStep
 from .onset import End, Motion, Onset, resting_place, set_out
 from .rates import Rates
@@ -35,6 +35,7 @@ ARRIVED = 1e-7  # of the contact: room that is none
 NEARLY = 0.9999  # of τ: an event before it shortens the part
 ON_MARK = 3e-9  # of the contact: an end that recedes and is so close to a mark is on it
 AT_THE_END = 1e-9  # of a part: an event so close to its end is there
+SOON = 1e-5  # of a step: in a part so short an advancing end meets nothing
 SMALL = 1e-2  # of the room: an end advances so far, at a guess
 AGAIN_SINCE = 0.7  # of τ: before it an event at the end of a part is not looked for again
 LEAP = 10.0  # times as far as the event is seen: so far the length of a part is corrected
@@ -177,6 +178,8 @@ def _guess(span: Span) -> Array:
 
     for j in span.which(Motion.ADVANCES):
         place = resting_place(zones, rates, j)
+        if place is None and span.length > SOON:
+            raise ContactError("an advancing end meets an edge or another stick zone before")
         if place is None:
             place = final[j] + SMALL * (zones.outer(j) - final[j])
         zones = zones.moved(j, replace(zones.ends[j], place=place))
@@ -203,10 +206,8 @@ def _receded(span: Span) -> Array:
 @lru_cache(maxsize=2)
 def _transform(first: int) -> Array:
     """Coefficients in T_k(2τ - 1) from values at the moments, from `first` on."""
-    matrix: Array = np.linalg.inv(
-        np.polynomial.chebyshev.chebvander(2.0 * TAU[first:] - 1.0, MOMENTS - first)
-    )
-    return matrix
+    values = np.polynomial.chebyshev.chebvander(2.0 * TAU[first:] - 1.0, MOMENTS - first)
+    return np.asarray(np.linalg.inv(values), dtype=np.float64)
 
 
 def _series(values: Array) -> Array:
@@ -215,7 +216,8 @@ def _series(values: Array) -> Array:
 
 
 def _at(series: Array, share: float | Array) -> Array:
-    return np.polynomial.chebyshev.chebval(2.0 * np.asarray(share) - 1.0, series)
+    value = np.polynomial.chebyshev.chebval(2.0 * np.asarray(share) - 1.0, series)
+    return np.asarray(value, dtype=np.float64)
 
 
 def _places(panel: Panel, share: float) -> Array:
@@ -271,7 +273,7 @@ def _of_ends(panel: Panel, last: Event | None, upto: float) -> Iterator[Event]:
                 yield Event(share, j, End(0.0, end.sense, Motion.ADVANCES))
         outward = 1.0 if j % 2 else -1.0
         if end.motion is Motion.ADVANCES:
-            speed = np.polynomial.chebyshev.chebder(outward * series)
+            speed = np.asarray(np.polynomial.chebyshev.chebder(outward * series), np.float64)
             share = _root(speed)
             if share is not None:
                 yield Event(share, j, End(0.0, end.sense, Motion.RECEDES))

@@ -31,7 +31,7 @@ from sie.errors import ContactError
 from sie.numerics import chebyshev
 from sie.numerics.graded_panels import Rule
 
-from .finite_step import Equations, Zones
+from .equations import Equations, Zones
 from .loading import LoadStep
 from .onset import Motion, Onset
 from .rates import Rates
@@ -87,7 +87,7 @@ class StripEquations(Equations):
     series: Array  # c of each strip, (strips, n)
 
     @cached_property
-    def sources(self) -> Array:  # type: ignore[override]
+    def sources(self) -> Array:
         """The intervals beside the stick zones, then the strips."""
         ends = [strip.reaches(self.stick.ravel()[strip.j]) for strip in self.strips]
         return np.concatenate((self.beside, np.array(ends).reshape(-1, 2)))

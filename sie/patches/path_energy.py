@@ -3,7 +3,7 @@
 Where only P and Q change, the layers that slip have their energy from the capacities of the
 contacts under all loads (`friction.dissipation`, `patches.dissipation`), those of all steps at
 once. With a bulk stress or a tilt it is that of states, f p times the slip at constant P and tilt,
-and an integral over time where the pressure changes (`friction.moving_work`).
+and an integral over time where the pressure changes (`friction.step_energy`).
 """
 
 from __future__ import annotations

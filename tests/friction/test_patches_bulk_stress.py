@@ -154,11 +154,12 @@ def test_a_normal_load_that_grows_with_the_bulk_stress_slips_to_either_side_on_t
     assert {s for *_, s in last.tangential.slipped} == {-1.0, 1.0}
 
 
-def test_energy_is_refused_where_stick_zones_vanish_while_all_loads_change():
+@pytest.mark.slow
+def test_energy_is_refused_where_a_patch_slides_as_a_whole_while_all_loads_change():
     path = sie.Path([(0.4, 0.0, 0.0), (0.41, 0.1225, 0.0005)])
     last = sie.follow(scene(TWO, 0.4), path)[-1]
     assert len(last.stick) == 1
-    with pytest.raises(sie.ContactError, match=r"from 2 to 1, .* the state at the end"):
+    with pytest.raises(sie.ContactError, match=r"slide as a whole, .* the energy lost"):
         _ = last.energy_lost
 
 

@@ -5,15 +5,14 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from sie.friction.rates import (
+from sie.friction.potentials import (
     Between,
-    LoadRates,
-    Rates,
     above_gap,
     in_angle,
     pressure_rate,
     pressure_rate_of_moment,
 )
+from sie.friction.rates import LoadRates, Rates
 
 FRICTION, EPS = 0.3, np.finfo(float).eps
 EDGES = ((-2.0, -1.0), (0.5, 2.0))

@@ -316,6 +316,7 @@ def step_slip(history: Followed, index: int, x: Array) -> Array:
     state = history.turning_points[index]
     normal, out = state.loads.normal, np.zeros(x.shape)
     for part in state.parts:
+        assert state.step is not None
         out += slip(part, state.step, x)
     if state.last is not None:  # zones that slipped before have left the contact
         for o in state.last.layers:
