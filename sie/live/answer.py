@@ -224,7 +224,8 @@ def _levels(values: Array) -> list[int | None]:
 def saved_answers() -> dict[str, Answer]:
     """The answers of a saved page by the name that its script gives a setting.
 
-    Settings without an answer are left out, and the script leaves them out of its sliders.
+    Settings without an answer are left out, and the script leaves them out of its sliders; so are
+    those of dissimilar bodies that would make the page large or take long.
     """
     found = {}
     for shape in (ROUNDED, *SHAPES):
@@ -233,7 +234,8 @@ def saved_answers() -> dict[str, Answer]:
             names = (control.name for control in controls)
             given: dict[str, Any] = dict(zip(names, values, strict=True))
             setting = Setting(shape=shape, **given)
-            if _answered(setting):
+            slow = bool(setting.bulk or (setting.tilt and shape != "parabola"))
+            if not (setting.beta and slow) and _answered(setting):
                 found[_name(shape, given)] = {part: answer(setting, part) for part in PARTS}
     return found
 

@@ -49,10 +49,8 @@ function obstacle(name, v) {
   const shifts = v.shape === "parabola" || Math.abs(v.share) === 1; // tilt is no obstacle there
   if (name === "share" && v.friction === 0) return "no tangential load without friction";
   if (name === "tilt" && v.tilt === 0 && coupled && !shifts) return "only with β = 0, or Q = ±f P";
-  if (name === "bulk" && v.bulk === 0 && coupled) return "only with β = 0";
   if (name === "beta" && v.beta === 0 && v.friction > 0) {
     if (v.shape === "two parabolas") return "not for two parabolas with friction";
-    if (v.bulk !== 0) return "only without bulk stress";
     if (v.tilt !== 0 && !shifts) return "only without tilt, or with Q = ±f P";
   }
   const control = page.controls.find((c) => c.name === name);
