@@ -582,9 +582,10 @@ class Solution(Frictionless, StressAnswers):
     def coupling_notes(self) -> tuple[str, ...]:
         """A sentence on what is neglected where β, or β q, is left out, or ()."""
         if self.scene.neglects_beta:
+            from .friction.coupled.normal import coupled_contact
             from .friction.goodman.departure import departure
 
-            return (departure(self.scene, self.tol),)
+            return (departure(self.scene, self.tol, coupled_contact),)
         beta = self.scene.neglected_beta
         if not beta:
             return ()

@@ -159,11 +159,25 @@ def test_every_import_that_is_listed_as_upward_is_made():
     assert {(module, target) for module, target, _ in every_dependency()} >= HANDED_UP
 
 
+def for_annotations(module):
+    """The lines of a module's imports that only type checkers run."""
+    path = HOUSES["sie"].parent.joinpath(*module.split("."))
+    path = path / "__init__.py" if path.is_dir() else path.with_suffix(".py")
+    return {
+        inner.lineno
+        for node in ast.parse(path.read_text(encoding="utf-8")).body
+        if isinstance(node, ast.If) and ast.unparse(node.test) == "TYPE_CHECKING"
+        for inner in node.body
+    }
+
+
 def deepest_chain():
     """The longest chain of imports in the solver, top first."""
     below = {}
-    for module, target, _ in dependencies():
-        below.setdefault(module, set()).add(target)
+    annotations = functools.cache(for_annotations)
+    for module, target, line in dependencies():
+        if line not in annotations(module):
+            below.setdefault(module, set()).add(target)
 
     @functools.cache
     def chain(module):

@@ -14,11 +14,11 @@ LINES = {
     "": 2680,
     "benchmark_set": 10,
     "cauchy": 2260,
-    "certificate": 1700,
+    "certificate": 1710,
     "cli": 910,
     "contact": 2800,
     "examples": 10,
-    "friction": 13590,
+    "friction": 13640,
     "io": 4680,
     "live": 1190,
     "numerics": 2210,
@@ -31,7 +31,7 @@ LINES = {
     "sweeps": 1080,
     "traction": 2720,
 }
-FILES = 281
+FILES = 282
 
 
 def lines_of(folder):

@@ -12,16 +12,14 @@ period the kernel is (π/λ) cot(π(x - t)/λ).
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Sequence
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from sie.friction.admissible import change_of_shear, excess_in_stick, opposing_slip
-from sie.friction.course import Part
 from sie.friction.slip_state import Slip
 from sie.friction.state import SAME, intervals
-from sie.friction.strip_part import StripPart
 from sie.numerics.chord import Chord, Points
 from sie.numerics.graded_panels import Rule as GradedRule
 from sie.numerics.interval import EPS, Interval
@@ -35,6 +33,10 @@ from sie.traction.base import Density
 
 from .quadrature import composite_rule
 from .result import ShearCertificate
+
+if TYPE_CHECKING:
+    from sie.friction.course import Part
+    from sie.friction.strip_part import StripPart
 
 Array = NDArray[np.float64]
 

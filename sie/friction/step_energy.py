@@ -54,6 +54,8 @@ APART = 1e-4  # of a part: cuts that are closer are one
 CLOSE = 1e-2  # of a part: between times so close to each other values may be interpolated
 ACCURATE = 1e-8  # of the energy: pieces of time are halved until it is known to so much
 REFUSED = 1e-7  # of the energy: it is refused if it is known to less
+PLACES = 200  # of each patch, at which slip is looked at for turns ...
+BETWEEN = np.array([0.25, 0.5, 0.75])  # ... after these parts of a step at constant pressure
 NEARER = 0.6  # times the distance of a share that was not solved: the next that is tried
 MOST_PIECES, MOST_MISSED = 40, 60
 
@@ -76,12 +78,29 @@ def work(part: Part | StripPart, step: LoadStep) -> float:
         else:
             moved, error = _of_finite_part(part, step, whole)
         whole -= moved
+    elif isinstance(part, Part):
+        error = _turned(part, step)
     if error > REFUSED * whole:
         raise ContactError(
-            f"the energy lost is known to {error / whole:.0e} of it only: put a point of the path "
-            f"in between; the state is not concerned"
+            f"the energy lost is known to {error / whole:.0e} of it only, as where slip turns on "
+            "the way: put a point of the path in between; the state is not concerned"
         )
     return whole * 2.0 / step.contacts.scene.Estar
+
+
+def _turned(part: Part, step: LoadStep) -> float:
+    """∫ f p (what places slip to and fro - |Δg|) dx of a finite step at constant pressure."""
+    way, contact = Way.back(part, step), part.state.contact
+    x = np.concatenate([np.linspace(lo, hi, PLACES + 2)[1:-1] for lo, hi in contact.patches])
+    try:
+        shares = part.begun + (part.until - part.begun) * BETWEEN
+        on_the_way = [way.equations(float(share)) for share in shares[::-1]]
+    except ContactError:
+        return np.inf
+    slips = [GainedSlip(now).at(x) for now in (part.equations, *on_the_way)]
+    to_and_fro = np.abs(np.diff([*slips, 0.0 * x], axis=0)).sum(axis=0)
+    more = contact.limit(x) * (to_and_fro - np.abs(slips[0]))
+    return float(more.mean() * sum(hi - lo for lo, hi in contact.patches))
 
 
 def _paired(contact: Contact, now: Equations, density: Callable[[Rule], Array]) -> float:

@@ -66,7 +66,8 @@ from .path_contacts import PathContacts
 
 Array = NDArray[np.float64]
 
-UNSEEN = 1e-9  # of f P: a smaller step of P is not followed part by part
+UNSEEN = 1e-9  # of f P: a smaller step of P is not followed part by part ...
+UNTOLD = 1e-11  # ... and a smaller one at constant P
 
 
 def follow(
@@ -262,10 +263,13 @@ class History(PathContacts, Sequence[Solution]):
                 "(sie.RoundedFlat)"
             )
         rise, pull = (of(loads) - of(first) for of in (self.level, self.shear))
-        if rise and max(abs(rise), abs(pull)) <= UNSEEN * abs(self.level(loads)):
+        change, all_of_them = max(abs(rise), abs(pull)), UNSEEN if rise else UNTOLD
+        if not rise:
+            change = max(change, abs(loads.sigma - first.sigma) / self.scene.Estar * first.P)
+        if change <= all_of_them * abs(self.level(loads)):
             raise ContactError(
-                f"P or the tilt changes, and all loads by less than {UNSEEN:g} of f P, which "
-                "rounding hides: drop this point of the path, or keep P and the tilt in it"
+                f"all loads change by less than {all_of_them:g} of f P, which rounding hides: drop "
+                "this point of the path" + (", or keep P and the tilt in it" if rise else "")
             )
         start = state_of(self, before) if first is before.loads else touched(self, first)
         step = LoadStep(self, first, loads, {0.0: start.contact})

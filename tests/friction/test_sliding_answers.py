@@ -63,8 +63,8 @@ PAIR = {
 @pytest.mark.parametrize(
     "loads",
     [
-        {"bulk_stress": 200.0},
-        {"tangential_load": 30.0, "bulk_stress": 20.0},
+        {"moment": 10.0},
+        {"tangential_load": 30.0, "moment": 10.0},
     ],
 )
 def test_the_remedy_for_dissimilar_bodies_keeps_all_but_their_coupling(loads):

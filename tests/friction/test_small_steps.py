@@ -18,7 +18,7 @@ def after(points, tilt=(), scene=HERTZ):
 
 
 @pytest.mark.slow(but=1)
-@pytest.mark.parametrize("size", [1e-7, 1e-12])
+@pytest.mark.parametrize("size", [1e-7, 1e-9])
 @pytest.mark.parametrize("direction", [(0, 0, 1), (0, 0, -1)])
 def test_an_end_that_recedes_moves_in_proportion_to_a_small_step(direction, size):
     start = np.array(after(BEFORE).stick[0])
@@ -29,6 +29,11 @@ def test_an_end_that_recedes_moves_in_proportion_to_a_small_step(direction, size
 
     k = int(np.abs(moved(1e-5)).argmin())  # the end that goes on; the other one begins anew
     assert moved(size)[k] / size == pytest.approx(moved(1e-5)[k] / 1e-5, rel=1e-3, abs=4e-16 / size)
+
+
+def test_a_step_within_the_rounding_of_its_loads_is_refused_with_the_remedy_to_drop_it():
+    with pytest.raises(ContactError, match="drop this point of the path"):
+        after([*BEFORE, (1, 0.1, 0.05 + 1e-12)])
 
 
 @pytest.mark.slow(but=1)

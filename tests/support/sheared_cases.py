@@ -17,7 +17,7 @@ PROFILES = {
     "uneven": sie.Polynomial((0.0, 0.0, 0.5, 0.03, 0.02)),
     "function": sie.FromFunction(slope="sinh(x)"),
     "shifted": sie.Parabola(1.0).shifted(3.0),
-    "kinked": sie.Piecewise((-2.0, -0.4, 0.4, 2.0), ((-0.8, 1.0), (0.0, 0.5), (0.8, 1.0))),
+    "kinked": sie.Piecewise((-2.0, -0.4, 0.4, 2.0), ((0.6, 2.0), (0.0, 0.5), (-0.6, 2.0))),
 }
 
 

@@ -16,13 +16,16 @@ import itertools
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .fields import interpolated
-from .flat import FlatPunch
 from .growth import STEP, Panel, trapezoidal
+
+if TYPE_CHECKING:
+    from .flat import FlatPunch
 
 Array = NDArray[np.float64]
 Passing = tuple[NDArray[np.intp], Array]

@@ -18,7 +18,7 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,8 +26,10 @@ from numpy.typing import NDArray
 from sie.numerics import chebyshev
 from sie.numerics.gauss_jacobi import with_weight
 
-from .flat import FlatPunch
 from .pieces import FINEST
+
+if TYPE_CHECKING:
+    from .flat import FlatPunch
 
 Array = NDArray[np.float64]
 

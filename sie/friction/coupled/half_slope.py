@@ -9,6 +9,7 @@ and by Gauss-Legendre nodes elsewhere.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -18,7 +19,6 @@ from numpy.typing import NDArray
 from sie.numerics import chebyshev
 from sie.numerics.gauss_jacobi import gauss_jacobi
 from sie.numerics.interval import EPS
-from sie.profiles.resolution import refined
 from sie.profiles.slope import Slope
 
 Array = NDArray[np.float64]
@@ -30,11 +30,12 @@ LEAST = 1e-300
 
 @dataclass(frozen=True, eq=False)
 class HalfSlope:
-    """E*/2 h' of a profile, resolved on [lo, hi]."""
+    """E*/2 h' of a profile, resolved on [lo, hi] by a function (`profiles.resolution.refined`)."""
 
     slope: Slope
     half_modulus: float
     window: tuple[float, float]
+    resolve: Callable[[Slope, float, float, float], Slope]
 
     def __call__(self, x: Array) -> Array:
         values: Array = self.half_modulus * self.slope(x)
@@ -49,7 +50,7 @@ class HalfSlope:
     @cached_property
     def _resolved(self) -> Slope:
         lo, hi = self.slope.domain
-        return refined(self.slope, max(self.window[0], lo), min(self.window[1], hi), EPS)
+        return self.resolve(self.slope, max(self.window[0], lo), min(self.window[1], hi), EPS)
 
     def principal(self, contact: tuple[float, float], x: Array, left: Array, right: Array) -> Array:
         """1/π PV∫H/(t - x) dt over the contact at places of known distances from its edges."""

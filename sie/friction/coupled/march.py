@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,8 +21,10 @@ from sie.numerics.root_finding import false_position
 from sie.profiles.slope import Slope
 from sie.progress_bar import step_done
 
-from .flat import FlatPunch
 from .growth import DEGREE, Panel, Side, collocated
+
+if TYPE_CHECKING:
+    from .flat import FlatPunch
 
 Array = NDArray[np.float64]
 

@@ -20,6 +20,7 @@ from sie.problem.scene import Scene
 from sie.profiles.slope import Slope
 from sie.progress_bar import reported
 
+from .axis import LOOKS, symmetry_axis
 from .flat import flat_punch
 from .frozen import Frozen
 from .growth import Panel
@@ -36,8 +37,6 @@ NARROWEST_STICK = 1e-9  # of the contact
 RESOLVED = 3e-12  # of P: what a state may miss
 STEEPEST = 1.5  # β f: exponents at the ends of slip zones are then 0.19 and 0.81
 # Points where the symmetry of a profile is measured, and to what part of its largest slope.
-LOOKS, EVEN = 64, 1e-10
-AXIS_ROUNDING = 256.0 * EPS  # half-widths: the rounding of the frictionless contact's centre
 
 
 @reported("contact of dissimilar bodies")
@@ -172,26 +171,3 @@ def _without_friction(scene: Scene) -> Scene:
     """The scene whose contact bounds the search."""
     P, b = scene.normal_load, scene.half_width
     return Scene(profile=scene.profile, modulus=scene.Estar, normal_load=P, half_width=b)
-
-
-def symmetry_axis(scene: Scene, bound: Edges) -> float | None:
-    """The axis of the profile, or of the frictionless contact if h' is odd about it there.
-
-    None if the profile is not symmetric.
-    """
-    profile, contact = scene.profile, bound.contact
-    if profile.axis is not None:
-        return profile.axis
-    # Next to the edges too, as a light load only reaches the beginning of rounded edges
-    part = np.append((np.arange(LOOKS) + 0.5) / LOOKS, 1.0 - 0.5 ** np.arange(2.0, 40.0))
-    breaks = profile.pieces.breaks
-    # Between a place where h' is not smooth and the mirror image of another too
-    kinks = np.abs(breaks - contact.m)
-    kinks = np.unique(np.append(kinks[kinks < contact.r], (0.0, contact.r)))
-    y = np.append(contact.r * part, 0.5 * (kinks[:-1] + kinks[1:]))
-    right, left = profile.slope(contact.m + y), profile.slope(contact.m - y)
-    if float(np.abs(right + left).max()) > EVEN * float(np.abs(right).max()):
-        return None
-    nearest = float(breaks[np.argmin(np.abs(breaks - contact.m))])
-    # The axis of a symmetric trace is one of its points, or half-way between two
-    return nearest if abs(nearest - contact.m) <= AXIS_ROUNDING * contact.r else contact.m

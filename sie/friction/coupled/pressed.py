@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from sie.numerics.gauss_jacobi import with_weight
 from sie.numerics.interval import Interval
+from sie.profiles.resolution import refined
 from sie.profiles.slope import Slope
 from sie.traction.base import on_line
 
@@ -190,7 +191,8 @@ class Grown(Pressed):
         s, flat, origin, gradient = self.s, self.flat, self.origin, self.gradient
         m = self.frozen.middle(s) - origin
         slope = self.slope.shifted(-origin) if origin else self.slope
-        half = HalfSlope(slope, self.half_modulus, (m - WINDOW * s, m + WINDOW * s))
+        window = m - WINDOW * s, m + WINDOW * s
+        half = HalfSlope(slope, self.half_modulus, window, refined)
         question = Question(
             flat.beta, flat.friction, half, lambda x: gradient(x + origin), self.load, 0.0
         )

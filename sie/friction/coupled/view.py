@@ -7,6 +7,7 @@ slip and of the strain.
 from __future__ import annotations
 
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,8 +19,10 @@ from sie.traction.base import zero_or_nan
 from sie.traction.in_contact import InContact
 
 from .integral import outwards
-from .step import Loaded
 from .two_sided import Known, TwoSidedTraction, both_tractions
+
+if TYPE_CHECKING:
+    from .step import Loaded
 
 Array = NDArray[np.float64]
 

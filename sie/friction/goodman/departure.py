@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
 from sie.contact.normal import normal_contact
 from sie.contact.pressure import pressure
 from sie.errors import ContactError
-from sie.friction.coupled.normal import coupled_contact
 from sie.problem.scene import Scene
 
 from .functions import goodman_flat
@@ -18,8 +19,11 @@ from .functions import goodman_flat
 NEGLECT = "note: β q is left out of the normal equation (Goodman's approximation)"
 
 
-def departure(scene: Scene, tol: float) -> str:
-    """A sentence; with figures for the normal load on a symmetric convex profile."""
+def departure(scene: Scene, tol: float, coupled_contact: Callable[..., Any]) -> str:
+    """A sentence; with figures for the normal load on a symmetric convex profile.
+
+    `coupled_contact` finds the contact with both couplings.
+    """
     if scene.slides:
         return f"{NEGLECT}: in full sliding the pressure is that without friction"
     try:

@@ -26,8 +26,8 @@ from numpy.typing import NDArray
 
 from sie.contact.edges import Search
 from sie.errors import ContactError
+from sie.friction.coupled.axis import symmetry_axis
 from sie.friction.coupled.half_potential import Panels
-from sie.friction.coupled.normal import symmetry_axis
 from sie.friction.coupled.pressed import PARTS
 from sie.friction.coupled.traction import resolved_panels
 from sie.friction.coupled.two_sided import TwoSidedTraction
