@@ -18,7 +18,7 @@ LINES = {
     "cli": 910,
     "contact": 2800,
     "examples": 10,
-    "friction": 13640,
+    "friction": 13650,
     "io": 4680,
     "live": 1190,
     "numerics": 2210,

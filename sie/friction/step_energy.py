@@ -23,6 +23,7 @@ from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import lru_cache
 from itertools import pairwise
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.polynomial.chebyshev import chebvander
@@ -33,7 +34,6 @@ from sie.numerics.graded_panels import OF_SERIES, Rule
 from sie.numerics.root_finding import false_position
 
 from .cells import zones_on_cells
-from .course import Part
 from .equations import Equations, Zones
 from .finite_step import newton
 from .gained_slip import GainedSlip
@@ -43,6 +43,9 @@ from .rates import Rates
 from .state import SAME, Contact, Ends, Slips, State, intervals
 from .strip_part import StripPart
 from .strips import TAU
+
+if TYPE_CHECKING:
+    from .course import Part
 
 Array = NDArray[np.float64]
 
@@ -78,7 +81,7 @@ def work(part: Part | StripPart, step: LoadStep) -> float:
         else:
             moved, error = _of_finite_part(part, step, whole)
         whole -= moved
-    elif isinstance(part, Part):
+    elif not isinstance(part, StripPart):
         error = _turned(part, step)
     if error > REFUSED * whole:
         raise ContactError(

@@ -12,6 +12,7 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,7 +20,9 @@ from numpy.typing import NDArray
 from sie.numerics import chebyshev
 from sie.numerics.gauss_jacobi import gauss_jacobi
 from sie.numerics.interval import EPS
-from sie.profiles.slope import Slope
+
+if TYPE_CHECKING:
+    from sie.profiles.slope import Slope
 
 Array = NDArray[np.float64]
 

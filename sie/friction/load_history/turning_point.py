@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
-from sie.friction.course import Part
-from sie.friction.loading import LoadStep
 from sie.friction.loads import Loads
 from sie.friction.memory import LoadMemory, SlipEvent
-from sie.friction.state import State
-from sie.friction.strip_part import StripPart
+
+if TYPE_CHECKING:
+    from sie.friction.course import Part
+    from sie.friction.loading import LoadStep
+    from sie.friction.state import State
+    from sie.friction.strip_part import StripPart
 
 
 @dataclass(frozen=True)
