@@ -1,5 +1,5 @@
 """What runs, and how hard hypothesis tries: "default" in two minutes for the whole of the tests,
-"many" where the slow ones run too (.ci/run), "deep" for a long run by hand.
+"many" and "deep" for longer runs by hand.
 
 `python -m pytest` leaves out what is marked slow, `python -m pytest -m ""` runs everything. The
 first cases of a slow test with many, `@pytest.mark.slow(but=2)`, are its fast siblings.

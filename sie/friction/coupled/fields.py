@@ -171,17 +171,17 @@ class Fields:
         small, roots = beta < SMALL, [self._root(at) for at in rules]
         rows, sources = [], []
         for k, at in enumerate(rules):
-            (sticks, gamma, held, H1, chi), other = stuck[k], (k + SHIFTS // 2) % SHIFTS
+            (sticks, gamma, p_held, H1, chi), other = stuck[k], (k + SHIFTS // 2) % SHIFTS
             slips, place = ~sticks, at.chosen(~sticks) if small else at
             flow = np.zeros(len(at.x))
             flow[slips if small else slice(None)] = state.psi(place, rules[other], flows[other])
             flow *= chi
             kappa = pieces.sign[at.zone] * beta * f
             p = cos * flow - kappa * H1 / (1.0 + kappa**2)
-            p[sticks] = held
+            p[sticks] = p_held
             q = np.where(sticks, (flow - H1) / beta, pieces.sign[at.zone] * f * p)
             mass = np.where(sticks, 0.0, q)
-            mass[sticks] = beta * held - gamma
+            mass[sticks] = beta * p_held - gamma
             sources.append(mass * at.weight / roots[k])
             rows.append(np.stack((p, q, beta * p)))
         for k, at in enumerate(rules):

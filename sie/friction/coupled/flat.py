@@ -227,7 +227,7 @@ class _Sharp(Pieces):
 
     @cached_property
     def powers(self) -> Array:
-        powers = Pieces.powers.func(self)
+        powers: Array = Pieces.powers.func(self)  # type: ignore[attr-defined]
         powers[[0, -1]] -= 1.0
         return powers
 
@@ -237,7 +237,8 @@ class _Sharp(Pieces):
 
     @cached_property
     def turns(self) -> Array:
-        return -Pieces.turns.func(self)
+        turns: Array = Pieces.turns.func(self)  # type: ignore[attr-defined]
+        return -turns
 
 
 @dataclass(frozen=True, eq=False)

@@ -10,6 +10,7 @@ from __future__ import annotations
 import itertools
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -72,6 +73,16 @@ class Pressed(View):
 
     @property
     def half_width(self) -> float:
+        raise NotImplementedError
+
+    @property
+    def kept(self) -> tuple[tuple[float, float], Any]:
+        """What stuck under a lighter load, and the state under that."""
+        raise NotImplementedError
+
+    @property
+    def energy(self) -> float:
+        """The dissipated energy."""
         raise NotImplementedError
 
     @property

@@ -44,7 +44,7 @@ class TwoSidedTraction(OnHalves):
     marks: tuple[float, ...]
     contact: Interval
     first: float | None = None
-    sharp: bool = False  # type: ignore[misc]
+    sharp: bool = False
 
     @property
     def middle(self) -> float:
