@@ -337,3 +337,13 @@ def test_the_gap_far_away_is_what_the_profile_rises(part):
     gaps = solved(None, 0.3, 0.3, part).gap(np.array([-1e300, -1e120, 1e120, 1e160]))
     assert gaps[1] == pytest.approx(0.5e240, rel=1e-12) == gaps[2]
     assert gaps[0] == gaps[3] == math.inf
+
+
+def test_the_loop_of_shear_over_shift_encloses_the_energy():
+    pair = {"body": sie.Elastic(110e3, 0.34), "indenter": sie.Elastic(210e3, 0.3)}
+    scene = sie.Scene(profile=sie.Parabola(50.0), **pair, normal_load=100.0, friction=0.4)
+    there, back = np.linspace(24.0, -24.0, 13), np.linspace(-24.0, 24.0, 13)[1:]
+    shears = np.concatenate(([0.0], there, back))
+    history = sie.follow(scene, sie.Path([(100.0, Q) for Q in shears.tolist()]))
+    area = np.trapezoid(shears[1:], [point.shift for point in history][1:])
+    assert area == pytest.approx(history[-1].energy_lost - history[1].energy_lost, rel=3e-3)

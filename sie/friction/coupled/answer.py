@@ -143,13 +143,23 @@ class LoadedContact(View):
         """
         from scipy.special import digamma  # noqa: PLC0415 -- heavy, and seldom asked for
 
-        first = self.loaded
-        while first.before is not None:
-            first = first.before
-        start, b = self.loaded.zones.stick[0][1], 0.5 * float(np.ptp(first.zones.ends))
+        chain = [self.loaded]
+        while chain[-1].before is not None:
+            chain.append(chain[-1].before)
+        sticks = np.array([state.zones.stick[0] for state in chain])
+        lo, hi = float(sticks[:, 0].max()), float(sticks[:, 1].min())
+        if lo >= hi:
+            raise ContactError(
+                "no place has stuck all along this path, and the shift of the indenter is told "
+                "from one that has; ask for the slip at a place, or end the path before"
+            )
+        first, start = chain[-1], 0.5 * (lo + hi)
+        ends = first.zones.ends
+        middle, b = 0.5 * float(ends[0] + ends[-1]), 0.5 * float(np.ptp(ends))
         eta = math.atanh(self.loaded.question.beta) / math.pi
         bonded = math.log(0.5 * b) + float((digamma(0.5 + 1j * eta) - digamma(0.5)).real)
         moved = _to_far(self.loaded, start) - _to_far(first, start)
+        moved += self.loaded.strain * (start - middle)  # with the body under bulk stress
         return self.sign * (moved + self.loaded.Q / math.pi * bonded) / self.half_modulus
 
 
