@@ -458,7 +458,8 @@ class Solution(Frictionless, StressAnswers):
         In full sliding it is the slip at incipient sliding, when the last stick zone vanishes.
         Where dissimilar bodies are pressed together it is counted from when a point came into
         contact: what slipped first sticks later, and keeps its slip. Where their contact spreads
-        under a tangential load, it is counted from when that load began.
+        under a tangential load, or leaves a place for a while, all that the surfaces move against
+        each other from when that load began is counted.
 
         Examples
         --------

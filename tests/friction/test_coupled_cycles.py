@@ -347,3 +347,15 @@ def test_the_loop_of_shear_over_shift_encloses_the_energy():
     history = sie.follow(scene, sie.Path([(100.0, Q) for Q in shears.tolist()]))
     area = np.trapezoid(shears[1:], [point.shift for point in history][1:])
     assert area == pytest.approx(history[-1].energy_lost - history[1].energy_lost, rel=3e-3)
+
+
+def test_slip_is_continuous_where_places_have_left_the_contact_and_come_back():
+    pair = {"body": TITANIUM, "indenter": STEEL}
+    scene = sie.Scene(profile=sie.Parabola(50.0), **pair, normal_load=100.0, friction=0.4)
+    turns = [(100.0, 0.0, 0.0), (100.0, 24.0, 60.0), (100.0, -24.0, -60.0), (100.0, 24.0, 60.0)]
+    _, _, narrow, last = sie.follow(scene, sie.Path(turns))
+    left, inner = last.edges[0], narrow.edges[0]
+    assert left < inner  # the strip between has been apart
+    slip = last.slip(np.linspace(left, 2.0 * inner - left, 41))
+    steps = np.diff(slip)
+    assert np.abs(steps).max() < 3.0 * np.abs(steps).mean()

@@ -164,26 +164,37 @@ class LoadedContact(View):
 
 
 def slipped(after: Loaded, before: Loaded, x: Array) -> Array:
-    """E*/2 times the slip from one state to a later one."""
-    out, ends = np.zeros(len(x)), after.zones.ends
-    lo, hi = before.zones.ends[[0, -1]]
+    """E*/2 times what the surfaces at places move against each other from one state to a later one.
+
+    Beside a contact too: places may leave it and come back.
+    """
+    out, ends, (lo, hi) = np.zeros(len(x)), after.zones.ends, before.zones.ends[[0, -1]]
     places = np.array([*before.state.pieces.cuts.tolist(), *after.question.slope.kinks])
+    places = np.concatenate((places, ends[[0, -1]]))
     near = 0.5 * (hi - lo) * np.concatenate((-GRADED, [0.0], GRADED))
     inner = (places[:, None] + near).ravel()
 
     def gain(u: Array) -> Array:
-        gamma, touched = after.fields.gamma(u), (u >= lo) & (u <= hi)
-        gamma[touched] -= before.fields.gamma(u[touched])
-        if not touched.all():
-            gamma[~touched] -= before.state.beside_contact(u[~touched])[1]
-        return gamma - (after.strain - before.strain)
+        return _strain(after, u) - _strain(before, u)
 
-    for first, last, on_left in ((ends[0], ends[1], True), (ends[-2], ends[-1], False)):
+    outer = min(ends[0], x.min(initial=np.inf)), max(ends[-1], x.max(initial=-np.inf))
+    for first, last, on_left in ((outer[0], ends[1], True), (ends[-2], outer[1], False)):
         own = (x >= first) & (x <= last)
         if own.any():
             total = integral(gain, towards_ends(first, last, inner))
             out[own] = total(x[own]) - (total(np.array([last])) if on_left else 0.0)
     return out
+
+
+def _strain(state: Loaded, x: Array) -> Array:
+    """E*/2 g' at places in the contact and beside it."""
+    lo, hi = state.zones.ends[[0, -1]]
+    touching = (x >= lo) & (x <= hi)
+    found = np.empty(len(x))
+    found[touching] = state.fields.gamma(x[touching])
+    if not touching.all():
+        found[~touching] = state.state.beside_contact(x[~touching])[1]
+    return found - state.strain
 
 
 def _to_far(state: Loaded, start: float) -> float:
