@@ -9,13 +9,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie.errors import ContactError
+from sie.numerics.chord import Chord
 from sie.numerics.graded_panels import (
     OF_SERIES,
     Pieces,
     Rule,
 )
 
-from .equations import Chord, Equations
+from .equations import Equations
 from .state import SAME, Ends, State, intervals, united
 
 Array = NDArray[np.float64]

@@ -13,8 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie.errors import ContactError
+from sie.numerics.chord import Chord
 
-from .equations import Chord, Zones
+from .equations import Zones
 from .state import SAME, Contact, State, intervals, united
 
 Array = NDArray[np.float64]

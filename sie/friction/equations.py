@@ -26,6 +26,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie.errors import ContactError
+from sie.numerics.chord import Chord
 from sie.numerics.graded_panels import (
     OF_RULES,
     OF_SERIES,
@@ -41,26 +42,6 @@ Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 NEAREST = 5  # places next to an end, from which what is there follows
 FEW = 3  # nodes a panel of the places where |q| <= f p is tested on the way
-
-
-@dataclass(frozen=True)
-class Chord:
-    """d(x, y) of a difference x - y shorter than a period."""
-
-    period: float
-
-    def __call__(self, step: Any) -> Any:
-        if math.isinf(self.period):
-            return step
-        return np.sin(step * (np.pi / self.period)) * (self.period / np.pi)
-
-    def cosine(self, step: Any) -> Any:
-        """Its derivative."""
-        return np.cos(step * (np.pi / self.period))
-
-    def logarithm(self, step: Any) -> Any:
-        """ln|d|."""
-        return np.log(np.abs(self(step)))
 
 
 @dataclass(frozen=True)

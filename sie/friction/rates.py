@@ -2,7 +2,7 @@
 
 The pressure's follow from those of P and the tilt on the patches; the shear's from them, Q and the
 bulk stress on the stick zones (`potentials`). They give the coefficient K of 1/sqrt(distance) at
-each end of a stick zone, the rate of slip beside it, and the power of friction.
+each end of a stick zone, and the rate of slip beside it.
 """
 
 from __future__ import annotations
@@ -10,7 +10,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -18,14 +17,12 @@ from numpy.typing import NDArray
 
 from sie.numerics import chebyshev
 from sie.numerics.chord import Chord
-from sie.numerics.graded_rule import graded_angle
 
 from .potentials import (
     MOST_NODES,
     NODES,
     SETTLED,
     TAIL,
-    Between,
     Density,
     Frame,
     Given,
@@ -165,37 +162,6 @@ class Rates:
         rates = [one.sense * one.at(in_angle(one.lo, one.hi, TESTED)) for one in self.slips]
         largest = max((float(np.abs(rate).max()) for rate in rates), default=0.0)
         return min(float(rate.min()) for rate in rates) / largest if largest else 0.0
-
-    def slip_rate(self, x: Places) -> Any:
-        """(E*/2) dg at places in slip zones; 0 elsewhere."""
-        places = x.from_lo + x.lo
-        rate = np.zeros(np.shape(places))
-        for one in self.slips:
-            inside = (np.asarray(x.lo) >= one.lo) & (np.asarray(x.hi) <= one.hi)
-            if np.any(inside):
-                near = Between(one.lo, one.hi, *self._distances(x, one))
-                rate = np.where(inside, one.at(near), rate)
-        return rate
-
-    def _distances(self, x: Places, zone: Slip) -> tuple[Any, Any]:
-        chord = self.shear.frame
-        return (
-            np.maximum(np.add(*chord.parts(x, zone.lo)), 0.0),
-            np.maximum(-np.add(*chord.parts(x, zone.hi)), 0.0),
-        )
-
-    def power(self, limit: Density, cuts: Sequence[float] = ()) -> float:
-        """(E*/2) ∫ f p |dg| dx, with f p at places; cuts are the corners of the pressure."""
-        total = 0.0
-        for zone in self.slips:
-            inner = [c for c in cuts if zone.lo < c < zone.hi]
-            ends = [zone.lo, *sorted(inner), zone.hi]
-            for lo, hi in pairwise(ends):
-                sine, cosine, weight = graded_angle()
-                x = Between(lo, hi, (hi - lo) * sine, (hi - lo) * cosine)
-                rate = zone.at(Between(zone.lo, zone.hi, *self._distances(x, zone)))
-                total += float(np.abs(limit(x) * rate) @ weight) * (hi - lo)
-        return total
 
 
 def _times(factor: float, density: Density) -> Density:

@@ -45,6 +45,16 @@ class Chord:
     def periodic(self) -> bool:
         return self.period < np.inf
 
+    def __call__(self, step: Any) -> Any:
+        """d of differences shorter than a period, which may be complex."""
+        if not self.periodic:
+            return step
+        return np.sin(step * (np.pi / self.period)) * (self.period / np.pi)
+
+    def logarithm(self, step: Any) -> Any:
+        """ln|d| of such differences."""
+        return np.log(np.abs(self(step)))
+
     def apart(self, step: Any, offset: Any = 0.0) -> Any:
         """d for a difference of anchors and one of offsets. Whole periods go into the sign."""
         if not self.periodic:

@@ -54,19 +54,6 @@ def modulus_of_ratio(tau: float) -> Modulus:
     return Modulus((theta2 / theta3) ** 2, (theta4 / theta3) ** 2, K, tau * K)
 
 
-def modulus_of(k: float, complement: float) -> Modulus:
-    """The modulus k > 0, given sqrt(1 - k²) > 0 as well."""
-    return Modulus(k, complement, *(0.5 * math.pi / _mean(g) for g in (complement, k)))
-
-
-def _mean(g: float) -> float:
-    """The arithmetic-geometric mean of 1 and g."""
-    a = 1.0
-    while abs(a - g) > SETTLED * a:
-        a, g = 0.5 * (a + g), math.sqrt(a * g)
-    return 0.5 * (a + g)
-
-
 def elliptic_functions(modulus: Modulus, part: Array, rest: Array) -> tuple[Array, Array, Array]:
     """sn, cn, dn of K part for 0 < part < 1, each to relative accuracy; rest is 1 - part."""
     far = part > 0.5

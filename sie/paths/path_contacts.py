@@ -33,7 +33,6 @@ from sie.patches.step_zones import PatchZones
 from sie.problem.load_path import Path
 from sie.problem.path_scene import unsheared
 from sie.problem.scene import Scene
-from sie.traction.of_slope import SlopeDensity
 
 FEW = 8  # breaks of a profile: of more, a trace, each one is faint
 
@@ -147,12 +146,6 @@ class PathContacts(ABC):
         if (P, turn) not in self._plain:
             self._plain[P, turn] = self._frictionless(P, turn)
         return self._plain[P, turn]
-
-    def pressure_at(self, loads: Loads) -> SlopeDensity:
-        """The pressure under loads, in one patch; it is kept at turning points."""
-        found = self._plain.get(loads.normal) or self._frictionless(*loads.normal)
-        _ = found.as_one_patch
-        return found.slope_density
 
     def pressed(self, loads: Loads) -> tuple[tuple[tuple[float, float], ...], Any]:
         """The patches and the pressure under loads; they are kept at turning points."""
