@@ -18,7 +18,7 @@ LINES = {
     "cli": 910,
     "contact": 2800,
     "examples": 10,
-    "friction": 13630,
+    "friction": 13660,
     "io": 4680,
     "live": 1190,
     "numerics": 2210,
@@ -31,7 +31,7 @@ LINES = {
     "sweeps": 1080,
     "traction": 2720,
 }
-FILES = 282
+FILES = 284
 
 
 def lines_of(folder):

@@ -35,7 +35,7 @@ from .quadrature import composite_rule
 from .result import ShearCertificate
 
 if TYPE_CHECKING:
-    from sie.friction.course import Part
+    from sie.friction.part import Part
     from sie.friction.strip_part import StripPart
 
 Array = NDArray[np.float64]

@@ -7,10 +7,8 @@ alone. An end that recedes no longer, and slip that turns, end a part.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from contextlib import suppress
-from dataclasses import dataclass, field
-from functools import cached_property
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,9 +22,10 @@ from .equations import Equations, Zones
 from .finite_step import balanced, newton, on_earlier_zones, solved, without_idle
 from .loading import LoadStep
 from .onset import End, Motion, Onset, onset, set_out
-from .rates import Rates
-from .state import Contact, Ends, State
+from .part import Part
+from .state import Contact, State
 from .strip_part import StripPart, strip_part
+from .zones_between import rates_of
 
 Array = NDArray[np.float64]
 
@@ -43,33 +42,6 @@ MOST_MOMENTS = 250  # of a step at which states are asked for: some 20 seconds
 LONGER = 5.0  # times the last part, where a longer one was not solved
 FINE = 1e-2  # of a part: so well it is known where it ends, if by no event
 STILL, STOPPED = 1e-13, 1e-8  # of the largest K
-
-
-@dataclass(frozen=True, eq=False)
-class Part:
-    """A finite part of a step: the states at its ends, and its shares of the step.
-
-    known   what ends of stick zones do next, by their places, where an event decided it
-    """
-
-    before: State
-    state: State
-    begun: float
-    until: float
-    known: Mapping[float, End] = field(default_factory=dict)
-    opened: tuple[float, float] | None = None
-    solved: bool = True
-
-    @property
-    def stuck(self) -> Ends:
-        """What stuck all along."""
-        return self.state.stick
-
-    @cached_property
-    def equations(self) -> Equations:
-        """Those that the state solves."""
-        signs = tuple(s for *_, s in self.state.slip)
-        return Equations(self.before, self.state.contact, Zones(self.state.stick, signs))
 
 
 def course(before: State, step: LoadStep) -> tuple[Part | StripPart, ...]:
@@ -317,14 +289,7 @@ def _verdict(state: State, step: LoadStep, share: float, guess: Zones | None) ->
 
 def _judged(found: Equations, step: LoadStep, share: float) -> Verdict:
     """The verdict on zones by the rates."""
-    rates = Rates.solved(
-        found.after.patches,
-        found.zones.stick,
-        found.slip,
-        step.rates,
-        friction=step.friction,
-        period=found.after.period,
-    )
+    rates = rates_of(found, step)
     margins = rates.signed_K.ravel() / max(np.abs(rates.K).max(), 1e-300)
     why = ""
     if not (margins >= STOPS).all():

@@ -11,10 +11,10 @@ from numpy.typing import NDArray
 from sie.errors import ContactError
 from sie.numerics.graded_panels import Rule
 
-from .course import Part
 from .equations import Equations
 from .gained_slip import GainedSlip
 from .loading import LoadStep
+from .part import Part
 from .state import SAME, intervals, united
 from .step_energy import Way
 from .strip_part import StripPart

@@ -11,19 +11,17 @@ back to what they were. On a strip part the zones are known at its moments, wher
 Curtis integrate 2 T τ dτ. In a finite part each moment is a finite step from the start of it. Time
 is cut where an end passes a mark of the shear, and on each piece t = t_a + (t_b - t_a) sin²(πv/2).
 
-A slip zone at an edge that retreats may vanish and begin anew in the other direction. Its length d
-is then like (t - t*)², and s sqrt(d) a smooth function of time which changes its sign at t*: by it
-zones are continued from known moments to others, and the time is cut at t*.
+Where a slip zone at an edge vanishes and begins anew in the other direction (`zones_between`), the
+time is cut too.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import lru_cache
 from itertools import pairwise
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.polynomial.chebyshev import chebvander
@@ -33,25 +31,20 @@ from sie.errors import ContactError
 from sie.numerics.graded_panels import OF_SERIES, Rule
 from sie.numerics.root_finding import false_position
 
-from .cells import zones_on_cells
-from .equations import Equations, Zones
-from .finite_step import newton
+from .equations import Equations
 from .gained_slip import GainedSlip
 from .loading import LoadStep
-from .onset import onset
+from .part import Part
 from .rates import Rates
-from .state import SAME, Contact, Ends, Slips, State, intervals
+from .state import SAME, Contact, State, intervals
 from .strip_part import StripPart
 from .strips import TAU
-
-if TYPE_CHECKING:
-    from .course import Part
+from .zones_between import ZonesBetween, rates_of
 
 Array = NDArray[np.float64]
 
 INTERVALS = 16  # of the rule of Clenshaw and Curtis on a piece of time
 LOOKED = np.array([1e-4, 0.01, 0.05, 0.15, 0.3, 0.5, 0.7, 0.9])  # shares where marks are passed
-GOES_ON = -1e-5  # of the largest K, and of the largest rate of slip
 CUT = 3e-5  # of a part: so well a time is known at which the integrand has a kink
 APART = 1e-4  # of a part: cuts that are closer are one
 CLOSE = 1e-2  # of a part: between times so close to each other values may be interpolated
@@ -176,41 +169,14 @@ def _of_finite_part(part: Part, step: LoadStep, whole: float) -> tuple[float, fl
 
 
 @dataclass(eq=False)
-class Way:
-    """The zones on the way through a finite step; `known` holds those found, by their share."""
+class Way(ZonesBetween):
+    """The integrand of the energy at shares of a finite step."""
 
-    before: State
-    step: LoadStep
-    span: tuple[float, float]
-    known: dict[float, Equations]
-    retreating: NDArray[np.int_]  # which edges retreat
-    start: Array  # the coordinates at the start; none if the number of zones changes
     values: dict[float, float] = field(default_factory=dict)
     allowed: float = 0.0  # error of a value
     missed: int = 0  # how often no zones were found
     # a share at which no zones were found, by the known ones that it lies between
     failed: dict[tuple[float, float], float] = field(default_factory=dict)
-
-    @classmethod
-    def back(cls, part: Part, step: LoadStep) -> Way:
-        """Through a part, from its end on."""
-        zones = onset(part.before, step.rates, step.friction)
-        start = zones.stick if len(zones.stick) == len(part.state.stick) else ()
-        old, new = part.before.contact.patches, part.state.contact.patches
-        inward = (
-            np.array([[1.0, -1.0]]) * (np.array(new) - np.array(old))
-            if len(old) == len(new)
-            else ()
-        )
-        retreating = np.flatnonzero(np.ravel(inward) > 0.0)
-        coordinates = smooth_coordinates(start, zones.slip, np.ravel(old)[retreating])
-        known = {part.until: part.equations}
-        return cls(part.before, step, (part.begun, part.until), known, retreating, coordinates)
-
-    def coordinates(self, now: Equations) -> Array:
-        """The smooth coordinates of zones on the way."""
-        edges = np.ravel(now.after.patches)[self.retreating]
-        return smooth_coordinates(now.zones.stick, now.slip, edges)
 
     def integral(self, a: float, b: float) -> tuple[float, float]:
         """∫ dt ∫ f dp/dt s Δg dx between two shares, and its error."""
@@ -258,104 +224,6 @@ class Way:
         last = self.value(b)[0]
         found = first + (last - first) * (share - a) / (b - a)
         return found, abs(last - first), (a, b)
-
-    def equations(self, share: float) -> Equations:
-        """The equations at a share, whose zones go on as they have to."""
-        if share not in self.known:
-            after = self.step.at(share)
-            found = (self._passed(after, guess) for guess in self._guesses(share))
-            one = next((now for now in found if now is not None), None)
-            if one is None:
-                raise ContactError(
-                    f"the energy lost is not known: no zones of slip are found at {share:.6g} of "
-                    "the step; the state at its end is not concerned"
-                )
-            self.known[share] = one
-        return self.known[share]
-
-    def _passed(self, after: Contact, guess: Zones) -> Equations | None:
-        """The equations from a guess, if they are solved and nothing in it sticks or turns."""
-        try:
-            found = newton(self.before, after, guess)
-            rates = rates_of(found, self.step)
-        except ContactError:
-            return None
-        margins = rates.signed_K[np.isfinite(rates.signed_K)]
-        stops = margins.min(initial=0.0) < GOES_ON * np.abs(rates.K).max()
-        return None if stops or rates.turning < GOES_ON else found
-
-    def _guesses(self, share: float) -> Iterator[Zones]:
-        """By a line or a parabola through known zones, the nearest ones, else by cells."""
-        nearest = sorted(self.known, key=lambda other: abs(other - share))
-        count = len(self.known[nearest[0]].zones.stick)
-        alike = [k for k in nearest if len(self.known[k].zones.stick) == count]
-        if self.start.size == 2 * count:
-            alike = sorted([*alike, self.span[0]], key=lambda other: abs(other - share))
-        for several in (3, 2, 1):
-            if len(alike) >= several and any(k in self.known for k in alike[:several]):
-                zones = self._continued(alike[:several], share)
-                if zones is not None:
-                    yield zones
-        beyond = [k for k in nearest if (k < share) != (nearest[0] < share)]
-        yield from (self.known[k].zones for k in beyond[:1])
-        try:
-            yield from zones_on_cells(self.before, self.step.at(share))
-        except ContactError:
-            return
-
-    def _continued(self, shares: list[float], share: float) -> Zones | None:
-        """The zones by a polynomial through those at some shares."""
-        known = [self.coordinates(self.known[k]) if k in self.known else self.start for k in shares]
-        found = np.zeros(len(known[0]))
-        for k, value in zip(shares, known, strict=True):
-            others = [other for other in shares if other != k]
-            found += value * np.prod([(share - other) / (k - other) for other in others])
-        like = next(self.known[k] for k in shares if k in self.known)
-        return _zones_at(found, like, self.step.at(share), self.retreating)
-
-
-def rates_of(now: Equations, step: LoadStep) -> Rates:
-    """The rates of solved equations at the rates of loads of a step."""
-    return Rates.solved(
-        now.after.patches,
-        now.zones.stick,
-        now.slip,
-        step.rates,
-        friction=step.friction,
-        period=now.after.period,
-    )
-
-
-def smooth_coordinates(stick: Ends, slip: Slips, edges: Array) -> Array:
-    """S sqrt(d) for ends beside a slip zone of length d at one of these edges, places of others."""
-    left, right = ({zone[k]: zone for zone in slip} for k in (0, 1))
-    ends = np.array(stick).ravel()
-    found = ends.copy()
-    for j, e in enumerate(ends):
-        lo, hi, s = (left if j % 2 else right).get(e, (e, e, 0.0))
-        if (hi if j % 2 else lo) in edges:
-            found[j] = s * np.sqrt(hi - lo)
-    return found
-
-
-def _zones_at(
-    coordinates: Array, like: Equations, contact: Contact, retreating: NDArray[np.int_]
-) -> Zones | None:
-    """The zones of coordinates, beside the same patches; None where they are none."""
-    ends, signs, patches = coordinates.copy(), list(like.zones.signs), like.after.patches
-    for j, e in enumerate(like.stick.ravel()):
-        zones = [k for k, zone in enumerate(like.slip) if zone[j % 2 == 0] == e]
-        outer = like.slip[zones[0]][j % 2]
-        for k in retreating:
-            if outer == np.ravel(patches)[k]:
-                inward = -1.0 if j % 2 else 1.0
-                ends[j] = np.ravel(contact.patches)[k] + inward * coordinates[j] ** 2
-                signs[zones[0]] = 1.0 if coordinates[j] > 0.0 else -1.0
-    edges = np.array(contact.patches)
-    inside = ((edges[:, :1] < ends) & (ends < edges[:, 1:])).any(axis=0).all()
-    if not inside or not (np.diff(ends) > 0.0).all():
-        return None
-    return Zones(tuple((float(a), float(b)) for a, b in ends.reshape(-1, 2)), tuple(signs))
 
 
 def _cuts(way: Way, shares: list[float]) -> list[float]:

@@ -9,8 +9,8 @@ from sie.friction.loads import Loads
 from sie.friction.memory import LoadMemory, SlipEvent
 
 if TYPE_CHECKING:
-    from sie.friction.course import Part
     from sie.friction.loading import LoadStep
+    from sie.friction.part import Part
     from sie.friction.state import State
     from sie.friction.strip_part import StripPart
 
