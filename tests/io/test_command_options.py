@@ -146,3 +146,9 @@ def test_other_shells_have_a_script_too(shell, capsys):
     pytest.importorskip("shtab")
     assert main(["completion", shell]) == 0
     assert "sie" in capsys.readouterr().out
+
+
+def test_completion_for_an_unknown_shell_is_refused_by_its_name(capsys):
+    pytest.importorskip("shtab", reason="completion needs the extra `cli`")
+    assert main(["completion", "bahs"]) == 2
+    assert "bahs" in capsys.readouterr().err

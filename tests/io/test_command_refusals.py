@@ -44,7 +44,6 @@ BAD = {
     "an output for a scene": ("solve --json out.json --want edges", "give the scene file first"),
     "a file too many": ("compare scene.toml fem.csv third.csv", '"third.csv" is not understood'),
     "unknown level of the log": ("solve scene.toml --log all", "all"),
-    "unknown shell": ("completion bahs", "bahs"),
     "unknown suffix of a field": ("solve scene.toml --field f.vtu", "use .csv, .npz, .vti"),
     "a grid of one column": ("solve scene.toml --field f.npz --grid 1x5", "1x5 is not a grid"),
     "a grid without a field": ("solve scene.toml --grid 5x5", "give --field FILE too"),
