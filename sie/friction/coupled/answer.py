@@ -143,23 +143,17 @@ class LoadedContact(View):
         """
         from scipy.special import digamma  # noqa: PLC0415 -- heavy, and seldom asked for
 
-        chain = [self.loaded]
-        while chain[-1].before is not None:
-            chain.append(chain[-1].before)
-        sticks = np.array([state.zones.stick[0] for state in chain])
-        lo, hi = float(sticks[:, 0].max()), float(sticks[:, 1].min())
-        if lo >= hi:
-            raise ContactError(
-                "no place has stuck all along this path, and the shift of the indenter is told "
-                "from one that has; ask for the slip at a place, or end the path before"
-            )
-        first, start = chain[-1], 0.5 * (lo + hi)
+        first = self.loaded
+        while first.before is not None:
+            first = first.before
         ends = first.zones.ends
         middle, b = 0.5 * float(ends[0] + ends[-1]), 0.5 * float(np.ptp(ends))
+        edge = max(float(ends[-1]), float(self.loaded.zones.ends[-1]))  # beyond both contacts
         eta = math.atanh(self.loaded.question.beta) / math.pi
         bonded = math.log(0.5 * b) + float((digamma(0.5 + 1j * eta) - digamma(0.5)).real)
-        moved = _to_far(self.loaded, start) - _to_far(first, start)
-        moved += self.loaded.strain * (start - middle)  # with the body under bulk stress
+        moved = _to_far(self.loaded, edge) - _to_far(first, edge)
+        moved += float(self._gained(np.array([edge]))[0])
+        moved += self.loaded.strain * (edge - middle)  # with the body under bulk stress
         return self.sign * (moved + self.loaded.Q / math.pi * bonded) / self.half_modulus
 
 
@@ -198,11 +192,10 @@ def _strain(state: Loaded, x: Array) -> Array:
 
 
 def _to_far(state: Loaded, start: float) -> float:
-    """∫γ dx from a place to a far X, less Q/π ln X."""
-    at, (p, q, _) = state.fields.whole
-    log = np.log(np.maximum(np.abs(at.x - start), LEAST)) / math.pi
-    beta = state.question.beta
-    return float(at.weight @ (beta * (at.x > start) * p - q * log))
+    """∫γ dx from a place beyond the contact to a far X, less Q/π ln X."""
+    at, (_, q, _) = state.fields.whole
+    log = np.log(np.maximum(start - at.x, LEAST)) / math.pi
+    return -float(at.weight @ (q * log))
 
 
 def pressed_contact(pressed: Pressed) -> LoadedContact:
