@@ -73,6 +73,16 @@ class Sketch:
         if hatch:
             self.line(x[[0, -1]], [top, top])
 
+    def zones(self, c, slip_at):
+        """Stick in (-c, c) and slip beside it on a contact (-1, 1), with their widths."""
+        self.line([-c, c], [0, 0], self.blue, lw=4)
+        for sign in (-1, 1):
+            self.line([sign, c * sign], [0, 0], self.red, lw=4)
+            self.text(slip_at * sign, 0.2, "slip", self.red)
+        self.text(0.0, 0.2, "stick", self.blue)
+        self.dimension(-c, c, 0.45, "$2c$", self.blue)
+        self.dimension(-1, 1, 0.72, "$2b$")
+
     def pressure(self, x, p, scale=0.5, count=13, color=None):
         """Arrows on the surface from a curve of the pressure above it."""
         color = color or self.blue
@@ -192,13 +202,7 @@ def cattaneo(theme):
     s.text(0.0, -0.22, "$q$", s.red)
     s.arrow((-2.1, -0.6), (-1.3, -0.6), s.red, text="$Q$", at=(-2.2, -0.78))
     s.arrow((0, -1.5), (0, -1.05), text="$P$", at=(0.17, -1.4))
-    s.line([-0.6, 0.6], [0, 0], s.blue, lw=4)
-    for sign in (-1, 1):
-        s.line([sign, 0.6 * sign], [0, 0], s.red, lw=4)
-        s.text(0.8 * sign, 0.2, "slip", s.red)
-    s.text(0.0, 0.2, "stick", s.blue)
-    s.dimension(-0.6, 0.6, 0.5, "$2c$", s.blue)
-    s.dimension(-1, 1, 0.75, "$2b$")
+    s.zones(0.6, 0.8)
     return s.figure
 
 
@@ -208,14 +212,9 @@ def spence(theme):
     s.indenter(lambda x: 0.25 * np.maximum(np.abs(x) - 1.0, 0) ** 2 + 0.01, top=-0.95)
     s.text(1.2, -0.65, "stiff")
     s.arrow((0, -1.4), (0, -0.95), text="$P$", at=(0.17, -1.28))
-    s.line([-0.55, 0.55], [0, 0], s.blue, lw=4)
+    s.zones(0.55, 1.3)
     for sign in (-1, 1):
-        s.line([sign, 0.55 * sign], [0, 0], s.red, lw=4)
-        s.arrow((1.0 * sign, 0.22), (0.6 * sign, 0.22), s.red)
-        s.text(1.3 * sign, 0.22, "slip", s.red)
-    s.text(0, 0.22, "stick", s.blue)
-    s.dimension(-0.55, 0.55, 0.45, "$2c$", s.blue)
-    s.dimension(-1, 1, 0.7, "$2b$")
+        s.arrow((1.0 * sign, 0.2), (0.6 * sign, 0.2), s.red)
     return s.figure
 
 

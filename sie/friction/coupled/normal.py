@@ -21,7 +21,7 @@ from sie.profiles.slope import Slope
 from sie.progress_bar import reported
 
 from .axis import LOOKS, symmetry_axis
-from .flat import flat_punch
+from .flat import FlatPunch, flat_punch
 from .frozen import Frozen
 from .growth import Panel
 from .march import NEGLECT, March, Touch, first_touch, refuse_turning
@@ -48,18 +48,7 @@ def coupled_contact(
     `frictionless` solves the normal problem of a scene; its contact bounds the search.
     """
     flat, half_modulus = flat_punch(abs(scene.beta), scene.friction), 0.5 * scene.Estar
-    steep = flat.beta * scene.friction
-    if steep > STEEPEST and not flat.bonded:
-        raise ContactError(
-            f"dissimilar bodies with β f = {steep:.3g}, more than {STEEPEST:g}, are not solved: "
-            f"give friction = {STEEPEST / flat.beta:.3g} or less"
-        )
-    if flat.c < NARROWEST_STICK:
-        raise ContactError(
-            f"dissimilar bodies (β = {scene.beta:.3g}) with friction = {scene.friction:g} stick "
-            f"on a part {flat.c:.1g} of the contact, less than is solved: raise friction, or "
-            f"{NEGLECT}"
-        )
+    _refuse_friction(flat, scene)
     sign = math.copysign(1.0, scene.beta)
     bound = frictionless(_without_friction(scene))
     contact, axis = bound.edges.contact, symmetry_axis(scene, bound.edges)
@@ -89,6 +78,28 @@ def coupled_contact(
         math.nan if axis is None else axis,
         s,
     )
+    _refuse_unresolved(state, P)
+    return state.edges, state
+
+
+def _refuse_friction(flat: FlatPunch, scene: Scene) -> None:
+    """Raises ContactError where β f or the stick zone of the flat punch is out of reach."""
+    steep = flat.beta * scene.friction
+    if steep > STEEPEST and not flat.bonded:
+        raise ContactError(
+            f"dissimilar bodies with β f = {steep:.3g}, more than {STEEPEST:g}, are not solved: "
+            f"give friction = {STEEPEST / flat.beta:.3g} or less"
+        )
+    if flat.c < NARROWEST_STICK:
+        raise ContactError(
+            f"dissimilar bodies (β = {scene.beta:.3g}) with friction = {scene.friction:g} stick "
+            f"on a part {flat.c:.1g} of the contact, less than is solved: raise friction, or "
+            f"{NEGLECT}"
+        )
+
+
+def _refuse_unresolved(state: Grown, P: float) -> None:
+    """Raises ContactError where the conditions at the ends of zones are not met well enough."""
     # but for Q, which (1) tells with the digits that 1/β leaves
     missed = float(np.abs(state.loaded.state.missed[:-1]).max())
     if not missed <= RESOLVED:
@@ -96,7 +107,6 @@ def coupled_contact(
             f"the contact of dissimilar bodies under P = {P:.6g} is known to {missed:.1g} of P "
             f"alone, as where it hardly spreads beyond a flat base: raise the load, or {NEGLECT}"
         )
-    return state.edges, state
 
 
 def _flat(slope: Slope, contact: Interval) -> bool:
