@@ -13,7 +13,7 @@ import numpy as np
 import sie
 
 X, Y = np.meshgrid(np.linspace(-2.0, 2.0, 161), np.linspace(0.0, 2.0, 81))
-fig, axes = plt.subplots(3, 2, sharex=True, sharey=True, layout="constrained", figsize=(7.0, 6.5))
+fig, axes = plt.subplots(3, 2, sharex=True, sharey=True, layout="compressed", figsize=(7.0, 5.2))
 for ratio, row in zip((0.3, 0.55, 0.8), axes):
     pressed = sie.solve(
         sie.Scene(profile=sie.RoundedFlat(ratio, 1.0), modulus=1.0, poisson=0.3, half_width=1.0)

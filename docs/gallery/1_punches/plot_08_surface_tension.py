@@ -11,7 +11,7 @@ import numpy as np
 
 from sie import charts
 
-c = np.linspace(0.0, 1.0, 51)
+c = 1.0 - np.linspace(1.0, 0.0, 101) ** 2  # closer together where the curves are steep
 fig, ax = plt.subplots(layout="constrained")
 for ratio in (0.0, 0.2, 0.4, 0.6, 0.8):
     ax.plot(c, charts.surface_tension(ratio, c), label=f"{ratio:g}")

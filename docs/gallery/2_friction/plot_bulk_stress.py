@@ -30,5 +30,5 @@ for k, sigma in enumerate((0.0, 60.0, 120.0, 240.0)):
     for zone in loaded.stick:
         ax.plot(zone, [-130 - 6 * k] * 2, color=f"C{k}", linewidth=3)
 ax.set(xlabel="x, mm", ylabel="shear traction, MPa (bars: stick zones)")
-ax.legend(fontsize=8)
+fig.legend(loc="outside right upper")
 plt.show()

@@ -11,6 +11,7 @@ f = 0.3.
 
 import matplotlib.pyplot as plt
 import numpy as np
+from scipy.special import logit
 
 import sie
 
@@ -29,7 +30,7 @@ def stick_ratio(beta, friction):
 
 
 betas, frictions = np.linspace(0.02, 0.5, 17), np.linspace(0.05, 1.0, 17)
-ratios = [[stick_ratio(b, f) for b in betas.tolist()] for f in frictions.tolist()]
+ratios = np.array([[stick_ratio(b, f) for b in betas.tolist()] for f in frictions.tolist()])
 
 # %%
 # The chart
@@ -46,9 +47,10 @@ punch = sie.Scene(
     friction=0.3,
 )
 fig, ax = plt.subplots(layout="constrained")
-levels = [0.01, 0.1, 0.3, 0.5, 0.7, 0.8, 0.9, 0.95, 0.98, 0.99]
-lines = ax.contour(betas, frictions, ratios, levels=levels, cmap="viridis_r")
-ax.clabel(lines, fmt="%g", fontsize=8)
+shares = [0.01, 0.1, 0.3, 0.5, 0.7, 0.8, 0.9, 0.95, 0.98, 0.99]
+levels = logit(shares)  # which is smoother than c/b: the lines are too
+lines = ax.contour(betas, frictions, logit(ratios), levels=levels, cmap="viridis_r")
+ax.clabel(lines, fmt=dict(zip(levels, map(str, shares))), fontsize=8)
 point = abs(punch.beta), punch.friction
 ax.plot(*point, "ko")
 ax.annotate("steel on titanium", point, (0.03, 0.6), arrowprops={"arrowstyle": "-"})

@@ -36,6 +36,6 @@ for ax, k, name in zip(axes, (1, 2), ("pushed to the right", "and back to the le
 axes[0].legend(fontsize=8, loc="lower left")
 lost = [1e3 * (path[3].energy_lost - path[1].energy_lost) for path in (real, alike)]
 fig.suptitle(
-    "energy of a cycle: {:.3f} µJ per mm, with β = 0 {:.3f} µJ per mm".format(*lost), fontsize=9
+    "energy of a cycle: {:.3f} µJ per mm; with β = 0: {:.3f} µJ per mm".format(*lost), fontsize=9
 )
 plt.show()

@@ -2,8 +2,8 @@
 Asperities that merge
 =====================
 
-Three asperities on one holder, of different heights. While the load grows patches appear, widen and
-merge; the pressure of a valley that has just closed starts from zero.
+Asperities of different heights on one holder. While the load grows patches appear, widen and merge;
+the pressure of a valley that has just closed starts from zero.
 """
 
 import matplotlib.pyplot as plt
@@ -22,7 +22,7 @@ answers = [
 for k in (4, 12, 18, 23):
     axes[0].plot(x, answers[k].pressure(x), label=f"P = {loads[k]:.2f}")
 axes[0].set(xlabel="x", ylabel="pressure p/E*")
-axes[0].legend(fontsize=8)
+fig.legend(loc="outside right upper")
 for P, answer in zip(loads, answers):
     for patch in answer.patches:
         axes[1].plot(patch, [P, P], color="C0", linewidth=1.5)

@@ -19,7 +19,7 @@ wave = sie.FromFunction(
     lambda x: slope * np.sin(2 * np.pi * x / wavelength), breaks=(), domain=(-0.5, 0.5)
 )
 flattens = np.pi * amplitude / wavelength  # mean pressure of full contact over E*
-fig, (left, right) = plt.subplots(1, 2, layout="constrained", figsize=(8.0, 3.6))
+fig, (left, right) = plt.subplots(1, 2, layout="constrained", figsize=(9.0, 3.6))
 x = np.linspace(-1.0, 1.0, 1001)
 for share in (0.02, 0.2, 0.5, 0.8, 0.95, 1.0, 1.2):
     contact = sie.solve(
@@ -33,7 +33,7 @@ for share in (0.02, 0.2, 0.5, 0.8, 0.95, 1.0, 1.2):
     left.plot(x, contact.pressure(x) / flattens, label=f"{share:g}")
     right.plot(share, contact.contact_length / wavelength, "ko", markersize=4)
 left.set(xlabel="x / wavelength", ylabel="p / p̄ of full contact")
-left.legend(title="p̄ / p̄ of full contact", fontsize=7, title_fontsize=7)
+fig.legend(title="p̄ / p̄ of full contact", loc="outside left center")
 shares = np.linspace(0.0, 1.0, 201)[1:-1]
 half = wavy.half_width(
     mean_pressure=shares * flattens, amplitude=amplitude, wavelength=wavelength, modulus=1.0
