@@ -16,11 +16,10 @@ from sie.errors import ContactError
 from sie.io.scene_file import Units
 
 from . import teaching
-from .controls import ROUNDED, SAVED, SHAPES
+from .controls import NODES, ROUNDED, SAVED, SHAPES
 from .frame import Array, frame_of, inside, mises, surface, tops, words
 from .setting import Setting, sliders, solution_of
 
-NODES = (4, 8, 16, 32, 64, 128)
 ALL_DIGITS = 1e-12  # of the textbook's error: what is left is rounding
 GROUND = 81  # points of the surface
 LEVELS = 1000  # of heights, over that of the frame
@@ -50,17 +49,14 @@ def answer(setting: Setting, part: str, units: Units | None = None) -> Answer:
 
 
 def _in_the_sliders_words(setting: Setting) -> str:
-    """Which slider alone, set to 0, would give an answer."""
+    """A slider that alone, set to 0, gives an answer: the first, as each takes a solution."""
     labels = {control.name: control.label for control in sliders(setting.file)}
-    zeros: dict[str, dict[str, Any]] = {
-        name: {name: 0.0} for name in ("bulk", "beta", "tilt", "share") if getattr(setting, name)
-    }
-    ways = [
-        f"“{labels[name]}” to 0"
-        for name, zero in zeros.items()
-        if _answered(replace(setting, **zero))
-    ]
-    remedy = f"Set {' or '.join(ways)}." if ways else "Move the sliders nearer to their start."
+    remedy = "Move the sliders nearer to their start."
+    for name in ("bulk", "tilt", "beta", "share"):
+        zero: dict[str, Any] = {name: 0.0}
+        if getattr(setting, name) and _answered(replace(setting, **zero)):
+            remedy = f"Set “{labels[name]}” to 0."
+            break
     return f"These settings together have no answer. {remedy}"
 
 

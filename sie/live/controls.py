@@ -20,6 +20,7 @@ SHAPES = {
 }
 ACROSS, DOWN = 81, 51  # points of the picture of the stress, which the page refines
 DEPTH = 0.62  # of that picture over its width
+NODES = (4, 8, 16, 32, 64, 128)  # of the textbook's method
 
 
 @dataclass(frozen=True)

@@ -9,6 +9,8 @@ from typing import Any
 
 import numpy as np
 
+from .controls import NODES
+
 TOOLS = "pan,wheel_zoom,box_zoom,reset,save"
 PRESSURE, SHEAR, GHOST, YIELD = "#4477aa", "#ee6677", "#999999", "#ff2255"
 HEIGHT = 300
@@ -141,6 +143,8 @@ def _errors() -> Any:
         "n", "error of p over its peak", x_axis_type="log", y_axis_type="log", x_range=(3, 160),
         y_range=(1e-17, 1),
     )  # fmt: skip
+    drawn.xaxis.ticker = list(NODES)
+    drawn.yaxis.ticker.num_minor_ticks = 0
     source = _source("errors", "n", "error", "certificate")
     drawn.line("n", "error", source=source, color=PRESSURE, line_width=2)
     drawn.scatter("n", "error", source=source, color=PRESSURE, size=7)
