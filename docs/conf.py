@@ -48,6 +48,8 @@ nb_execution_mode = "force"
 nb_execution_raise_on_error = True
 nb_execution_in_temp = True
 nb_execution_timeout = 120
+nb_merge_streams = True
+mathjax3_config = {"chtml": {"scale": 0.9}}
 
 autosummary_generate = True
 numpydoc_show_class_members = False
