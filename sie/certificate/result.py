@@ -22,7 +22,8 @@ BESIDES = (
     "(x/r)²) for p, x from the centre. Not counted: errors below 1e-15 of the peak, what one ulp "
     "of x changes, and what a function does on less than 5e-4 of the contact."
 )
-NEARER = (1.0, 1e2, 1e4)  # r over the distances from an edge at which the promise is spelled out
+# r over the distances from an edge at which the promise is given in numbers
+NEARER = {1.0: "r, half of the width", 1e2: "r/100", 1e4: "r/10000"}
 WIDE = 79  # columns of a terminal
 LEAST = 8.0 * EPS  # rounding of single pressures, which the integrals average out ...
 # what one ulp of x does may add up to this multiple in a principal value next to a corner
@@ -136,8 +137,8 @@ class Certificate:
             else f"NOT certified to {self.tol:.0e}"
         )
         meaning: list[tuple[str, str]] = [
-            (f"  at d = r{f'/{nearer:g}' if nearer > 1.0 else ''}", f"{self.wrong_by(nearer):.1e}")
-            for nearer in NEARER
+            (f"  at d = {place}", f"{self.wrong_by(nearer):.1e}")
+            for nearer, place in NEARER.items()
         ]
         rows: list[tuple[str, str]] = [
             ("error: estimated relative error of the pressure", f"{self.error:.1e}"),
