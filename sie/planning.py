@@ -193,7 +193,7 @@ def _full_stick(scene: Scene) -> tuple[Step, ...]:
 
 
 def _pressed(scene: Scene) -> tuple[Step, ...]:
-    how = f"β = {scene.beta:.4g}: p and q are one problem; the stick zone is that of a flat punch"
+    how = f"{_one_problem(scene)}; the stick zone is that of a flat punch"
     growth = "dP/ds in closed form or by a Volterra equation; the edges from its integral"
     if scene.profile.axis is None or scene.tilt:
         growth = (
@@ -203,8 +203,14 @@ def _pressed(scene: Scene) -> tuple[Step, ...]:
     return Step("coupling", True, how, "coupled"), Step("edges", True, growth, "normal")
 
 
+def _one_problem(scene: Scene) -> str:
+    if scene.neglects_beta:
+        return "β q is left out: Goodman's approximation"
+    return f"β = {scene.beta:.4g}: p and q are one problem"
+
+
 def _pressed_then_sheared(scene: Scene, names: tuple[str, ...]) -> tuple[Step, ...]:
-    how = f"β = {scene.beta:.4g}: p and q are one problem; first under P alone"
+    how = f"{_one_problem(scene)}; first under P alone"
     return (
         Step("coupling", True, how, "pressed"),
         Step("slip gradient", True, "that of P alone, kept in stick", "locked_in"),
@@ -347,9 +353,7 @@ def _slip(scene: Scene, asked: bool, economy: Collection[str]) -> Step:
     for holds, why in skipped:
         if holds:
             return Step("slip", False, why, "tangential")
-    if scene.goodman:
-        how = "flats superposed while the load grew; Q changes what the shear lacks of f p"
-    elif scene.tau == 0.0:
+    if scene.tau == 0.0:
         how = "zones of stick and slip for Q at constant P, slip in one direction"
         how += " on all patches" if asks_for_patches(scene.profile) else ""
     else:
@@ -362,7 +366,6 @@ def _corrective(scene: Scene, economy: Collection[str]) -> Step:
     """A decision inside the slip stage."""
     skipped = (
         (not sheared(scene, economy), "there is no shear traction"),
-        (scene.goodman, "the shear follows from how the contact grew"),
         (
             scene.slides and "sliding" in economy,
             "|Q| = f P, full sliding: q is f times the pressure, no second solve",

@@ -40,7 +40,6 @@ if TYPE_CHECKING:  # what a stage needs is imported when it is computed
     from .friction.coupled.pressed import Pressed
     from .friction.coupled.traction import OnHalves
     from .friction.full_stick import Component
-    from .friction.goodman.slip import GoodmanSlip
     from .friction.slip_state import Slip, Step
     from .patches.answer import SeveralPatches
     from .patches.friction import PatchesUnder
@@ -82,7 +81,7 @@ class Solution(Frictionless, StressAnswers):
     def __getstate__(self) -> dict[str, Any]:
         """The stages; the question alone where they hold functions, which no pickle takes."""
         scene, state = self.scene, vars(self)
-        computed_again = scene.coupled or scene.goodman or math.isfinite(scene.profile.period)
+        computed_again = scene.coupled or math.isfinite(scene.profile.period)
         if type(self) is not Solution or not computed_again:
             return state
         return {name: state[name] for name in ("scene", "tol", "economy")}
@@ -201,21 +200,6 @@ class Solution(Frictionless, StressAnswers):
     @cached_property
     def tangential(self) -> Slip:
         """Zones of stick and slip, and the shear."""
-        if self.scene.goodman:
-            if self._several is not None:
-                number = len(self.patches)
-                where = f"in {number} patches" if number > 1 else "in a patch merged from several"
-                if self.scene.profile.period < float("inf"):
-                    where = f"that repeats every {self.scene.profile.period:.6g}"
-                raise ContactError(
-                    f"contact {where} with coupling = 'goodman': the shear in it follows from how "
-                    "one patch grew; give a convex profile, or dundurs = 0 to neglect β"
-                )
-            from .friction.contact_growth import ContactGrowth
-            from .friction.goodman.slip import goodman_slip
-
-            growth = ContactGrowth(self.scene, self.as_one_patch, self.economy)
-            return goodman_slip(self.load_step(self.scene.tangential_load, 0.0), growth.search)
         return self.first_loading(self._loads, self.patches_under)
 
     def first_loading(
@@ -349,10 +333,6 @@ class Solution(Frictionless, StressAnswers):
         """The certificate of the shear, on several patches with those of its pressures."""
         if not self.sheared:
             return None
-        if self.scene.goodman:
-            from .certificate.coupled_check import shear_certificate as of_memory
-
-            return of_memory(cast("GoodmanSlip", self.tangential), self.scene, self.tol)
         from .certificate.shear_check import shear_certificate
 
         p: Density = self.pressure
@@ -583,8 +563,8 @@ class Solution(Frictionless, StressAnswers):
     def coupling_notes(self) -> tuple[str, ...]:
         """A sentence on what is neglected where β, or β q, is left out, or ()."""
         if self.scene.neglects_beta:
+            from .friction.coupled.departure import departure
             from .friction.coupled.normal import coupled_contact
-            from .friction.goodman.departure import departure
 
             return (departure(self.scene, self.tol, coupled_contact),)
         beta = self.scene.neglected_beta

@@ -8,7 +8,7 @@ gradient stays. The integrals are Gauss rules on panels that shrink towards ever
 traction is not smooth, with the value at x subtracted.
 
 A state has the values of p and q (`InContact`) and their potentials, its zones, and the earlier
-state. Of Goodman's approximation, whose p is that without friction, (12) alone is measured here.
+state. In Goodman's approximation (1) is measured without β q.
 In full stick, of a flat punch, γ is 0 on the whole contact; tension is allowed there.
 """
 
@@ -97,7 +97,8 @@ def coupled_certificate(state: _Pressed, scene: Scene, tol: float) -> Certificat
     H = scene.profile.slope(x)
     of_x = float(np.abs(scene.profile.slope(np.nextafter(x, np.inf)) - H).max())
     (Hp, _), rounding = nodes.principal_values(at), nodes.rounding(at)[0]
-    peak, missed = float(p.max()), float(np.abs(Hp - scene.beta * q - G * H).max())
+    beta = 0.0 if scene.neglects_beta else scene.beta
+    peak, missed = float(p.max()), float(np.abs(Hp - beta * q - G * H).max())
     force, moment = (nodes.rows[0] @ (nodes.weight * arm) for arm in (1.0, nodes.x - v.contact.m))
     away = r * np.array(OUTSIDE)
     gaps = state.gap(np.append(middle - away, middle + away), scene.profile)
@@ -163,7 +164,8 @@ def _change_of_gradient(state: _Sheared, nodes: Nodes, beta: float) -> tuple[flo
     same = earlier.at(at.x + (origin - before.values.origin))
     missed = float(np.abs(changed - earlier.gradient(same, beta)).max())
     rounding += float(earlier.rounding(same)[1])
-    if before.values.contact == state.values.contact:
+    one, other = before.values.contact, state.values.contact
+    if np.abs(np.subtract(one[:2], other[:2])).max() <= SAME * other.r:
         others = _change_of_gradient(before, earlier, beta)
         return max(missed, others[0]), max(rounding, others[1])
     return missed, rounding

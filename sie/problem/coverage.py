@@ -37,11 +37,6 @@ def _refuse_dissimilar(scene: Scene) -> None:
     pair = f"dissimilar bodies (β = {scene.beta:.4g}) with friction = {scene.friction:g}"
     loads = {"tangential_load": scene.tangential_load, "bulk_stress": scene.bulk_stress}
     given = [f"{name} = {value:g}" for name, value in loads.items() if value]
-    if scene.bulk_stress and not scene.coupled:
-        raise ContactError(
-            f"{pair}: {given[-1]} is not solved with coupling = 'goodman'; "
-            "set bulk_stress = 0, or give coupling = 'full'"
-        )
     if scene.moment:
         raise held_moment(scene)
     if given and scene.half_width is not None:

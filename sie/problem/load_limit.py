@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from decimal import ROUND_CEILING, ROUND_FLOOR, Context
 
-from sie.errors import ContactError, LoadError
+from sie.errors import LoadError
 from sie.numerics.interval import two_product
 
 
@@ -40,14 +40,3 @@ def remaining(friction: float, normal_load: float, Q: float) -> float:
     """P - |Q|/f, from (f P - |Q|)/f without cancellation."""
     product, rest = two_product(friction, normal_load)
     return ((product - abs(Q)) + rest) / friction
-
-
-def refuse_corner(sharp: tuple[bool, bool], Q: float) -> None:
-    """ContactError of Goodman's approximation at a sharp edge: it sticks until all slides."""
-    if any(sharp):
-        raise ContactError(
-            f"tangential_load = {Q:g} on a contact that ends at a corner: the corner behind "
-            "sticks until all slides, which Goodman's approximation does not solve; set "
-            "tangential_load = 0, round the corner (sie.RoundedFlat), or give dundurs = 0 to "
-            "neglect β"
-        )

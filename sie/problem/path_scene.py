@@ -15,7 +15,7 @@ def pressed_first(scene: Scene, path: Path) -> bool:
     """Whether P of dissimilar bodies grows alone, and is constant while Q and σ change."""
     if not (scene.beta and scene.friction) or scene.bonded or scene.sliding:
         return False
-    if scene.coupling != "full" or any(path.turns):
+    if any(path.turns):
         return False
     pairs = pairwise([(P, bool(Q or sigma)) for P, Q, sigma in path.points])
     alone = path.points[0][0] != 0.0 or not any(path.points[0][1:])

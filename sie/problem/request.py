@@ -68,6 +68,5 @@ def sheared(scene: Scene, economy: Collection[str]) -> bool:
         scene.tangential_load != 0.0
         or scene.sliding != 0
         or scene.tau != 0.0
-        or scene.goodman
         or "shear" not in economy
     )

@@ -61,7 +61,7 @@ class Scene:
         Poisson's ratio of the body beside `modulus`, for σ_zz.
     coupling : {"full", "goodman"}, optional
         "goodman" leaves β q out of equation (1), so that the pressure is that without friction: an
-        approximation for dissimilar bodies, in contacts that are symmetric.
+        approximation for dissimilar bodies.
 
     Raises
     ------
@@ -335,13 +335,8 @@ class Scene:
 
     @property
     def coupled(self) -> bool:
-        """Whether pressure and shear are one problem: dissimilar bodies in partial slip."""
-        return self._slips_in_part and self.coupling == "full"
-
-    @property
-    def goodman(self) -> bool:
-        """Whether β q is neglected in the partial slip of dissimilar bodies."""
-        return self._slips_in_part and self.coupling == "goodman"
+        """Whether slip is that of dissimilar bodies in part, where P alone makes a shear."""
+        return bool(self.beta and self.friction) and not (self.slides or self.bonded)
 
     @property
     def neglects_beta(self) -> bool:
@@ -353,10 +348,6 @@ class Scene:
         """β of the bodies where dundurs = 0 leaves it out of a contact with friction, else 0."""
         given = self.body is not None and self.dundurs is not None and self.friction != 0.0
         return dundurs(*self._pair) if given else 0.0
-
-    @property
-    def _slips_in_part(self) -> bool:
-        return bool(self.beta and self.friction) and not (self.slides or self.bonded)
 
     @property
     def epsilon(self) -> float:

@@ -156,13 +156,6 @@ def test_dissimilar_bodies_follow_each_remedy(remedy):
     solved(replace(asked, **changes))
 
 
-def test_a_bulk_stress_with_goodmans_coupling_follows_its_remedy():
-    asked = scene(body=ALLOY, indenter=STEEL, friction=0.4, bulk_stress=0.1, coupling="goodman")
-    with pytest.raises(sie.ContactError, match="coupling = 'full'"):
-        sie.solve(asked)
-    solved(replace(asked, bulk_stress=0.0))
-
-
 @pytest.mark.parametrize("Q", [0.5, 0.777, 0.31])
 def test_a_load_raised_to_what_the_refusal_prints_carries_the_tangential_load(Q):
     asked = scene(PARABOLA, friction=0.3, tangential_load=Q)

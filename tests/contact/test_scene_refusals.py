@@ -309,7 +309,7 @@ def test_states_that_are_not_covered_are_refused_before_work():
     with pytest.raises(sie.ContactError, match=r"dissimilar"):
         sie.solve(sie.Scene(
             profile=sie.Parabola(1.0), modulus=1.0, dundurs=0.2, normal_load=1.0, friction=0.5,
-            bulk_stress=0.25, coupling="goodman",
+            moment=0.25,
         ))  # fmt: skip
 
 

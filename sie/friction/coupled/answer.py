@@ -149,7 +149,8 @@ class LoadedContact(View):
         ends = first.zones.ends
         middle, b = 0.5 * float(ends[0] + ends[-1]), 0.5 * float(np.ptp(ends))
         edge = max(float(ends[-1]), float(self.loaded.zones.ends[-1]))  # beyond both contacts
-        eta = math.atanh(self.loaded.question.beta) / math.pi
+        question = self.loaded.question
+        eta = 0.0 if question.approximate else math.atanh(question.beta) / math.pi
         bonded = math.log(0.5 * b) + float((digamma(0.5 + 1j * eta) - digamma(0.5)).real)
         moved = _to_far(self.loaded, edge) - _to_far(first, edge)
         moved += float(self._gained(np.array([edge]))[0])

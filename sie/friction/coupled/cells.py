@@ -49,11 +49,13 @@ def cuts_between(x1: float, x2: float) -> Array:
 def zones_on_cells(cells: Carried, dQ: float, strain: float) -> Zones | None:
     """The zones after changes of Q and the strain; None where no cell sticks."""
     signs, change = _signs(cells, dQ, strain)
-    if signs.all():
-        return None
     stuck = np.flatnonzero(signs == 0)
+    if not stuck.size:
+        return None
     signs[stuck[0] : stuck[-1]] = 0  # slip inside the stick zone is not solved
     stretches = _runs(signs)
+    if len(stretches) == 1 and signs.any():
+        return None  # a single cell that sticks was dropped
     ends = [float(cells.cuts[a]) for a, _, _ in stretches] + [float(cells.cuts[-1])]
     kinds = [sign for _, _, sign in stretches]
     if not kinds[0]:

@@ -155,59 +155,23 @@ class Fields:
         stick too, which else makes (1) hold.
         """
         state, question = self.state, self.state.question
-        beta, f, pieces = question.beta, question.friction, state.pieces
-        rules = [pieces.rule(shift / SHIFTS) for shift in range(SHIFTS)]
-        stuck, flows, cos = [], [], math.cos(math.pi * question.theta)
-        for at in rules:
-            sticks = state.sticks(at)
-            held = at.chosen(sticks)
-            gamma = question.gamma(held.x)
-            p = (state.A(held) - beta * gamma) / (1.0 - beta**2)
-            H1, chi = question.slope(at.x), state.chi(at)
-            mass = -cos * H1
-            mass[sticks] = p
-            stuck.append((sticks, gamma, p, H1, chi))
-            flows.append(mass * at.weight / chi)
-        small, roots = beta < SMALL, [self._root(at) for at in rules]
-        rows, sources = [], []
-        for k, at in enumerate(rules):
-            (sticks, gamma, p_held, H1, chi), other = stuck[k], (k + SHIFTS // 2) % SHIFTS
-            slips, place = ~sticks, at.chosen(~sticks) if small else at
+        beta, small = question.beta, question.beta < SMALL or question.approximate
+        rules = [state.pieces.rule(shift / SHIFTS) for shift in range(SHIFTS)]
+        rows = state.rows(rules, shear=not small)
+        roots, held = [state.root(at) for at in rules], [state.sticks(at) for at in rules]
+        sources = [
+            np.where(sticks, beta * p - gamma, q) * at.weight / root
+            for sticks, (p, q, gamma), at, root in zip(held, rows, rules, roots, strict=True)
+        ]
+        for k, (at, sticks) in enumerate(zip(rules, held, strict=True)):
+            other, needed = (k + SHIFTS // 2) % SHIFTS, ~sticks | small
             flow = np.zeros(len(at.x))
-            flow[slips if small else slice(None)] = state.psi(place, rules[other], flows[other])
-            flow *= chi
-            kappa = pieces.sign[at.zone] * beta * f
-            p = cos * flow - kappa * H1 / (1.0 + kappa**2)
-            p[sticks] = p_held
-            q = np.where(sticks, (flow - H1) / beta, pieces.sign[at.zone] * f * p)
-            mass = np.where(sticks, 0.0, q)
-            mass[sticks] = beta * p_held - gamma
-            sources.append(mass * at.weight / roots[k])
-            rows.append(np.stack((p, q, beta * p)))
-        for k, at in enumerate(rules):
-            sticks, gamma, *_ = stuck[k]
-            other, slips = (k + SHIFTS // 2) % SHIFTS, ~sticks
-            place = at if small else at.chosen(slips)
-            flow = state.psi(place, rules[other], sources[other])
-            flow *= roots[k] if small else roots[k][slips]
-            rows[k][2, slips] += flow[slips] if small else flow
-            rows[k][2, sticks] = gamma
+            flow[needed] = state.psi(at.chosen(needed), rules[other], sources[other])
+            flow *= roots[k]
+            rows[k][2, ~sticks] = (beta * rows[k][0] + flow)[~sticks]
             if small:
                 rows[k][1, sticks] = flow[sticks]
         return rules, rows
-
-    def _root(self, at: Places) -> Array:
-        """ω in slip; in stick, where ω is imaginary, i ω above the contact."""
-        pieces = self.state.pieces
-        log, zones = np.zeros(len(at.x)), np.flatnonzero(pieces.sign == 0.0)
-        for zone in zones:
-            for cut in pieces.cut_of_ends[[zone, zone + 1]]:
-                log += 0.5 * np.log(np.abs(pieces.from_cut(at, int(cut))))
-        # ω changes its sign across each stick zone to the right
-        ahead = np.array([np.count_nonzero(zones > k) for k in range(len(pieces.sign))])
-        turns = (-1.0) ** (ahead + (pieces.sign == 0.0))
-        values: Array = turns[at.zone] * np.exp(log)
-        return values
 
     @cached_property
     def tables(self) -> list[tuple[float, Array]]:

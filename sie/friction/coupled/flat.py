@@ -39,7 +39,7 @@ from numpy.typing import NDArray
 from sie.numerics.elliptic import Modulus, modulus_of_ratio
 
 from .fields import SHIFTS, Fields, cumulative, interpolated
-from .pieces import FINEST, Pieces, Places
+from .pieces import FINE, Pieces, Places
 from .state import Question, State
 
 if TYPE_CHECKING:
@@ -47,7 +47,7 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-STEP = FINEST.step
+STEP = FINE.step
 
 WIDE = 116.0  # |v| at the ends of the stick zone, where 1 - c has its digits
 # Where 1 - c is less than this the punch sticks all over, to the resolution of doubles.
@@ -84,6 +84,8 @@ class FlatPunch:
     modulus: Modulus
     pressure: Array = field(repr=False)
 
+    approximate = False  # whether β q is left out of equation (1)
+
     @property
     def c(self) -> float:
         return self.modulus.k
@@ -107,8 +109,8 @@ class FlatPunch:
     @cached_property
     def _poles(self) -> tuple[Array, Array, Array]:
         """Places in stick, their distances from 1, and what D has there."""
-        t, near, dt = _half_rule()
-        one, o = _squares(self.modulus, t, near)
+        t, near, dt = half_rule()
+        one, o = squares(self.modulus, t, near)
         mass = 2.0 * dt * self.c ** (2.0 * self.theta) * self.pressure
         mass *= one ** (self.theta - 0.5) * o**self.exponent
         kept = mass > FAINT
@@ -126,14 +128,21 @@ class FlatPunch:
 
     # -- the slip gradient -------------------------------------------------------------------------
 
-    @cached_property
-    def state(self) -> State:
-        """The same as a state."""
-        return state_of_flat(self, 1.0, 1.0)
+    def state(self, b: float, load: float) -> State:
+        """The punch of the half-width b under a load as a state."""
+        return _Flat(*self.asked(b, load), load / b * self.pressure)
+
+    def asked(self, b: float, load: float) -> tuple[Pieces, Question]:
+        """Its zones, and what the state is asked for."""
+        none = cast("HalfSlope", _NoSlope())
+        approximate = self.approximate
+        question = Question(self.beta, self.friction, none, np.zeros_like, load, 0.0, approximate)
+        widths = self.rest * b, 2.0 * self.c * b, self.rest * b
+        return _Sharp(-b, widths, (-1, 0, 1), (), (), self.theta, FINE), question
 
     @cached_property
     def _fields(self) -> Fields:
-        return Fields(self.state)
+        return Fields(self.state(1.0, 1.0))
 
     @cached_property
     def _in_slip(self) -> Table:
@@ -200,16 +209,6 @@ def finer(first: float, rows: Array) -> Table:
     return Table(first, STEP / SHIFTS / FINER, interpolated(rows, place))
 
 
-def state_of_flat(flat: FlatPunch, b: float, load: float) -> State:
-    """The flat punch of the half-width b as a state."""
-    question = Question(
-        flat.beta, flat.friction, cast("HalfSlope", _NoSlope()), np.zeros_like, load, 0.0
-    )
-    widths = flat.rest * b, 2.0 * flat.c * b, flat.rest * b
-    pieces = _Sharp(-b, widths, (-1, 0, 1), (), (), flat.theta, FINEST)
-    return _Flat(pieces, question, load / b * flat.pressure)
-
-
 class _NoSlope:
     """h' = 0."""
 
@@ -263,7 +262,7 @@ class _Flat(State):
 
 
 @lru_cache(maxsize=1)
-def _half_rule() -> tuple[Array, Array, Array]:
+def half_rule() -> tuple[Array, Array, Array]:
     """t from 0 to 1, 1 - t, and weights for even functions."""
     v = STEP * np.arange(math.ceil(WIDE / STEP) + 1)
     e = np.exp(-v)
@@ -273,7 +272,7 @@ def _half_rule() -> tuple[Array, Array, Array]:
     return -np.expm1(-v) / (1.0 + e), near, dt
 
 
-def _squares(modulus: Modulus, t: Array, near: Array) -> tuple[Array, Array]:
+def squares(modulus: Modulus, t: Array, near: Array) -> tuple[Array, Array]:
     """1 - t² and 1 - c² t²."""
     one = near * (1.0 + t)
     return one, modulus.complement**2 + modulus.k**2 * one
@@ -291,8 +290,8 @@ def _at_ratio(tau: float, pair: tuple[float, float], start: Array | None) -> Tri
     """The punch of (β, f) at K'/K = τ, its pressure searched from that of another."""
     (beta, friction), modulus = pair, modulus_of_ratio(tau)
     c, theta = modulus.k, math.atan(beta * friction) / math.pi
-    t, near, dt = _half_rule()
-    one, o = _squares(modulus, t, near)
+    t, near, dt = half_rule()
+    one, o = squares(modulus, t, near)
     weight = 2.0 * dt * one ** (theta - 0.5) * o ** (0.5 - theta)
     kernel = weight / (o[:, None] + c * c * np.outer(1.0 - one, one))
     v = _eigenvector(kernel, o**-0.5 if start is None else start)

@@ -26,14 +26,14 @@ from numpy.typing import NDArray
 from sie.numerics import chebyshev
 from sie.numerics.gauss_jacobi import with_weight
 
-from .pieces import FINEST
+from .pieces import FINE
 
 if TYPE_CHECKING:
     from .flat import FlatPunch
 
 Array = NDArray[np.float64]
 
-STEP = FINEST.step
+STEP = FINE.step
 
 DEGREE = 24
 NEAR = 0.5  # lengths of a panel: farther from its end a Gauss rule of its DEGREE suffices

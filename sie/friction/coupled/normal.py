@@ -23,6 +23,7 @@ from sie.progress_bar import reported
 from .axis import LOOKS, symmetry_axis
 from .flat import FlatPunch, flat_punch
 from .frozen import Frozen
+from .goodman import goodman_flat
 from .growth import Panel
 from .march import NEGLECT, March, Touch, first_touch, refuse_turning
 from .pressed import Flat, Grown
@@ -47,7 +48,8 @@ def coupled_contact(
 
     `frictionless` solves the normal problem of a scene; its contact bounds the search.
     """
-    flat, half_modulus = flat_punch(abs(scene.beta), scene.friction), 0.5 * scene.Estar
+    punch = goodman_flat if scene.neglects_beta else flat_punch
+    flat, half_modulus = punch(abs(scene.beta), scene.friction), 0.5 * scene.Estar
     _refuse_friction(flat, scene)
     sign = math.copysign(1.0, scene.beta)
     bound = frictionless(_without_friction(scene))
@@ -65,7 +67,9 @@ def coupled_contact(
     law = scene.profile.power_law
     exponent = law.exponent if law is not None and axis is not None else 0.0
     march = March(flat, slope, half_modulus, touch, axis=axis, exponent=exponent)
-    s, P = _marched(march, scene.normal_load, contact.r)
+    # without β q the contact is that without friction
+    s, P = _marched(march, None if flat.approximate else scene.normal_load, contact.r)
+    P = P if scene.normal_load is None else scene.normal_load
     state = Grown(
         flat,
         P,
@@ -85,7 +89,7 @@ def coupled_contact(
 def _refuse_friction(flat: FlatPunch, scene: Scene) -> None:
     """Raises ContactError where β f or the stick zone of the flat punch is out of reach."""
     steep = flat.beta * scene.friction
-    if steep > STEEPEST and not flat.bonded:
+    if steep > STEEPEST and not (flat.bonded or flat.approximate):
         raise ContactError(
             f"dissimilar bodies with β f = {steep:.3g}, more than {STEEPEST:g}, are not solved: "
             f"give friction = {STEEPEST / flat.beta:.3g} or less"

@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 Index = NDArray[np.intp]
 
-STEP = 0.6  # h: e^(-2π²/h) is 5e-15
+STEP = 0.5  # h: e^(-2π²/h) is 7e-18; next to poles of the integrands much is left of that
 ONCE = 320.0  # e-folds that a double holds
 ONE = 1e-7  # of the contact: marks that are nearer to others are one
 SAME = 1e-13  # of a zone: marks nearer to its ends are one with them
@@ -41,9 +41,8 @@ class Fineness(NamedTuple):
     inner: float
 
 
-FINE = Fineness(STEP, 33.0, 42.0)
-QUICK = Fineness(0.9, 19.0, 23.0)  # to about 1e-8
-FINEST = Fineness(0.5, 38.0, 60.0)  # f p - q is known next to the end of a stick zone too
+FINE = Fineness(STEP, 38.0, 60.0)  # f p - q is known next to the end of a stick zone too
+QUICK = Fineness(0.8, 19.0, 23.0)  # to about 1e-8
 
 
 class Places(NamedTuple):

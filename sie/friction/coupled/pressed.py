@@ -22,11 +22,12 @@ from sie.profiles.slope import Slope
 from sie.traction.base import on_line
 
 from .fields import Fields
-from .flat import FlatPunch, state_of_flat
+from .flat import FlatPunch
 from .frozen import Frozen, Gradient
 from .half_slope import HalfSlope
-from .pieces import FINEST, Pieces
-from .state import Question, State
+from .pieces import FINE, Pieces
+from .search import state_of
+from .state import Question
 from .step import Loaded
 from .view import View
 
@@ -205,7 +206,13 @@ class Grown(Pressed):
         window = m - WINDOW * s, m + WINDOW * s
         half = HalfSlope(slope, self.half_modulus, window, refined)
         question = Question(
-            flat.beta, flat.friction, half, lambda x: gradient(x + origin), self.load, 0.0
+            flat.beta,
+            flat.friction,
+            half,
+            lambda x: gradient(x + origin),
+            self.load,
+            0.0,
+            flat.approximate,
         )
         marks = (x - origin for x in self.marks_of_growth)
         pieces = Pieces(
@@ -215,9 +222,9 @@ class Grown(Pressed):
             tuple(x for x in marks if m - s < x < m + s),
             half.kinks,
             flat.theta,
-            FINEST,
+            FINE,
         )
-        return Loaded(Fields(State(pieces, question)), 0.0, 0.0, friction=self.friction)
+        return Loaded(Fields(state_of(pieces, question)), 0.0, 0.0, friction=self.friction)
 
     def rows(self, x: Array, rest: Array | None = None) -> Array:
         """Rows of p and q in contact; at a tip of the profile p is infinite, and q is told as 0."""
@@ -293,7 +300,7 @@ class Flat(Pressed):
 
     @cached_property
     def loaded(self) -> Loaded:  # type: ignore[override]
-        state = state_of_flat(self.flat, self.b, self.load)
+        state = self.flat.state(self.b, self.load)
         return Loaded(Fields(state), 0.0, 0.0, friction=self.friction)
 
     def _slip(self, x: Array) -> Array:

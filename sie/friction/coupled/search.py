@@ -14,6 +14,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from .goodman import Uncoupled
 from .pieces import FINE, QUICK, Fineness, Pieces
 from .state import Question, State
 
@@ -162,7 +163,12 @@ def passing(
 def _state(question: Question, zones: Zones, marks: tuple[float, ...], fineness: Fineness) -> State:
     kinks, theta = question.slope.kinks, question.theta
     pieces = Pieces(zones.left, zones.widths, zones.signs, marks, kinks, theta, fineness)
-    return State(pieces, question)
+    return state_of(pieces, question)
+
+
+def state_of(pieces: Pieces, question: Question) -> State:
+    """The state for zones, in Goodman's approximation if that is asked for."""
+    return Uncoupled(pieces, question) if question.approximate else State(pieces, question)
 
 
 def _descended(

@@ -40,6 +40,7 @@ class Question(NamedTuple):
     slope           H1
     gamma           γ where the bodies stick
     P, Q            the loads
+    approximate     whether β q is left out of (1): Goodman's approximation
     """
 
     beta: float
@@ -48,10 +49,11 @@ class Question(NamedTuple):
     gamma: Gradient
     P: float
     Q: float
+    approximate: bool = False
 
     @property
     def theta(self) -> float:
-        return math.atan(self.beta * self.friction) / math.pi
+        return 0.0 if self.approximate else math.atan(self.beta * self.friction) / math.pi
 
 
 @dataclass(frozen=True, eq=False)
@@ -148,6 +150,45 @@ class State:
         kernel = self.pieces.apart(at, self.beside)
         np.divide(-1.0 / math.pi, kernel, out=kernel)
         values: Array = kernel @ (self.beside.weight * self._solved[1]) + self.of_slope(at)
+        return values
+
+    def rows(self, rules: list[Places], *, shear: bool) -> list[Array]:
+        """p, q and, in stick, γ on rules at equidistant shifts; q in stick by (1), if asked for."""
+        question, found = self.question, []
+        cos, beta = math.cos(math.pi * question.theta), question.beta
+        held, chi, H1 = (
+            [self.sticks(at) for at in rules],
+            [self.chi(at) for at in rules],
+            [question.slope(at.x) for at in rules],
+        )
+        masses, gammas = [-cos * H for H in H1], [np.zeros(len(H)) for H in H1]
+        for sticks, at, mass, gamma in zip(held, rules, masses, gammas, strict=True):
+            places = at.chosen(sticks)
+            gamma[sticks] = question.gamma(places.x)
+            mass[sticks] = (self.A(places) - beta * gamma[sticks]) / (1.0 - beta**2)
+        for k, (at, sticks) in enumerate(zip(rules, held, strict=True)):
+            other, needed = (k + len(rules) // 2) % len(rules), ~sticks | shear
+            sources, flow = rules[other], np.zeros(len(at.x))
+            mass = masses[other] * sources.weight / chi[other]
+            flow[needed] = chi[k][needed] * self.psi(at.chosen(needed), sources, mass)
+            limit = self.pieces.sign[at.zone] * question.friction
+            kappa = limit * beta
+            p = np.where(sticks, masses[k], cos * flow - kappa * H1[k] / (1.0 + kappa**2))
+            q = np.where(sticks, (flow - H1[k]) / beta if shear else 0.0, limit * p)
+            found.append(np.stack((p, q, gammas[k])))
+        return found
+
+    def root(self, at: Places) -> Array:
+        """ω in slip; in stick, where ω is imaginary, i ω above the contact."""
+        pieces = self.pieces
+        log, zones = np.zeros(len(at.x)), np.flatnonzero(pieces.sign == 0.0)
+        for zone in zones:
+            for cut in pieces.cut_of_ends[[zone, zone + 1]]:
+                log += 0.5 * np.log(np.abs(pieces.from_cut(at, int(cut))))
+        # ω changes its sign across each stick zone to the right
+        ahead = np.array([np.count_nonzero(zones > k) for k in range(len(pieces.sign))])
+        turns = (-1.0) ** (ahead + (pieces.sign == 0.0))
+        values: Array = turns[at.zone] * np.exp(log)
         return values
 
     @cached_property

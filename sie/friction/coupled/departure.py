@@ -14,7 +14,7 @@ from sie.contact.pressure import pressure
 from sie.errors import ContactError
 from sie.problem.scene import Scene
 
-from .functions import goodman_flat
+from .goodman import goodman_flat
 
 NEGLECT = "note: β q is left out of the normal equation (Goodman's approximation)"
 
@@ -35,7 +35,7 @@ def departure(scene: Scene, tol: float, coupled_contact: Callable[..., Any]) -> 
             raise ContactError("not symmetric")
     except ContactError:
         return f"{NEGLECT}; how far the answer is from the coupled one is not known here"
-    k, c = goodman_flat(abs(scene.beta), scene.friction).k, state.flat.c
+    k, c = goodman_flat(abs(scene.beta), scene.friction).c, state.flat.c
     found = f"c/b = {k:.6g} instead of {c:.6g} ({_percent(k, c)})"
     simple = normal_contact(scene, tol)
     axis = np.array([state.axis])

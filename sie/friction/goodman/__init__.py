@@ -1,1 +1,0 @@
-"""Partial slip of dissimilar bodies by Goodman's approximation."""
