@@ -174,8 +174,9 @@ class Polish:
         It ends after `most` steps, or at one that is longer than `reach` r.
 
         With r JR changing by no more than VARIES times itself over the distance to the next break
-        or to z, what a step leaves is known.
+        or to z, what a step leaves is known. Of functions JR is less exact.
         """
+        exact = not self.slope.functions
         bracket = Bracket((z, 0.0), (self.slope.domain[1], 0.0))
         earlier = [math.inf, math.inf]
         for _ in range(most):
@@ -191,7 +192,8 @@ class Polish:
             if abs(out) > reach * r:
                 break
             wanted = contact.moved(-out, out)
-            if missed <= 1.0 or (2.0 * abs(out) <= room and VARIES * missed * abs(out) <= room):
+            left = VARIES * missed * abs(out)
+            if missed <= 1.0 or (exact and 2.0 * abs(out) <= room and left <= room):
                 return wanted, True
             bracket.cut((contact.x2, contact.tail2), above=over < 0.0)
             place = bracket.place((wanted.x2, wanted.tail2), missed > 0.5 * earlier[-2])

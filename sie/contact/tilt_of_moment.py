@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import replace
 
 from sie.errors import ContactError, LoadError
 from sie.numerics.interval import EPS
@@ -43,7 +42,6 @@ def tilt_of_moment(
     edges_at: Callable[[float], Edges],
     moment: float,
     search: Search,
-    at_fixed_width: bool,
     tilt: float,
 ) -> Edges:
     """The edges at the tilt whose pressure has the moment, by Newton's method in a bracket.
@@ -60,7 +58,7 @@ def tilt_of_moment(
         bracket.cut((tilt, 0.0), above=excess > 0.0)
         if abs(excess) <= 2.0 * EPS * _reach(edges):
             break
-        falls = _fall_of_moment(edges, search, at_fixed_width)
+        falls = _fall_of_moment(edges, search)
         missed.append(abs(excess))
         astray = missed[-1] > 0.5 * missed[-3]  # to and fro across a part that is nearly flat
         wanted = tilt + excess / falls if falls > 0.0 else math.inf
@@ -102,18 +100,10 @@ def _carried(
     return tilt, None, most
 
 
-def _fall_of_moment(edges: Edges, search: Search, at_fixed_width: bool) -> float:
-    """-dM/d(tilt), which is π/2 G r² (1 - 4ε²) at constant load.
-
-    At constant half-width the load changes too: dm/d(tilt) = -π/J0, dP/dm = G r J1.
-    """
+def _fall_of_moment(edges: Edges, search: Search) -> float:
+    """-dM/d(tilt) at constant load, π/2 G r² (1 - 4ε²)."""
     r, G = edges.contact.r, search.half_modulus / math.cos(math.pi * search.epsilon)
-    falls = 0.5 * math.pi * G * r * r * (1.0 - 4.0 * search.epsilon**2)
-    if at_fixed_width:
-        k = replace(search, slope=search.slope.tilted(edges.tilt)).integrals(edges.contact)
-        rise = k.JR + k.JL  # 0 where a power of x underflows, or is straight to rounding
-        falls += edges.contact.m * math.pi * G * r * (k.JR - k.JL) / rise if rise > 0.0 else 0.0
-    return falls
+    return 0.5 * math.pi * G * r * r * (1.0 - 4.0 * search.epsilon**2)
 
 
 def _reach(edges: Edges) -> float:

@@ -9,12 +9,11 @@ import pytest
 import sie
 from oracles import normal_contact
 from oracles.normal_contact import mp
-from sie.certificate import pressure_check, quadrature, result
+from sie.certificate import result
 from sie.certificate.result import BESIDES, PROMISE
-from sie.contact import gap, least_gaps, normal
+from sie.contact import least_gaps, normal
 from sie.numerics.interval import interval_about
 from sie.profiles import unresolved
-from sie.traction import on_panels
 from validation.wrong_programs.pressures import with_pressure
 
 SHARE = 3.0  # of the promise
@@ -399,20 +398,6 @@ def test_a_gap_that_opens_everywhere_is_not_integrated(monkeypatch):
         *powers,
     ):
         assert solved(profile).check().lowest_gap == 0.0
-
-
-@pytest.mark.parametrize("exponent", [1.001, 1.3, 2.5, 4.5, 60.5])
-def test_the_certificate_of_a_power_resolves_no_function(exponent, monkeypatch):
-    """The closed form needs no pieces, and the rule of the certificate is graded to the axis."""
-
-    def refuse(*_):
-        raise AssertionError("resolved")
-
-    profile = sie.Power(exponent, 0.75).shifted(0.7)
-    solution = solved(profile)
-    for module in (pressure_check, quadrature, gap, on_panels):
-        monkeypatch.setattr(module, "refined", refuse)
-    assert solution.check().ok
 
 
 @pytest.mark.parametrize("exponent", [1.3, 2.5, 60.5])
