@@ -10,7 +10,6 @@ from __future__ import annotations
 import math
 from collections.abc import Collection
 from dataclasses import replace
-from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,8 +24,7 @@ from sie.profiles.resolution import one_piece, refined
 from sie.profiles.slope import Slope
 from sie.profiles.unresolved import between_pieces, between_points, expanded
 
-from . import given_moment
-from .edges import Found, Search
+from .edges import NEAR, Found, Search
 from .known_contact import NEARER, Edges, Normal, refuse_unresolved, with_breaks
 from .pressure import resolution, slope_series
 from .smooth_slope import smooth_contact
@@ -89,13 +87,17 @@ def of_one_patch(edges: Edges, scene: Scene, tol: float, economy: Collection[str
 
 def _closer(edges: Edges, scene: Scene, slope: Slope, economy: Collection[str]) -> Edges:
     """The edges by their conditions on a resolved slope."""
-    load, smooth = edges.normal_load, not any(edges.sharp)
-    if scene.moment is not None and smooth:
-        search = _search(scene, slope, economy)
-        return given_moment.near(search, edges.contact, load, scene.moment) or edges
-    search = _search(scene, slope.tilted(edges.tilt), economy)
-    found = search.finished(search.near(edges.contact, edges.sharp, load), load, edges.tilt)
-    return found if scene.moment is None else replace(found, moment=scene.moment)
+    contact, sharp, load = edges.contact, edges.sharp, edges.normal_load
+
+    def edges_at(tilt: float) -> Edges:
+        search = _search(scene, slope.tilted(tilt), economy)
+        found = search.near(contact, sharp, load) or Found(contact, sharp)
+        return search.finished(found, load, tilt)
+
+    if scene.moment is None:
+        return edges_at(edges.tilt)
+    search = _search(scene, slope, economy)
+    return tilt_of_moment(edges_at, scene.moment, search, edges.tilt)
 
 
 def one_series(scene: Scene, tol: float, economy: Collection[str]) -> Normal | None:
@@ -320,19 +322,35 @@ def contact_under(
 
 def _searched(scene: Scene, slope: Slope, economy: Collection[str], start: float = 0.0) -> Normal:
     """The edges for a resolved slope; the tilt of a given moment is searched from `start`."""
-    axis = scene.profile.axis if "symmetry" in economy else None
-    edges_at = partial(_edges_at, scene=scene, slope=slope, economy=economy)
-    load, moment = scene.normal_load, scene.moment
-    if moment is None:
-        edges = edges_at(scene.tilt)
+    if scene.moment is None:
+        edges = _edges_at(scene.tilt, scene, slope, economy)
     else:
-        assert load is not None
-        refuse_outside(moment, load, slope.domain, scene.profile.domain)
-        search, smooth = _search(scene, slope, economy), None
-        if scene.epsilon == 0.0 and (axis is None or moment != axis * load):
-            smooth = given_moment.under_load(search, load, moment)
-        edges = smooth or tilt_of_moment(edges_at, moment, search, start)
-    return Normal(edges, axis is not None and edges.tilt == scene.epsilon == 0.0)
+        edges = _of_moment(scene, slope, economy, start)
+    symmetric = "symmetry" in economy and scene.profile.axis is not None
+    return Normal(edges, symmetric and edges.tilt == scene.epsilon == 0.0)
+
+
+def _of_moment(scene: Scene, slope: Slope, economy: Collection[str], start: float) -> Edges:
+    """The edges at the tilt of a given moment; near it, each contact from the one before."""
+    load, moment, search = scene.normal_load, scene.moment, _search(scene, slope, economy)
+    assert load is not None
+    assert moment is not None
+    refuse_outside(moment, load, search, scene.profile.domain)
+    before: list[Edges] = []
+
+    def edges_at(tilt: float) -> Edges:
+        found = None
+        if before and not any(before[-1].sharp):
+            contact = before[-1].contact
+            if abs(before[-1].moment - moment) <= NEAR * load * contact.r:
+                tilted = _search(scene, slope.tilted(tilt), economy)
+                found = tilted.near(contact, (False, False), load)
+        before.append(
+            tilted.finished(found, load, tilt) if found else _edges_at(tilt, scene, slope, economy)
+        )
+        return before[-1]
+
+    return tilt_of_moment(edges_at, moment, search, start)
 
 
 def _search(scene: Scene, slope: Slope, economy: Collection[str]) -> Search:

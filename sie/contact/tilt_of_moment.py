@@ -10,22 +10,30 @@ from sie.numerics.interval import EPS
 from sie.numerics.root_finding import Bracket
 
 from .edges import Search
-from .known_contact import Edges
+from .known_contact import PLACES, Edges
 
 MAX_TILTS = 100  # tried, whether or not the profile can be tilted by so much
 HUGE = 1e300  # stands for an open end of the bracket
 MISSED = 1e-9  # of the load times its farthest lever: a moment missed by more was not carried
 
 
-def refuse_outside(
-    moment: float, load: float, window: tuple[float, float], domain: tuple[float, float]
-) -> None:
+def refuse_outside(moment: float, load: float, search: Search, domain: tuple[float, float]) -> None:
     """Raises LoadError where the load acts too far outside.
 
-    That is beyond the window on which the slope is resolved, or beyond the indenter.
+    That is beyond the window on which the slope is resolved, beyond the indenter, or where the
+    rounding of the slope carries the load in the narrowest contact that doubles show.
     """
-    if window[0] < moment / load < window[1]:
-        return
+    window, lever = search.slope.domain, moment / load
+    if window[0] < lever < window[1]:
+        narrowest = PLACES * math.ulp(lever)
+        rounding = EPS * abs(float(search.slope(lever))) * narrowest * search.half_modulus
+        if rounding < load:
+            return
+        raise LoadError(
+            f"the moment {moment:.6g} puts the load at x = M/P = {lever:.6g}, where rounding of "
+            "the slope is more than the load shows: lower the moment, or move the profile to where "
+            "the load acts (shifted)"
+        )
     acts = f"the moment {moment:.6g} puts the load at x = M/P = {moment / load:.6g}, "
     if domain[0] < moment / load < domain[1]:
         raise LoadError(
