@@ -77,7 +77,7 @@ def _measured(density: SlopeDensity, slope: Slope, tol: float) -> Certificate:
     regular = regular_points(density, slope, x)
     bounded_peak = float(p[regular].max(initial=0.0))
     by_values = bool(slope.functions)
-    unseen = largest_misfit(slope, density.resolved_slope, resolved, contact) if by_values else 0.0
+    unseen = largest_misfit(slope, density.resolved_slope, contact) if by_values else 0.0
     resolution = max(density.half_modulus * unseen / peak, LEAST_OF_FUNCTION if by_values else 0.0)
     return Certificate(
         residual=float(np.abs(residual).max()) / peak,

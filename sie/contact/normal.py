@@ -22,7 +22,7 @@ from sie.problem.scene import Scene
 from sie.profiles.base import Profile
 from sie.profiles.resolution import one_piece, refined
 from sie.profiles.slope import Slope
-from sie.profiles.unresolved import between_pieces, between_points, expanded
+from sie.profiles.unresolved import between_points, expanded
 
 from .edges import NEAR, Found, Search
 from .known_contact import NEARER, Edges, Normal, refuse_unresolved, with_breaks
@@ -279,17 +279,14 @@ def _unseen(
     """
     slope, contact = found.slope(scene.profile), found.edges.contact
     accuracy = resolution(tol)
-    pieces = expanded(slope, resolved, contact)
-    places = between_pieces(slope, pieces, contact, accuracy)
     transform = not scene.epsilon and "transform" in economy
     series = slope_series(slope, contact, accuracy) if transform else None
     if series is None:
-        resolved = refined(slope, contact.x1, contact.x2, accuracy)
-        final = expanded(slope, resolved, contact)
-        places += between_pieces(slope, final, contact, accuracy)
+        final = expanded(slope, refined(slope, contact.x1, contact.x2, accuracy), contact)
     else:
         final = one_piece(contact.x1, contact.x2, series)
-    return places + between_points(slope, (pieces.H, final.H), contact, accuracy)
+    pieces = expanded(slope, resolved, contact)
+    return between_points(slope, (pieces.H, final.H), contact, accuracy)
 
 
 def contact_under(

@@ -229,7 +229,7 @@ def test_the_stick_zone_of_such_a_function_is_right_too(name):
     assert found.stick[0] == pytest.approx(declared.stick[0], abs=1e-13)
 
 
-@pytest.mark.parametrize("name", ["jump", "narrow bump", "faint bump"])
+@pytest.mark.parametrize("name", ["narrow bump", "faint bump"])
 def test_the_certificate_detects_a_feature_that_the_solver_missed(name, monkeypatch):
     """The solver does not test between its points: the certificate does, at points of its own."""
     slope, breaks = UNDECLARED[name]
@@ -237,7 +237,6 @@ def test_the_certificate_detects_a_feature_that_the_solver_missed(name, monkeypa
     monkeypatch.setattr(normal, "LOOKS", 0)
     blind = pressed(slope)
     x = np.linspace(-0.95, 0.95, 4001) * right.half_width + right.centre
-    x = x[np.abs(x - 0.2) > 1e-5] if name == "jump" else x
     error = float(np.abs(blind.pressure(x) - right.pressure(x)).max() / right.pressure(x).max())
     found = blind.check()
     assert error > 1e-10
