@@ -9,7 +9,6 @@ from collections.abc import Collection, Iterable
 from dataclasses import dataclass
 from html import escape
 
-from .contact.pressure import upright_law
 from .problem.request import ECONOMY, sheared, wanted
 from .problem.scene import Scene, refuse_no_scene
 from .profiles.row import asks_for_patches
@@ -239,26 +238,19 @@ def _of_patches(scene: Scene, _economy: Collection[str]) -> tuple[Step, ...]:
 
 
 def _of_one_patch(scene: Scene, economy: Collection[str]) -> tuple[Step, ...]:
-    law = upright_law(scene, economy) is not None
-    edges = "smooth edges"
-    if law and scene.moment is None:
-        edges += ", in closed form"
-    else:
-        ends = any(abs(end) != float("inf") for end in scene.profile.domain)
-        edges += " or sharp at the ends of the indenter" if ends else ""
-        edges += ", by bracketed Newton with exact derivatives"
+    ends = any(abs(end) != float("inf") for end in scene.profile.domain)
+    edges = "smooth edges" + (" or sharp at the ends of the indenter" if ends else "")
+    edges += ", by bracketed Newton with exact derivatives"
     given = "half-width" if scene.half_width is not None else "load"
     return (
-        _resolution(scene, law),
+        _resolution(scene),
         Step("edges", True, f"{given} given: {edges}", "normal"),
         _symmetry(scene, economy),
         _flat_pieces(scene, economy),
     )
 
 
-def _resolution(scene: Scene, law: bool) -> Step:
-    if law:
-        return Step("resolution", False, "the slope is a power law: known exactly")
+def _resolution(scene: Scene) -> Step:
     if scene.profile.pieces.functions:
         how = "one Chebyshev series in the contact, or pieces on a window fitted to it"
         return Step("resolution", True, f"the slope is a function: {how}")
@@ -309,8 +301,6 @@ def _expansion(scene: Scene, economy: Collection[str]) -> str:
         return f"exact panels: {NO_ECONOMY}"
     if not scene.profile.breaks:
         return "the slope is smooth: one DCT, no linear system"
-    if upright_law(scene, economy) is not None:
-        return "two series of a power law"
     return "exact panels on the pieces in the contact; one DCT if no break falls inside"
 
 

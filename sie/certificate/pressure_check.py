@@ -24,7 +24,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from sie.contact.edge_integrals import EdgeIntegrals, edge_integrals
+from sie.contact.edge_integrals import edge_integrals
 from sie.contact.least_gaps import intervals_below, relative_gaps
 from sie.contact.small_strains import notes, regular_points
 from sie.numerics.interval import EPS, Interval
@@ -59,7 +59,7 @@ def certificate(density: SlopeDensity, slope: Slope, tol: float) -> Certificate:
 
 def _measured(density: SlopeDensity, slope: Slope, tol: float) -> Certificate:
     contact = density.contact
-    resolved = refined(slope, contact.x1, contact.x2, EPS) if density.resolves else slope
+    resolved = refined(slope, contact.x1, contact.x2, EPS)
     rule = composite_rule(contact, slope, epsilon=density.epsilon, resolution=resolved)
     x, weight = rule.x, rule.weight
     p = _finite(density(x))
@@ -76,8 +76,8 @@ def _measured(density: SlopeDensity, slope: Slope, tol: float) -> Certificate:
     abscissae = max(of_force / P, of_equation / peak)
     regular = regular_points(density, slope, x)
     bounded_peak = float(p[regular].max(initial=0.0))
-    by_values = bool(slope.functions) and density.resolves
-    unseen = largest_misfit(slope, density.resolved_slope, resolved, contact) if by_values else 0.0
+    by_values = bool(slope.functions)
+    unseen = largest_misfit(slope, density.resolved_slope, contact) if by_values else 0.0
     resolution = max(density.half_modulus * unseen / peak, LEAST_OF_FUNCTION if by_values else 0.0)
     return Certificate(
         residual=float(np.abs(residual).max()) / peak,
@@ -117,7 +117,7 @@ def _load_on_edges(density: SlopeDensity, slope: Slope, rule: Rule) -> float:
     """
     contact, r, e = density.contact, density.contact.r, density.epsilon
     G = density.half_modulus * math.cos(math.pi * e)
-    k = _edge_integrals(density, slope, rule)
+    k = edge_integrals(slope, contact, epsilon=density.epsilon)
     of_terms = EPS * math.pi * float(_sizes_of_terms(slope, rule.x).max())
     rounding = r * (SUMMED * (k.positive + k.negative) + of_terms)
     edges = (
@@ -142,28 +142,6 @@ def _sizes_of_terms(slope: Slope, x: Array) -> Array:
     for j in range(c.shape[1] - 2, -1, -1):
         values = values * y + c[k, j]
     return values
-
-
-def _edge_integrals(density: SlopeDensity, slope: Slope, rule: Rule) -> EdgeIntegrals:
-    if not density.resolves:
-        return _by_rule(slope, density.contact, rule)
-    return edge_integrals(slope, density.contact, epsilon=density.epsilon)
-
-
-def _by_rule(slope: Slope, contact: Interval, rule: Rule) -> EdgeIntegrals:
-    """The edge integrals of a slope that no polynomials resolve, without C2 and the sizes.
-
-    With ψ from the right edge 1 + sin φ = 2 cos²(ψ/2), and r JR = ∫cot(ψ/2) dH, r JL = ∫tan(ψ/2)
-    dH.
-    """
-    H, psi = slope(rule.x), rule.angle
-    HdF = H * rule.weight / (contact.r * np.sin(psi))
-    middle, dH = 0.25 * (psi[1:] + psi[:-1]), H[:-1] - H[1:]
-    JR, JL = (float(dH @ steep) / contact.r for steep in (1.0 / np.tan(middle), np.tan(middle)))
-    positive, negative = float(np.maximum(HdF, 0.0).sum()), -float(np.minimum(HdF, 0.0).sum())
-    return EdgeIntegrals(
-        positive - negative, float(HdF @ np.cos(psi)), 0.0, JR, JL, positive, negative, 0.0, 0.0
-    )
 
 
 def _finite(p: Array) -> Array:

@@ -19,7 +19,7 @@ from sie.numerics import chebyshev
 from sie.numerics.gauss_jacobi import gauss_jacobi
 from sie.numerics.graded_rule import GRADING, NODES, balanced, graded, on_panels
 from sie.numerics.interval import EPS, Interval, angles, inner, position
-from sie.profiles.power_law import PowerSlope
+from sie.profiles.power_law import PowerLaw
 from sie.profiles.resolution import refined
 from sie.profiles.slope import Slope
 
@@ -185,7 +185,7 @@ def _levels_of_few(slope: Slope, also: Array) -> int:
 
     Under powers |x|^(a+1) of the profile alone the pressure has |x|^a, which needs fewer.
     """
-    powers = [f.function for f in slope.functions if isinstance(f.function, PowerSlope)]
+    powers = [f.function for f in slope.functions if isinstance(f.function, PowerLaw)]
     if not powers or len(powers) < len(slope.functions) or slope.coefficients.any() or also.size:
         return LEVELS if not slope.continuous else ROOT_LEVELS if also.size else KINK_LEVELS
     a = min(power.exponent for power in powers) - 1.0

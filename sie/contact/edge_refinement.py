@@ -56,7 +56,6 @@ STEPS_TO_A_BREAK = 20  # of Newton, for the root of a cubic: no edge integrals a
 # The residual is halved 53 times from the size of the load to rounding, either bracket 106 times
 # from r to the rounding of two doubles.
 MAX_POLISHING = 2 * (53 + 2 * 106)
-MAX_BALANCING = 80  # where a moment is given: Newton's steps, halved until they come nearer
 LEFT, RIGHT = 0, 1
 
 
@@ -116,56 +115,6 @@ class Polish:
             contact = moved
         return contact, k, False
 
-    def balanced(
-        self,
-        contact: Interval,
-        target: float,
-        lever: float,
-        tilted: Callable[[Interval, float], EdgeIntegrals],
-    ) -> tuple[Interval, EdgeIntegrals, float] | None:
-        """The contact with smooth edges that carries target = P/G at x = lever.
-
-        Its edge integrals and its tilt come with it; None if Newton's steps find none.
-
-        Whatever the tilt, it is the one that makes I0 vanish. An edge that moves outwards then adds
-        p ~ sqrt((x - x1)/(x2 - x)) or the mirror image of it, whose resultants are G r J/2 and act
-        at m -+ r/2: the equations of both edges are apart again.
-        """
-        lo, hi = self.slope.domain
-        tilt, before, last, steps, share = 0.0, math.inf, contact, (0.0, 0.0), 1.0
-        for _ in range(MAX_BALANCING):
-            k, r = tilted(contact, tilt), contact.r
-            half = 0.5 * (r * k.I1 - target)
-            turned = target * contact.s(lever) + r * (k.C2 - 0.5 * k.I0)
-            rise1, rise2 = 0.5 * r * k.JL, 0.5 * r * k.JR
-            if not (rise1 > 0.0 and rise2 > 0.0):
-                return None
-            rounding = ROUNDINGS * (r * (k.size1 + k.size2) + target * (1.0 + abs(lever) / r)) + (
-                math.pi * self.noise(contact) * r if self.slope.functions else 0.0
-            )
-            # Not in units of the rounding, which the tilt lessens: it would bar the way from here
-            missed = abs(half) + abs(turned)
-            settled = missed <= rounding
-            if missed < before or settled:
-                tilt -= k.I0 / math.pi
-                outwards = (
-                    self.outwards(contact, LEFT, half + turned, rise1, 0.5),
-                    self.outwards(contact, RIGHT, half - turned, rise2, 0.5),
-                )
-                # p > 0 puts the load between the edges
-                room = contact.from_left(lever), contact.from_right(lever)
-                steps = (max(outwards[0], -0.5 * room[0]), max(outwards[1], -0.5 * room[1]))
-                before, last, share = missed, contact, 1.0
-            else:
-                share *= 0.5
-            moved = last.moved(-share * steps[0], share * steps[1])
-            if settled:
-                return moved, k._replace(I0=0.0), tilt
-            if moved == contact or not (lo < moved.x1 and moved.x2 < hi):
-                return None
-            contact = moved
-        return None
-
     def symmetric(
         self, contact: Interval, target: float, z: float, most: int, reach: float = math.inf
     ) -> tuple[Interval, bool]:
@@ -174,8 +123,9 @@ class Polish:
         It ends after `most` steps, or at one that is longer than `reach` r.
 
         With r JR changing by no more than VARIES times itself over the distance to the next break
-        or to z, what a step leaves is known.
+        or to z, what a step leaves is known. Of functions JR is less exact.
         """
+        exact = not self.slope.functions
         bracket = Bracket((z, 0.0), (self.slope.domain[1], 0.0))
         earlier = [math.inf, math.inf]
         for _ in range(most):
@@ -191,7 +141,8 @@ class Polish:
             if abs(out) > reach * r:
                 break
             wanted = contact.moved(-out, out)
-            if missed <= 1.0 or (2.0 * abs(out) <= room and VARIES * missed * abs(out) <= room):
+            left = VARIES * missed * abs(out)
+            if missed <= 1.0 or (exact and 2.0 * abs(out) <= room and left <= room):
                 return wanted, True
             bracket.cut((contact.x2, contact.tail2), above=over < 0.0)
             place = bracket.place((wanted.x2, wanted.tail2), missed > 0.5 * earlier[-2])

@@ -17,7 +17,7 @@ the last at constant P.
 So the search is one-dimensional and monotone, in the logarithm of the edge's distance from where
 the profile touches first (a power law there is a straight line, solved in one step); then both
 edges are refined together (`edge_refinement`), with steps added to unrounded edges. Where the
-moment is given in place of the tilt, `given_moment` finds both edges and the tilt.
+moment is given in place of the tilt, `tilt_of_moment` searches for that.
 
 Sources: Muskhelishvili (1953) § 116; Shtaerman (1949); Johnson, Contact Mechanics (1985) § 5.5 for
 smooth and sharp edges.
@@ -345,17 +345,18 @@ class Search:
             )
         return Found(contact, (left_sharp, False), k)
 
-    def near(self, contact: Interval, sharp: tuple[bool, bool], load: float) -> Found:
-        """The contact under a load near one that is known; that one where no step comes nearer."""
+    def near(self, contact: Interval, sharp: tuple[bool, bool], load: float) -> Found | None:
+        """The contact under a load near one that is known; None where no step comes nearer."""
         if all(sharp):
             return Found(contact, sharp)
         if sharp[1]:
             flipped = replace(self, slope=self.slope.mirrored(), epsilon=-self.epsilon)
-            return flipped.near(contact.mirrored(), (True, False), load).mirrored()
+            found = flipped.near(contact.mirrored(), (True, False), load)
+            return found and found.mirrored()
         closer, k, settled = self.polish.both(
             contact, load / self.half_modulus, sharp[0], self.touch()
         )
-        return Found(closer, sharp, k) if settled else Found(contact, sharp)
+        return Found(closer, sharp, k) if settled else None
 
     # -- a prescribed half-width -------------------------------------------------------------------
 

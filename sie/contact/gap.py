@@ -57,7 +57,7 @@ def gap(
     x = np.where(np.isinf(x), np.nan, x)
     contact = density.contact
     hints: tuple[Array, ...] = (np.zeros(0), np.zeros(0))
-    if slope.functions and density.resolves:
+    if slope.functions:
         found = beside(density.interval, slope) if places is None else places
         hints = tuple(narrow_parts(slope, some) for some in found)
     for side, cuts, outside in (

@@ -90,7 +90,6 @@ def relative_gaps(
     contact, r = density.contact, density.contact.r
     x, edges = _beside(contact, slope), (contact.x1, contact.x2)
     places = beside(edges, slope, finer, start)
-    seen = bool(slope.functions) and density.resolves
     if all(rises_at(side, slope) for side in places) if slope.functions else rises(slope, edges):
         return x, np.zeros(len(x))
     least, *reach = _least_gaps(density, slope, places)
@@ -104,7 +103,7 @@ def relative_gaps(
     left, right = (
         np.abs(x[opens & (outward == side)] - contact.m).min(initial=np.inf) for side in (-1.0, 1.0)
     )
-    if seen:  # beyond, heights show that the gap is open
+    if slope.functions:  # beyond, heights show that the gap is open
         left, right = (min(end, max(far, NEAR * r)) for end, far in zip((left, right), reach))
     left, right = max(left, reach[0] * OUT), max(right, reach[1] * OUT)
     x = x[np.abs(x - contact.m) < np.where(outward > 0.0, right, left)]

@@ -10,8 +10,6 @@ from __future__ import annotations
 import math
 from collections.abc import Collection
 from dataclasses import replace
-from functools import partial
-from typing import NoReturn
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,15 +20,13 @@ from sie.numerics.interval import Interval, interval_about
 from sie.problem.request import ECONOMY
 from sie.problem.scene import Scene
 from sie.profiles.base import Profile
-from sie.profiles.power_law import PowerLaw
 from sie.profiles.resolution import one_piece, refined
 from sie.profiles.slope import Slope
-from sie.profiles.unresolved import between_pieces, between_points, expanded
+from sie.profiles.unresolved import between_points, expanded
 
-from . import given_moment
-from .edges import Found, Search
+from .edges import NEAR, Found, Search
 from .known_contact import NEARER, Edges, Normal, refuse_unresolved, with_breaks
-from .pressure import resolution, slope_series, upright_law
+from .pressure import resolution, slope_series
 from .smooth_slope import smooth_contact
 from .tilt_of_moment import refuse_outside, tilt_of_moment
 from .window import FITTED, MOST_GROWN, Window, window_of
@@ -91,21 +87,23 @@ def of_one_patch(edges: Edges, scene: Scene, tol: float, economy: Collection[str
 
 def _closer(edges: Edges, scene: Scene, slope: Slope, economy: Collection[str]) -> Edges:
     """The edges by their conditions on a resolved slope."""
-    load, smooth = edges.normal_load, not any(edges.sharp)
-    if scene.moment is not None and smooth:
-        search = _search(scene, slope, economy)
-        return given_moment.near(search, edges.contact, load, scene.moment) or edges
-    search = _search(scene, slope.tilted(edges.tilt), economy)
-    found = search.finished(search.near(edges.contact, edges.sharp, load), load, edges.tilt)
-    return found if scene.moment is None else replace(found, moment=scene.moment)
+    contact, sharp, load = edges.contact, edges.sharp, edges.normal_load
+
+    def edges_at(tilt: float) -> Edges:
+        search = _search(scene, slope.tilted(tilt), economy)
+        found = search.near(contact, sharp, load) or Found(contact, sharp)
+        return search.finished(found, load, tilt)
+
+    if scene.moment is None:
+        return edges_at(edges.tilt)
+    search = _search(scene, slope, economy)
+    return tilt_of_moment(edges_at, scene.moment, search, edges.tilt)
 
 
 def one_series(scene: Scene, tol: float, economy: Collection[str]) -> Normal | None:
     """The contact in which one series resolves the slope of a function; None if none does."""
     profile = scene.profile
     if not profile.pieces.functions or "transform" not in economy:
-        return None
-    if upright_law(scene, economy) is not None:
         return None
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
         try:
@@ -154,11 +152,8 @@ def _contact(
     scene: Scene, tol: float, economy: Collection[str], seen: tuple[float, ...] | None
 ) -> Normal:
     profile = scene.profile
-    law = upright_law(scene, economy)
-    if law is not None and _asks_for_no_tilt(scene, law.axis):
-        return Normal(_of_power_law(law, scene), True)
     if not profile.pieces.functions:
-        return _searched(scene, profile.pieces, economy) or _without_smooth_edges(scene)
+        return _searched(scene, profile.pieces, economy)
     looks = 0 if profile.convex or seen is not None else LOOKS
     if "transform" in economy:
         slope = with_breaks(profile.pieces, seen or ())
@@ -186,11 +181,6 @@ def _in_window(
         slope = with_breaks(profile.pieces, seen)
         resolved = refined(slope, window.lo, window.hi, resolution(tol))
         found = _searched(scene, resolved, economy, tilt)
-        if found is None:
-            if not window.may_grow:
-                _without_smooth_edges(scene)
-            window.grow()
-            continue
         edges = found.edges
         if any(sharp and is_open for sharp, is_open in zip(edges.sharp, window.is_open)):
             _refuse_wider(window, scene)
@@ -218,8 +208,9 @@ def not_one_patch(scene: Scene) -> LoadError:
 
 def _lever(scene: Scene) -> float | None:
     """Where the load acts, if that is given."""
-    if scene.moment is None or scene.normal_load is None:
+    if scene.moment is None:
         return None
+    assert scene.normal_load is not None
     return scene.moment / scene.normal_load
 
 
@@ -233,24 +224,6 @@ def _refuse_wider(window: Window, scene: Scene) -> None:
         f"the {given} makes contact reach beyond [{window.lo:.6g}, {window.hi:.6g}]: the slope "
         "rises too little, give a domain"
     )
-
-
-def _asks_for_no_tilt(scene: Scene, axis: float) -> bool:
-    """Whether the moment is not given, or is that of a load on the axis."""
-    if scene.moment is None or scene.normal_load is None:
-        return scene.moment is None or scene.moment == axis == 0.0
-    return scene.moment == axis * scene.normal_load
-
-
-def _of_power_law(law: PowerLaw, scene: Scene) -> Edges:
-    G = 0.5 * scene.Estar
-    if scene.half_width is not None:
-        r, P = scene.half_width, law.load(scene.half_width, G)
-    else:
-        assert scene.normal_load is not None
-        r, P = law.half_width(scene.normal_load, G), scene.normal_load
-    contact = interval_about(law.axis, r).rounded((law.axis,))
-    return Edges(contact, P, contact.m * P, 0.0, (False, False), 0.0, 0.0, 0.0, 0)
 
 
 def _smooth(scene: Scene, slope: Slope, tol: float, symmetry: bool) -> Normal | None:
@@ -306,17 +279,14 @@ def _unseen(
     """
     slope, contact = found.slope(scene.profile), found.edges.contact
     accuracy = resolution(tol)
-    pieces = expanded(slope, resolved, contact)
-    places = between_pieces(slope, pieces, contact, accuracy)
     transform = not scene.epsilon and "transform" in economy
     series = slope_series(slope, contact, accuracy) if transform else None
     if series is None:
-        resolved = refined(slope, contact.x1, contact.x2, accuracy)
-        final = expanded(slope, resolved, contact)
-        places += between_pieces(slope, final, contact, accuracy)
+        final = expanded(slope, refined(slope, contact.x1, contact.x2, accuracy), contact)
     else:
         final = one_piece(contact.x1, contact.x2, series)
-    return places + between_points(slope, (pieces.H, final.H), contact, accuracy)
+    pieces = expanded(slope, resolved, contact)
+    return between_points(slope, (pieces.H, final.H), contact, accuracy)
 
 
 def contact_under(
@@ -335,8 +305,7 @@ def contact_under(
     """
     profile = scene.profile
     upright = profile.axis is not None and tilt == 0.0 and "symmetry" in economy
-    searched = not profile.pieces.functions and upright_law(scene, economy, tilt) is None
-    if near is not None and upright and searched:
+    if near is not None and upright and not profile.pieces.functions:
         search = Search(
             profile.pieces, 0.5 * scene.Estar, profile.axis, "zero panels" not in economy
         )
@@ -348,36 +317,37 @@ def contact_under(
     )
 
 
-def _searched(
-    scene: Scene, slope: Slope, economy: Collection[str], start: float = 0.0
-) -> Normal | None:
-    """The edges for a resolved slope; the tilt of a given moment is searched from `start`.
-
-    None where a half-width and a moment leave no contact with smooth edges, and the indenter no
-    others.
-    """
-    axis = scene.profile.axis if "symmetry" in economy else None
-    edges_at = partial(_edges_at, scene=scene, slope=slope, economy=economy)
-    load, moment = scene.normal_load, scene.moment
-    if moment is None:
-        edges = edges_at(scene.tilt)
+def _searched(scene: Scene, slope: Slope, economy: Collection[str], start: float = 0.0) -> Normal:
+    """The edges for a resolved slope; the tilt of a given moment is searched from `start`."""
+    if scene.moment is None:
+        edges = _edges_at(scene.tilt, scene, slope, economy)
     else:
-        if load is not None:
-            refuse_outside(moment, load, slope.domain, scene.profile.domain)
-        search, given = _search(scene, slope, economy), scene.half_width is not None
-        smooth = _of_moment(scene, search, axis)
-        asked = given and not scene.epsilon and not moment == axis == 0.0
-        if smooth is None and asked and np.isinf(scene.profile.domain).all():
-            return None
-        edges = smooth or tilt_of_moment(edges_at, moment, search, given, start)
-    return Normal(edges, axis is not None and edges.tilt == scene.epsilon == 0.0)
+        edges = _of_moment(scene, slope, economy, start)
+    symmetric = "symmetry" in economy and scene.profile.axis is not None
+    return Normal(edges, symmetric and edges.tilt == scene.epsilon == 0.0)
 
 
-def _without_smooth_edges(scene: Scene) -> NoReturn:
-    raise LoadError(
-        f"no contact of half-width {scene.half_width:.6g} with smooth edges was found that "
-        f"has the moment {scene.moment:.6g}: give a smaller moment, or a larger half_width"
-    )
+def _of_moment(scene: Scene, slope: Slope, economy: Collection[str], start: float) -> Edges:
+    """The edges at the tilt of a given moment; near it, each contact from the one before."""
+    load, moment, search = scene.normal_load, scene.moment, _search(scene, slope, economy)
+    assert load is not None
+    assert moment is not None
+    refuse_outside(moment, load, search, scene.profile.domain)
+    before: list[Edges] = []
+
+    def edges_at(tilt: float) -> Edges:
+        found = None
+        if before and not any(before[-1].sharp):
+            contact = before[-1].contact
+            if abs(before[-1].moment - moment) <= NEAR * load * contact.r:
+                tilted = _search(scene, slope.tilted(tilt), economy)
+                found = tilted.near(contact, (False, False), load)
+        before.append(
+            tilted.finished(found, load, tilt) if found else _edges_at(tilt, scene, slope, economy)
+        )
+        return before[-1]
+
+    return tilt_of_moment(edges_at, moment, search, start)
 
 
 def _search(scene: Scene, slope: Slope, economy: Collection[str]) -> Search:
@@ -406,17 +376,3 @@ def _edges_at(tilt: float, scene: Scene, slope: Slope, economy: Collection[str])
     assert load is not None
     found = search.general(load) if search.axis is None else search.symmetric(load)
     return search.finished(found, load, tilt)
-
-
-def _of_moment(scene: Scene, search: Search, axis: float | None) -> Edges | None:
-    """Both edges and the tilt at once where both edges are smooth; None if they may not be."""
-    load, r, moment = scene.normal_load, scene.half_width, scene.moment
-    assert moment is not None
-    if scene.epsilon != 0.0:
-        return None
-    if load is not None:
-        on_axis = axis is not None and moment == axis * load
-        return None if on_axis else given_moment.under_load(search, load, moment)
-    if r is None or moment == axis == 0.0:
-        return None
-    return given_moment.of_half_width(search, r, moment)

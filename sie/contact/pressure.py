@@ -1,7 +1,7 @@
 """The pressure on a known contact, from the slope of the profile there.
 
-A slope that is smooth in the contact takes one Chebyshev series and its exact transform, a power
-law two series of its own, and any other slope exact integrals over its pieces.
+A slope that is smooth in the contact takes one Chebyshev series and its exact transform, any other
+slope exact integrals over its pieces.
 """
 
 from __future__ import annotations
@@ -16,11 +16,10 @@ from sie.numerics import chebyshev
 from sie.numerics.interval import EPS, Interval
 from sie.problem.request import ECONOMY
 from sie.problem.scene import Scene
-from sie.profiles.power_law import PowerLaw
 from sie.profiles.resolution import NOISE, ROUGHEST, refined, rounding_noise
 from sie.profiles.slope import Slope
 from sie.traction.of_slope import SlopeDensity, TransformDensity
-from sie.traction.on_panels import PanelDensity, PowerDensity, SlidingDensity
+from sie.traction.on_panels import PanelDensity, SlidingDensity
 from sie.traction.panels import CHOP, Panels
 from sie.traction.piece_quadrature import Geometry, SlidingGeometry
 
@@ -58,22 +57,10 @@ def pressure(
             if not any(edges.sharp):
                 series[0] = 0.0  # the edges' condition, which quadrature met to rounding
             return TransformDensity(*common, series)
-    law = upright_law(scene, economy, edges.tilt)
-    if law is not None:
-        return PowerDensity(*common, law, declared, resolution(tol))
     slope = refined(declared, contact.x1, contact.x2, resolution(tol))
     return PanelDensity(
         *common, Panels(Geometry(slope, contact, keep_zero="zero panels" not in economy), edges.I0)
     )
-
-
-def upright_law(scene: Scene, economy: Collection[str], tilt: float = 0.0) -> PowerLaw | None:
-    """The power law of a profile that is pressed upright, where its closed form serves."""
-    law = scene.profile.power_law
-    if law is None:
-        return None
-    upright = scene.tilt == tilt == 0.0 and scene.epsilon == 0.0 and "symmetry" in economy
-    return law if law.explicit and upright else None
 
 
 def slope_series(slope: Slope, contact: Interval, tol: float) -> np.ndarray | None:

@@ -11,22 +11,30 @@ from sie.numerics.interval import EPS
 from sie.numerics.root_finding import Bracket
 
 from .edges import Search
-from .known_contact import Edges
+from .known_contact import PLACES, Edges
 
 MAX_TILTS = 100  # tried, whether or not the profile can be tilted by so much
 HUGE = 1e300  # stands for an open end of the bracket
 MISSED = 1e-9  # of the load times its farthest lever: a moment missed by more was not carried
 
 
-def refuse_outside(
-    moment: float, load: float, window: tuple[float, float], domain: tuple[float, float]
-) -> None:
+def refuse_outside(moment: float, load: float, search: Search, domain: tuple[float, float]) -> None:
     """Raises LoadError where the load acts too far outside.
 
-    That is beyond the window on which the slope is resolved, or beyond the indenter.
+    That is beyond the window on which the slope is resolved, beyond the indenter, or where the
+    rounding of the slope carries the load in the narrowest contact that doubles show.
     """
-    if window[0] < moment / load < window[1]:
-        return
+    window, lever = search.slope.domain, moment / load
+    if window[0] < lever < window[1]:
+        narrowest = PLACES * math.ulp(lever)
+        rounding = EPS * abs(float(search.slope(lever))) * narrowest * search.half_modulus
+        if rounding < load:
+            return
+        raise LoadError(
+            f"the moment {moment:.6g} puts the load at x = M/P = {lever:.6g}, where rounding of "
+            "the slope is more than the load shows: lower the moment, or move the profile to where "
+            "the load acts (shifted)"
+        )
     acts = f"the moment {moment:.6g} puts the load at x = M/P = {moment / load:.6g}, "
     if domain[0] < moment / load < domain[1]:
         raise LoadError(
@@ -43,7 +51,6 @@ def tilt_of_moment(
     edges_at: Callable[[float], Edges],
     moment: float,
     search: Search,
-    at_fixed_width: bool,
     tilt: float,
 ) -> Edges:
     """The edges at the tilt whose pressure has the moment, by Newton's method in a bracket.
@@ -60,7 +67,7 @@ def tilt_of_moment(
         bracket.cut((tilt, 0.0), above=excess > 0.0)
         if abs(excess) <= 2.0 * EPS * _reach(edges):
             break
-        falls = _fall_of_moment(edges, search, at_fixed_width)
+        falls = _fall_of_moment(edges, search)
         missed.append(abs(excess))
         astray = missed[-1] > 0.5 * missed[-3]  # to and fro across a part that is nearly flat
         wanted = tilt + excess / falls if falls > 0.0 else math.inf
@@ -81,7 +88,22 @@ def tilt_of_moment(
             moment=best.moment,
             tilt=best.tilt,
         )
-    return best
+    return _beyond_doubles(best, moment, search)
+
+
+def _beyond_doubles(edges: Edges, moment: float, search: Search) -> Edges:
+    """The edges after the rest of the tilt, which is no double: smooth ones keep more digits.
+
+    A tilt δ adds π δ to I0, which the edges take back by -π δ/JL and -π δ/JR.
+    """
+    if any(edges.sharp) or edges.moment == moment or search.epsilon:
+        return edges
+    k = replace(search, slope=search.slope.tilted(edges.tilt)).integrals(edges.contact)
+    rest = math.pi * (edges.moment - moment) / _fall_of_moment(edges, search)
+    if not (k.JL > 0.0 and k.JR > 0.0):
+        return edges
+    contact = edges.contact.moved(-rest / k.JL, -rest / k.JR).rounded(search.slope.break_points)
+    return replace(edges, contact=contact, moment=moment)
 
 
 def _carried(
@@ -102,18 +124,10 @@ def _carried(
     return tilt, None, most
 
 
-def _fall_of_moment(edges: Edges, search: Search, at_fixed_width: bool) -> float:
-    """-dM/d(tilt), which is π/2 G r² (1 - 4ε²) at constant load.
-
-    At constant half-width the load changes too: dm/d(tilt) = -π/J0, dP/dm = G r J1.
-    """
+def _fall_of_moment(edges: Edges, search: Search) -> float:
+    """-dM/d(tilt) at constant load, π/2 G r² (1 - 4ε²)."""
     r, G = edges.contact.r, search.half_modulus / math.cos(math.pi * search.epsilon)
-    falls = 0.5 * math.pi * G * r * r * (1.0 - 4.0 * search.epsilon**2)
-    if at_fixed_width:
-        k = replace(search, slope=search.slope.tilted(edges.tilt)).integrals(edges.contact)
-        rise = k.JR + k.JL  # 0 where a power of x underflows, or is straight to rounding
-        falls += edges.contact.m * math.pi * G * r * (k.JR - k.JL) / rise if rise > 0.0 else 0.0
-    return falls
+    return 0.5 * math.pi * G * r * r * (1.0 - 4.0 * search.epsilon**2)
 
 
 def _reach(edges: Edges) -> float:

@@ -44,7 +44,7 @@ class Scene:
     tilt : float, optional
         Angle that is added to the slope of the profile.
     moment : float, optional
-        ∫p x dx about x = 0 in place of `tilt`, which is then found.
+        ∫p x dx about x = 0 beside `normal_load`, in place of `tilt`, which is then found.
     friction : float, optional
         Coulomb's coefficient f; inf for full stick (a flat punch).
     tangential_load : float, optional
@@ -255,6 +255,11 @@ class Scene:
             self._set(
                 "moment", arguments.measure("moment", self.moment, arguments.LARGEST_COEFFICIENT)
             )
+            if self.half_width is not None:
+                raise ValueError(
+                    f"both half_width = {self.half_width:g} and moment = {self.moment:g} given: "
+                    "give normal_load beside a moment, or tilt beside a half_width"
+                )
             if self.tilt != 0.0:
                 raise ValueError(
                     f"both tilt = {self.tilt:g} and moment = {self.moment:g} given: give one, the "

@@ -1,11 +1,8 @@
 """Traces that are repeated: whether their ends meet, and the periodic spline of those that do.
 
 The ends meet where the last point stands one period after the first one (both measure one place,
-and their mean counts) or where the step over the seam is no gap of the trace, and where the seam is
-no rougher than the trace. A parabola through the next points on either side gives a height and a
-slope at the seam; what the two sides differ by is compared with the same difference in the middle
-of the steps of the trace. The parabolas are as long as the spline averages, so that the difference
-is judged within the noise.
+and their mean counts) or where the step over the seam is no gap of the trace, and where the trace
+bends by no more over the seam, in its fourth differences, than elsewhere.
 
 The spline of a trace whose ends meet is periodic and twice continuously differentiable, over the
 seam too. λ of a smoothing spline is that of the trace.
@@ -32,45 +29,31 @@ from .splines import Spline, closed_spline
 Array = NDArray[np.float64]
 
 SAME = 0.01  # of a step: the last point is the first one of the next period
-NEXT = 4  # points on one side, at least, through which a parabola is laid
-AVERAGED = 2.0  # times the points that the spline averages
-JUDGED = 2000  # places of the trace with which the seam is compared
-ROUGHEST = 2.0  # times the largest of these: more of them might be rougher
-ROUNDING = 64.0 * EPS  # of the heights, and of them over a step
+ROUGHEST = 2.0  # times the largest bend elsewhere: more of them might be larger
+ROUNDING = 1e4 * EPS  # of the heights
+ORDER = 4  # of the differences: to them a smooth trace is next to nothing, and a corner is none
 
 
 class Seam(NamedTuple):
     """The place where a repeated trace begins anew.
 
-    x                    the end of the period, in the trace
-    height, slope        by how much both rise from the end of the trace to its next beginning
-    usual                the largest (height, slope) by which the sides of a place of the trace
-                         differ
-    left                 the length from the last point to the next period, where it is a gap
+    x        the end of the period, in the trace
+    bend     the largest fourth difference over it, and the largest one elsewhere
+    left     the length from the last point to the next period, where it is a gap
     """
 
     x: float
-    height: float
-    slope: float
-    usual: tuple[float, float]
-    left: float = 0.0
+    bend: tuple[float, float]
+    left: float
 
     @property
     def meets(self) -> bool:
-        """Whether the trace has as large differences elsewhere."""
-        differ = abs(self.height), abs(self.slope)
-        return not self.left and all(
-            d <= ROUGHEST * usual for d, usual in zip(differ, self.usual, strict=True)
-        )
+        """Whether there is no gap, and the trace bends as much elsewhere."""
+        return not self.left and self.bend[0] <= ROUGHEST * self.bend[1]
 
     def __str__(self) -> str:
-        parts = [
-            f"{name} by {jump:.3g} ({abs(jump) / usual:.2g} times as much as anywhere in it)"
-            if usual
-            else f"{name} by {jump:.3g}"
-            for name, jump, usual in zip(("height", "slope"), self[1:3], self.usual, strict=True)
-        ]
-        return ", ".join(parts)
+        over, elsewhere = self.bend
+        return f"it bends {over / elsewhere:.3g} times as much there as anywhere in it"
 
 
 @dataclass(frozen=True)
@@ -129,33 +112,18 @@ def _distinct(trace: Sampled, period: float, tilt: float) -> tuple[Array, Array]
 def seam(part: Placed, period: float) -> Seam:
     """The seam of a trace that is repeated."""
     trace: Sampled = part.profile  # type: ignore[assignment]
-    x = trace.points
-    h = trace.heights + part.sign * part.tilt * (x - x[0])
-    end = x[0] + period
-    gap = () if _same_place(x, period) else fitting.gaps(np.append(x, end))
-    many = min(max(NEXT, round(AVERAGED * trace.averaged)), len(x) // 2)
-    steps = np.arange(many, len(x) - many + 1)
-    steps = steps[:: max(len(steps) // JUDGED, 1)]
-    usual = _differences(x, h, steps, many)
-    jump = _differences(np.append(x[-many:], x[:many] + period), np.append(h[-many:], h[:many]),
-                        np.array([many]), many)[0]  # fmt: skip
-    size = float(np.abs(h).max())
-    rounding = ROUNDING * size, ROUNDING * size / float(np.diff(x).min())
-    largest = np.abs(usual).max(axis=0, initial=0.0).tolist()
-    bars = max(largest[0], rounding[0]), max(largest[1], rounding[1])
-    left = float(end - x[-1]) if any(g.hi == end for g in gap) else 0.0
-    return Seam(float(end), float(jump[0]), float(jump[1]), bars, left)
-
-
-def _differences(x: Array, h: Array, steps: NDArray[np.int64], many: int) -> Array:
-    """(height, slope) by which the parabolas on both sides of the middle of each step differ."""
-    middle = 0.5 * (x[steps - 1] + x[steps])
-    sides = []
-    for offsets in (np.arange(-many, 0), np.arange(many)):
-        near = steps[:, None] + offsets
-        u = x[near] - middle[:, None]
-        length = np.abs(u).max(axis=1)
-        powers = (u / length[:, None])[..., None] ** np.arange(3.0)
-        c = np.einsum("ijk,ik->ij", np.linalg.pinv(powers)[:, :2], h[near])
-        sides.append(c / length[:, None] ** np.arange(2.0))
-    return sides[1] - sides[0]
+    x, h = _distinct(trace, period, part.sign * part.tilt)
+    end = float(x[0] + period)
+    gaps = fitting.gaps(np.append(x, end))
+    left = float(end - x[-1]) if any(g.hi == end for g in gaps) else 0.0
+    # over ORDER + 1 neighbouring points each, beginning with those that the seam is among
+    places = np.concatenate((x[-ORDER:] - period, x, x[:ORDER] + period))
+    bends = np.concatenate((h[-ORDER:], h, h[:ORDER]))
+    for k in range(1, ORDER + 1):
+        span = places[k:] - places[:-k]
+        bends = np.diff(bends) / span
+    bends = np.abs(bends) * span**ORDER
+    usual = max(
+        float(bends[ORDER + 1 : -ORDER].max(initial=0.0)), ROUNDING * float(np.abs(h).max())
+    )
+    return Seam(end, (float(bends[: ORDER + 1].max()), usual), left)

@@ -18,14 +18,13 @@ from sie.arguments import abridged
 from sie.inheritance import override
 
 from .base import Profile, of_any_x
-from .slope import JUMP, Slope, polynomial_slope
+from .slope import Slope, polynomial_slope
 
 Array = NDArray[np.float64]
 INF = float("inf")
 # Above the first degree, powers overflow beside the contact. Pieces are moved in rational
 # arithmetic, whose time grows with the square of the degree.
 HIGHEST_DEGREE, HIGHEST_OF_PIECE = 1000, 200
-SURELY = 1.0 - 1e-12  # a bound that rounding does not reach
 NO_DIGITS = 1e3 * float(np.finfo(float).tiny)  # doubles below tiny have fewer digits than others
 
 
@@ -87,11 +86,6 @@ class Polynomial(Profile):
     @override
     def axis(self) -> float | None:
         return None if any(self.coefficients[1::2]) else 0.0
-
-    @cached_property
-    def convex(self) -> bool:
-        """Known where each odd term of h'' is at most its share of the even ones beside it."""
-        return _bends_upwards([_with_digits(c) for c in self.coefficients])
 
 
 @dataclass(frozen=True, init=False, repr=False)
@@ -174,17 +168,6 @@ class Piecewise(Profile):
         )
         return 0.0 if same else None
 
-    @cached_property
-    def convex(self) -> bool:
-        """Known only for slopes that are linear on each piece; other contacts are verified."""
-        s = self.pieces
-        if s.coefficients.shape[1] > 2:
-            return False
-        rising = s.coefficients[:, 1:].min(initial=0.0) >= 0.0
-        left, right = s.at_breaks
-        rounding = JUMP * max(map(abs, left + right), default=0.0)
-        return bool(rising) and all(b >= a - rounding for a, b in zip(left, right, strict=True))
-
 
 def _coefficients(name: str, values: Sequence[float], highest: int, what: str) -> tuple[float, ...]:
     """The coefficients of a polynomial whose degree is at most `highest`; `what` names them."""
@@ -199,26 +182,6 @@ def _coefficients(name: str, values: Sequence[float], highest: int, what: str) -
             "give the slope as a function"
         )
     return c
-
-
-def _bends_upwards(c: Sequence[float]) -> bool:
-    """Whether h'' >= 0 follows term by term, h'' = Σ a_k x^(k-2), a_k = k (k-1) c_k.
-
-    u a_(k-1) x² + v a_(k+1) x⁴ >= 2 sqrt(u v a_(k-1) a_(k+1)) |x|³, where an even term between two
-    odd ones gives each a half of itself, u or v, and otherwise all.
-    """
-    if min(c[2::2], default=0.0) < 0.0:
-        return False
-    odd = {k: abs(c[k]) for k in range(3, len(c), 2) if c[k]}
-    if len(c) - 1 in odd:
-        return False
-    for k, size in odd.items():
-        shares = (0.5 if k - 2 in odd else 1.0) * (0.5 if k + 2 in odd else 1.0)
-        of_orders = (k - 2) * (k + 1) / (k * (k - 1))
-        even = math.sqrt(c[k - 1]) * math.sqrt(c[k + 1])
-        if size > SURELY * 2.0 * math.sqrt(shares * of_orders) * even:
-            return False
-    return True
 
 
 def _with_digits(coefficient: float) -> float:

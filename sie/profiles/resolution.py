@@ -30,8 +30,8 @@ Array = NDArray[np.float64]
 
 SIZES = (17, 33)  # points a piece is tried with before it is split
 TAIL = 3  # the last coefficients that must have decayed
-# Points on no grid, where a settled series is compared with the function. They show most features
-# that lie between the sample points.
+# Points on no grid, where a settled series is compared with the function, as it is next to the ends
+# of a piece. They show most features that lie between the sample points.
 PROBES = np.array([-0.913, -0.537, 0.071, 0.467, 0.859])
 MISSED = 32.0  # times what the series itself may miss
 NEIGHBOURS, CLOSE = 12, 1e-6
@@ -53,8 +53,13 @@ class Tolerance(NamedTuple):
 
     relative: float
     absolute: float
-    breaks: Array
+    smooth_between: Array  # the ends of the interval, and the breaks
     shortest: float  # of the pieces: next to x = 0 powers of x are not smooth to the last double
+
+    @property
+    def breaks(self) -> Array:
+        """The declared breaks."""
+        return self.smooth_between[1:-1]
 
     def of(self, pieces: Array, values: Array, scale: float) -> Array:
         """The tolerance of each piece (K, 2) with values (K, n); `scale` is the largest |value|."""
@@ -83,7 +88,7 @@ def resolved(
         ends = np.union1d(breaks, cuts[(cuts > breaks[0]) & (cuts < breaks[-1])])
     open_ = np.stack((ends[:-1], ends[1:]), axis=1)
     noise = NOISE * rounding_noise(function, breaks[0], breaks[-1])
-    tolerance = Tolerance(tol, noise, breaks[1:-1], SHORTEST * (breaks[-1] - breaks[0]))
+    tolerance = Tolerance(tol, noise, breaks, SHORTEST * (breaks[-1] - breaks[0]))
     done: list[tuple[float, float, int]] = []
     scale, level = 0.0, 0
     while len(open_):
@@ -145,8 +150,10 @@ def _degrees(
     middle, half = 0.5 * (lo + hi), 0.5 * (hi - lo)
     s = np.concatenate((chebyshev.points(n), PROBES))
     x = middle[:, None] + half[:, None] * s
-    values = function(x)
-    refuse_non_finite(x, values)
+    # a jump beside an end shows there, where that is no end of smoothness itself
+    ends = np.stack((np.nextafter(lo, hi), np.nextafter(hi, lo)), axis=1)
+    values = function(np.concatenate((x, ends), axis=1))
+    refuse_non_finite(np.concatenate((x, ends), axis=1), values)
     scale = max(scale, float(np.abs(values).max()))
     c = chebyshev.transform(values[:, :n])
     enough = tolerance.of(pieces, values, scale)
@@ -155,7 +162,9 @@ def _degrees(
         enough,
         EPS * np.abs(x).max(axis=1) * np.ptp(values, axis=1) / (2.0 * np.maximum(half, TINY)),
     )
-    missed = np.abs(c @ _at_probes(n) - values[:, n:]).max(axis=1)
+    missed = np.abs(c @ _at_probes(n) - values[:, n:])
+    missed[:, -2:] *= ~np.isin(pieces, tolerance.smooth_between)
+    missed = missed.max(axis=1)
     settled = (np.abs(c[:, -TAIL:]).max(axis=1) <= floor) & (missed <= MISSED * floor)
     ulp = np.spacing(np.abs(pieces).max(axis=1))
     settled |= 2.0 * half <= np.maximum(4.0 * ulp, tolerance.shortest)
@@ -166,7 +175,7 @@ def _degrees(
 
 @lru_cache(maxsize=len(SIZES))
 def _at_probes(n: int) -> Array:
-    return chebyshev.polynomials(n, PROBES)
+    return chebyshev.polynomials(n, np.append(PROBES, (-1.0, 1.0)))
 
 
 def rounding_noise(function: Callable[[Array], Array], lo: float, hi: float) -> float:

@@ -290,9 +290,9 @@ class Periodic(Profile):
         left = seams[0].left
         how = f"with {left:.4g} without indenter" if left else "with a corner"
         return (
-            f"note: the ends of the trace do not meet at x = {hi:.6g}, it jumps in {seams[0]}: it "
-            f"repeats {how}, where contact has an infinite pressure; cut it between two places of "
-            "one height and slope"
+            f"note: the ends of the trace do not meet at x = {hi:.6g}, {seams[0]}: it repeats "
+            f"{how}, where contact has an infinite pressure; cut it between two places of one "
+            "height and slope"
         )
 
     def within(self, x: Array) -> Array:

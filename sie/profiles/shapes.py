@@ -15,7 +15,7 @@ from sie import arguments
 from sie.inheritance import override
 
 from .base import Profile, of_any_x
-from .power_law import PowerLaw, PowerSlope
+from .power_law import PowerLaw
 from .slope import FunctionTerm, Slope, polynomial_slope
 
 Array = NDArray[np.float64]
@@ -233,10 +233,6 @@ class Power(_Convex):
     ValueError
         If the exponent is below 1 or a parameter is not a finite number in its range.
 
-    Notes
-    -----
-    For 1 < exponent <= 300, upright and alone, the contact has a closed form (`power_law`).
-
     References
     ----------
     I. A. Shtaerman (1939), Dokl. Akad. Nauk SSSR 25. J. Jäger (1998), Proc. IMechE C 212.
@@ -269,7 +265,7 @@ class Power(_Convex):
                 return polynomial_slope((-INF, INF), (0.0,), (row,))
             return polynomial_slope((-INF, 0.0, INF), (0.0, 0.0), ([-c for c in row], row))
         smooth = polynomial_slope((-INF, 0.0, INF), (0.0, 0.0), ((0.0,), (0.0,)))
-        return replace(smooth, functions=(FunctionTerm(PowerSlope(m, A)),))
+        return replace(smooth, functions=(FunctionTerm(PowerLaw(m, A)),))
 
     @of_any_x
     @override

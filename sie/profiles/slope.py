@@ -300,12 +300,6 @@ class Slope:
         c, tails = self.about(np.arange(len(origins)), origins, self.coefficients.shape[1])
         return replace(self, origins=origins, coefficients=c, tails=tails)
 
-    def less_level(self, x: float, near: float) -> tuple[float, Slope]:
-        """H(x), and H - H(x) on pieces about x where their origins are not so near to it."""
-        level = float(self(x))
-        origins = np.where(np.abs(self.origins - x) > near, x, self.origins)
-        return level, self._recentred(origins).tilted(-level)
-
     def split_at(self, x: float) -> Slope:
         """The same slope with one more break, at x."""
         k = int(np.searchsorted(self.breaks, x))

@@ -108,8 +108,6 @@ class SlopeDensity(Density):
     def _slope(self, x: Array) -> Array:
         """H inside the contact."""
 
-    resolves = True  # whether a slope that is a function is known by its values at some points only
-
     def resolved_slope(self, x: Array) -> Array:
         """H inside the contact, x ascending, as the pressure uses it.
 

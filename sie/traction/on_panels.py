@@ -2,9 +2,8 @@
 
     p = E*/2 cos²(πε)/π V on the contact,        F = -E*/2 cos(πε)/π V elsewhere
 
-with V of `potential`; ε = 0 unless dissimilar bodies slide. `PowerDensity` takes the pressure of an
-upright power law from series of its own. In full sliding, `SlidingDensity`, q = f p acts back on
-the pressure, and the exponents leave 1/2:
+with V of `potential`; ε = 0 unless dissimilar bodies slide. In full sliding, `SlidingDensity`,
+q = f p acts back on the pressure, and the exponents leave 1/2:
 
     1/π PV∫ p(t)/(x - t) dt + tan(πε) p(x) = E*/2 H(x),        tan πε = -β f
 
@@ -32,9 +31,7 @@ from numpy.typing import NDArray
 from sie.inheritance import override
 from sie.numerics import chebyshev, lerch
 from sie.numerics.interval import Interval
-from sie.profiles.power_law import PowerLaw, PowerSlope
-from sie.profiles.resolution import refined
-from sie.profiles.slope import Slope
+from sie.profiles.power_law import PowerLaw
 
 from . import potential
 from .of_slope import SlopeDensity
@@ -50,10 +47,16 @@ CUSP, BESIDE_CUSP = 2.0, 1e-9
 STRAIGHT = 2.9  # powers from here on are straight so near to an axis
 
 
-class OnPanels(SlopeDensity):
+@dataclass(frozen=True, eq=False)
+class PanelDensity(SlopeDensity):
     """H piece by piece."""
 
     panels: Panels
+
+    @property
+    @override
+    def epsilon(self) -> float:
+        return self.panels.edge.epsilon
 
     @property
     def _potential_scale(self) -> float:
@@ -81,8 +84,8 @@ class OnPanels(SlopeDensity):
         steep: dict[float, list[PowerLaw]] = {}
         for term in slope.functions:
             f, axis = term.function, term.shift
-            if isinstance(f, PowerSlope) and 1.0 < f.exponent < STRAIGHT and lo < axis < hi:
-                steep.setdefault(axis, []).append(PowerLaw(f.exponent, f.coefficient, axis))
+            if isinstance(f, PowerLaw) and 1.0 < f.exponent < STRAIGHT and lo < axis < hi:
+                steep.setdefault(axis, []).append(f)
         return {
             axis: laws
             for axis, laws in steep.items()
@@ -96,11 +99,10 @@ class OnPanels(SlopeDensity):
         found = {}
         for axis, laws in self._steep.items():
             b = float(min(self.contact.from_left(axis), self.contact.from_right(axis)))
-            y = BESIDE_CUSP * b * np.array([-1.0, 1.0])
-            places = np.append(y, 0.0)
-            alone = np.sum([law.pressure(places, b - np.abs(places), b) for law in laws], axis=0)
-            rise = alone[2] - 0.5 * (alone[0] + alone[1])
-            found[axis] = float(self._by_pieces(axis + y).mean() + self.panels.edge.cos**2 * rise)
+            y = BESIDE_CUSP * b
+            beside = self._by_pieces(axis + y * np.array([-1.0, 1.0])).mean()
+            rise = sum(law.cusp(y) for law in laws)
+            found[axis] = float(beside + self.panels.edge.cos**2 * rise)
         return found
 
     def _slope(self, x: Array) -> Array:
@@ -160,18 +162,6 @@ class OnPanels(SlopeDensity):
         }
         return (self.contact.x1, *sorted(inner), self.contact.x2)
 
-
-@dataclass(frozen=True, eq=False)
-class PanelDensity(OnPanels):
-    """The same with its panels given."""
-
-    panels: Panels
-
-    @property
-    @override
-    def epsilon(self) -> float:
-        return self.panels.edge.epsilon
-
     @override
     def moved(self, contact: Interval, dx: float, tail: float) -> Self:
         old = self.panels
@@ -181,46 +171,6 @@ class PanelDensity(OnPanels):
         breaks[0], breaks[-1] = min(breaks[0], contact.x1), max(breaks[-1], contact.x2)
         panels = Panels(Geometry(replace(slope, breaks=breaks), contact), old.I0)
         return replace(self, contact=contact, panels=panels)
-
-
-@dataclass(frozen=True, eq=False)
-class PowerDensity(OnPanels):
-    """A power law pressed upright: p in closed form (`power_law`), the potential by panels."""
-
-    law: PowerLaw
-    declared: Slope
-    resolution: float
-    resolves = False
-
-    @cached_property
-    def panels(self) -> Panels:  # type: ignore[override]
-        """The panels of the declared pieces and their resolution on the contact."""
-        pieces = refined(self.declared, self.contact.x1, self.contact.x2, self.resolution)
-        return Panels(Geometry(pieces, self.contact))
-
-    @property
-    @override
-    def slope_scale(self) -> float:
-        return self.law.slope(self.contact.r)
-
-    def _regular(self, x: Array) -> Array:
-        near = np.minimum(self.contact.from_left(x), self.contact.from_right(x))
-        J = self.law.superposed(x - self.law.axis, near, self.contact.r)
-        mean = self.resultant / (np.pi * self.contact.r) / self.half_modulus
-        return (self.law.exponent * mean) * J
-
-    def _slope(self, x: Array) -> Array:
-        return self.declared(x)
-
-    @property
-    def _slope_at_edges(self) -> tuple[float, float]:
-        return -self.slope_scale, self.slope_scale
-
-    @override
-    def moved(self, contact: Interval, dx: float, tail: float) -> Self:
-        law = replace(self.law, axis=self.law.axis + dx + tail)
-        declared = self.declared.shifted(dx).shifted(tail)
-        return replace(self, contact=contact, law=law, declared=declared)
 
 
 class SlidingDensity(PanelDensity):

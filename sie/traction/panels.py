@@ -24,7 +24,7 @@ from numpy.typing import NDArray
 from sie.numerics import chebyshev
 from sie.numerics.cauchy_sums import SEPARATED, KernelSums
 from sie.numerics.interval import EPS
-from sie.profiles.power_law import PowerSlope
+from sie.profiles.power_law import PowerLaw
 from sie.profiles.slope import JUMP, SEEN_JUMP, Slope
 
 from .near_breaks import ContinuousBreaks
@@ -322,7 +322,7 @@ class Panels:
 
 def _is_cusp(slope: Slope, x: float) -> bool:
     """Whether x is the axis of a power law, so steep that it seems to jump, without a corner."""
-    steep = (f.shift for f in slope.functions if isinstance(f.function, PowerSlope))
+    steep = (f.shift for f in slope.functions if isinstance(f.function, PowerLaw))
     return x in steep and not slope.without_functions.corner(x)[0]
 
 

@@ -9,12 +9,11 @@ import pytest
 import sie
 from oracles import normal_contact
 from oracles.normal_contact import mp
-from sie.certificate import pressure_check, quadrature, result
+from sie.certificate import result
 from sie.certificate.result import BESIDES, PROMISE
-from sie.contact import gap, least_gaps, normal
+from sie.contact import least_gaps, normal
 from sie.numerics.interval import interval_about
 from sie.profiles import unresolved
-from sie.traction import on_panels
 from validation.wrong_programs.pressures import with_pressure
 
 SHARE = 3.0  # of the promise
@@ -230,7 +229,7 @@ def test_the_stick_zone_of_such_a_function_is_right_too(name):
     assert found.stick[0] == pytest.approx(declared.stick[0], abs=1e-13)
 
 
-@pytest.mark.parametrize("name", ["jump", "narrow bump", "faint bump"])
+@pytest.mark.parametrize("name", ["narrow bump", "faint bump"])
 def test_the_certificate_detects_a_feature_that_the_solver_missed(name, monkeypatch):
     """The solver does not test between its points: the certificate does, at points of its own."""
     slope, breaks = UNDECLARED[name]
@@ -238,7 +237,6 @@ def test_the_certificate_detects_a_feature_that_the_solver_missed(name, monkeypa
     monkeypatch.setattr(normal, "LOOKS", 0)
     blind = pressed(slope)
     x = np.linspace(-0.95, 0.95, 4001) * right.half_width + right.centre
-    x = x[np.abs(x - 0.2) > 1e-5] if name == "jump" else x
     error = float(np.abs(blind.pressure(x) - right.pressure(x)).max() / right.pressure(x).max())
     found = blind.check()
     assert error > 1e-10
@@ -399,20 +397,6 @@ def test_a_gap_that_opens_everywhere_is_not_integrated(monkeypatch):
         *powers,
     ):
         assert solved(profile).check().lowest_gap == 0.0
-
-
-@pytest.mark.parametrize("exponent", [1.001, 1.3, 2.5, 4.5, 60.5])
-def test_the_certificate_of_a_power_resolves_no_function(exponent, monkeypatch):
-    """The closed form needs no pieces, and the rule of the certificate is graded to the axis."""
-
-    def refuse(*_):
-        raise AssertionError("resolved")
-
-    profile = sie.Power(exponent, 0.75).shifted(0.7)
-    solution = solved(profile)
-    for module in (pressure_check, quadrature, gap, on_panels):
-        monkeypatch.setattr(module, "refined", refuse)
-    assert solution.check().ok
 
 
 @pytest.mark.parametrize("exponent", [1.3, 2.5, 60.5])

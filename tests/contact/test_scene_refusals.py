@@ -137,6 +137,10 @@ def test_every_poisson_ratio_of_a_stable_solid_is_accepted(nu):
         ({"normal_load": None}, "neither.*normal_load.*half_width"),
         ({"half_width": 1.5}, "both.*normal_load.*half_width"),
         ({"tilt": 0.125, "moment": 0.5}, r"both.*0\.125.*0\.5"),
+        (
+            {"normal_load": None, "half_width": 0.25, "moment": 0.5},
+            r"both half_width = 0\.25 and moment = 0\.5.*give normal_load beside a moment",
+        ),
         ({"modulus": None}, "neither.*body.*modulus"),
         ({"body": STEEL}, "both.*body.*modulus"),
         ({"modulus": None, "body": STEEL, "dundurs": 0.1}, r"dundurs.*0\.1"),

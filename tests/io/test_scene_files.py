@@ -121,11 +121,11 @@ def test_the_bodies_and_every_load_of_a_scene_can_be_written():
     scene = parse(
         PAIR
         + PARABOLA
-        + "[load]\nhalf_width = 1\nmoment = 2\nfriction = 0.5\ntangential_load = 3\nbulk_stress = "
+        + "[load]\nnormal_load = 1\nmoment = 2\nfriction = 0.5\ntangential_load = 3\nbulk_stress = "
         "4\n"
     ).scene
     assert scene == sie.Scene(
-        profile=sie.Parabola(10.0), modulus=1e5, half_width=1.0, moment=2.0, friction=0.5,
+        profile=sie.Parabola(10.0), modulus=1e5, normal_load=1.0, moment=2.0, friction=0.5,
         tangential_load=3.0, bulk_stress=4.0,
     )  # fmt: skip
 
