@@ -29,6 +29,7 @@ from sie.profiles.trace_values import Smoothing
 
 from .quantities import ANGLE, FORCE, LENGTH, MOMENT, STRESS, Converter
 from .toml_values import (
+    CELL,
     CONSTANT,
     FLAG,
     NUMBER,
@@ -93,7 +94,7 @@ TABLES: Mapping[str, Keys] = {
         "tilt": Key(NUMBER, ANGLE),
         "moment": Key(NUMBER, MOMENT),
         "friction": Key(in_range(minimum=0.0)),
-        "path": Key(by_type(str, TEXT, list_of(NUMBERS))),
+        "path": Key(by_type(str, TEXT, list_of(list_of(CELL)))),
         "columns": Key(TEXTS),
     },
 }
