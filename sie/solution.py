@@ -1,7 +1,8 @@
 """The solution of a scene: a lazy view over the stages of the work.
 
 Each result is computed when it is read first, and `vars(solution)` shows the computed ones. The
-contact without shear is in `frictionless`, the stress in the body in `stress_answers`.
+contact without shear is in `frictionless`, the stress in the body in `stress_answers`. Of the lines
+here more than 300 are the docstrings of what users read in one place.
 """
 
 from __future__ import annotations
@@ -19,7 +20,7 @@ from . import arguments
 from .contact.known_contact import Edges, Normal
 from .contact.normal import contact_under
 from .contact.pressure import pressure
-from .errors import ContactError
+from .errors import ContactError, InequalityError
 from .frictionless import Frictionless
 from .numerics.interval import Interval
 from .problem.coverage import held_moment, refuse_uncovered
@@ -95,6 +96,29 @@ class Solution(Frictionless, StressAnswers):
         if self.scene.coupled:
             return Normal(self.coupled[0], not (self.scene.tangential_load or self.scene.tau))
         return super()._contact()
+
+    @property
+    def _not_convex(self) -> Normal | SeveralPatches | FullContact:
+        """The same; of dissimilar bodies that slide one patch, whose inequalities are verified."""
+        if not self.scene.epsilon:
+            return super()._not_convex
+        from .certificate.pressure_check import certificate
+        from .contact.least_gaps import TOLERATED, shown
+
+        found = self.unverified
+        density = pressure(found, self.scene, self.tol, self.economy)
+        measured = certificate(density, found.slope(self.scene.profile), self.tol)
+        if min(measured.lowest_pressure, measured.lowest_gap) < -TOLERATED:
+            where = shown(measured.tension or measured.overlap)
+            raise InequalityError(
+                f"one patch of contact {density.interval} would need tension, or overlap, at "
+                f"{where}, and dissimilar bodies that slide are solved in one patch only; smooth "
+                "the profile, or give dundurs = 0 to neglect β",
+                edges=density.interval,
+                tension=measured.tension,
+                overlap=measured.overlap,
+            )
+        return found
 
     @cached_property
     def bonded(self) -> tuple[Edges, JacobiDensity]:
