@@ -652,7 +652,7 @@ class Solution(Frictionless, StressAnswers):
 
         The error of the pressure that a report states is estimated from the misfit of the spline.
         The certificate measures something else: how well the equations are solved for this spline.
-        The cost is a smoothing by cross validation; no contact is solved again.
+        The cost is a smoothing by cross validation and a dozen systems for the edges.
 
         Returns
         -------
@@ -661,14 +661,8 @@ class Solution(Frictionless, StressAnswers):
         """
         from .certificate.trace_noise import trace_reports
 
-        several = self._several
-        if several is None:
-            if self.scene.bonded or self.scene.coupled:
-                return ()
-            return trace_reports(self.scene, self.as_one_patch.edges, self.slope_density)
-        if several.found is None:
-            return ()
-        return trace_reports(self.scene, several.edges, several)
+        several = None if self.scene.bonded or self.scene.coupled else self.in_patches
+        return trace_reports(self.scene, several) if several is not None and several.found else ()
 
     def plot(self, ax: Any = None, what: str = "pressure", units: Any = None) -> Any:
         """One panel of the picture of the contact, on axes of Matplotlib.

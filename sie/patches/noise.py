@@ -59,7 +59,11 @@ def changes(
     angle = np.pi * (np.arange(PLACES) + 0.5) / PLACES
     places = P.c[:, None] - INNER * P.r[:, None] * np.cos(angle)
     half_modulus = pressure.half_modulus
-    first, *others = (_changed(found, half_modulus, one, places, moment) for one in errors)
+    intensity = conditions_of(found).intensity
+    sharp = found.state.sharp
+    moved_by = np.where(sharp, 0.0, 2.0 / np.where(sharp, 1.0, intensity))
+    changed = [_changed(found, half_modulus, one, places, moment) for one in errors]
+    first, *others = ((p, moved_by * charge) for p, charge in changed)
     p, moved = (
         np.abs(first[k]) + spread * np.sqrt(np.mean([o[k] ** 2 for o in others], axis=0))
         for k in (0, 1)
@@ -79,16 +83,14 @@ def changes(
 def _changed(
     found: Found, half_modulus: float, error: Profile, places: Array, moment: bool
 ) -> tuple[Array, Array]:
-    """δp at places and the shifts of the edges (2N,) by an error; sharp edges stay."""
-    state = found.state
-    P, sharp = state.patches, state.sharp
+    """δp at places and the point charges at the edges (2N,) by an error."""
+    P = found.state.patches
     pieces = of_profile(error, found.operator.pieces.domain, TOLERANCE)
     none = Given(0.0, 0.0, 0.0 if moment else None)
     still = State(P, np.ones(2 * P.number, dtype=bool), np.zeros(2 * P.number), 0.0)
     o = operator_of(still, pieces)
     linear = conditions(still, o, none)
-    moved = np.where(sharp, 0.0, 2.0 / np.where(sharp, 1.0, conditions_of(found).intensity))
     y = linear.charged(-missed(still, o, none, linear)[:, None])[:, 0]
     charged = Operator(P, pieces, y[:-1])
     p = PatchPressure(charged, half_modulus, float(y[-1]), 0.0)(places)
-    return p, moved * y[:-1]
+    return p, y[:-1]
