@@ -55,19 +55,13 @@ def changes(
 
     All are of the same period. `moment`: whether that is given, and the tilt changes.
     """
-    P = found.state.patches
+    P, half_modulus = found.state.patches, pressure.half_modulus
     angle = np.pi * (np.arange(PLACES) + 0.5) / PLACES
     places = P.c[:, None] - INNER * P.r[:, None] * np.cos(angle)
-    half_modulus = pressure.half_modulus
-    intensity = conditions_of(found).intensity
-    sharp = found.state.sharp
-    moved_by = np.where(sharp, 0.0, 2.0 / np.where(sharp, 1.0, intensity))
-    changed = [_changed(found, half_modulus, one, places, moment) for one in errors]
-    first, *others = ((p, moved_by * charge) for p, charge in changed)
-    p, moved = (
-        np.abs(first[k]) + spread * np.sqrt(np.mean([o[k] ** 2 for o in others], axis=0))
-        for k in (0, 1)
-    )
+    changed = (_changed(found, half_modulus, one, places, moment) for one in errors)
+    p, charge = (_together(spread, *parts) for parts in zip(*changed, strict=True))
+    sharp, intensity = found.state.sharp, np.abs(conditions_of(found).intensity)
+    moved = np.where(sharp, 0.0, 2.0 * charge / np.where(sharp, 1.0, intensity))
     peak = float(pressure(places).max())
     inner = float(p.max()) / peak
     edges = moved.reshape(-1, 2)
@@ -78,6 +72,10 @@ def changes(
     return PatchErrors(
         max(inner, largest), inner, (float(edges[0, 0]), float(edges[-1, 1])), unsure
     )
+
+
+def _together(spread: float, first: Array, *others: Array) -> Array:
+    return np.abs(first) + spread * np.sqrt(np.mean(np.square(others), axis=0))
 
 
 def _changed(
@@ -92,5 +90,4 @@ def _changed(
     linear = conditions(still, o, none)
     y = linear.charged(-missed(still, o, none, linear)[:, None])[:, 0]
     charged = Operator(P, pieces, y[:-1])
-    p = PatchPressure(charged, half_modulus, float(y[-1]), 0.0)(places)
-    return p, y[:-1]
+    return PatchPressure(charged, half_modulus, float(y[-1]), 0.0)(places), y[:-1]
