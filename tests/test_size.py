@@ -28,7 +28,7 @@ LINES = {
     "problem": 970,
     "profiles": 5890,
     "stress": 2230,
-    "sweeps": 890,
+    "sweeps": 880,
     "traction": 2720,
 }
 FILES = 283
