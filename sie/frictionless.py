@@ -17,7 +17,7 @@ from .contact.known_contact import Normal
 from .contact.normal import normal_contact, not_one_patch, of_one_patch, one_series
 from .contact.pressure import pressure
 from .contact.window import window_of
-from .errors import ContactError, InequalityError
+from .errors import ContactError
 from .problem.request import ECONOMY
 from .problem.scene import Scene
 from .profiles.lowest_points import lowest_points
@@ -57,13 +57,14 @@ class Frictionless:
     def _contact(self) -> Normal | SeveralPatches | FullContact:
         """The contact without shear."""
         try:
-            if self.convex:
-                return self.unverified
-            if self.scene.epsilon:
-                return self._verified
-            return self._of_half_width if self.scene.half_width is not None else self._in_patches
+            return self.unverified if self.convex else self._not_convex
         except ContactError as error:
             raise explained(error, self.scene.profile) from None
+
+    @property
+    def _not_convex(self) -> Normal | SeveralPatches | FullContact:
+        """The contact of a profile whose slope falls somewhere."""
+        return self._of_half_width if self.scene.half_width is not None else self._in_patches
 
     @property
     def convex(self) -> bool:
@@ -112,27 +113,6 @@ class Frictionless:
         merged = turns_away(self.scene.profile.pieces, patches[0])
         if len(patches) > 1 or merged or apart > SAME * edges.contact.r:
             raise not_one_patch(self.scene)
-        return found
-
-    @property
-    def _verified(self) -> Normal:
-        """The contact of dissimilar bodies that slide, which is solved in one patch only."""
-        from .certificate.pressure_check import certificate
-        from .contact.least_gaps import TOLERATED, shown
-
-        found = self.unverified
-        density = pressure(found, self.scene, self.tol, self.economy)
-        measured = certificate(density, found.slope(self.scene.profile), self.tol)
-        if min(measured.lowest_pressure, measured.lowest_gap) < -TOLERATED:
-            where = shown(measured.tension or measured.overlap)
-            raise InequalityError(
-                f"one patch of contact {density.interval} would need tension, or overlap, at "
-                f"{where}, and dissimilar bodies that slide are solved in one patch only; smooth "
-                "the profile, or give dundurs = 0 to neglect β",
-                edges=density.interval,
-                tension=measured.tension,
-                overlap=measured.overlap,
-            )
         return found
 
     @property

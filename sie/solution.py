@@ -1,7 +1,8 @@
 """The solution of a scene: a lazy view over the stages of the work.
 
 Each result is computed when it is read first, and `vars(solution)` shows the computed ones. The
-contact without shear is in `frictionless`, the stress in the body in `stress_answers`.
+contact without shear is in `frictionless`, the stress in the body in `stress_answers`. Of the lines
+here more than 300 are the docstrings of what users read in one place.
 """
 
 from __future__ import annotations
@@ -19,7 +20,7 @@ from . import arguments
 from .contact.known_contact import Edges, Normal
 from .contact.normal import contact_under
 from .contact.pressure import pressure
-from .errors import ContactError
+from .errors import ContactError, InequalityError
 from .frictionless import Frictionless
 from .numerics.interval import Interval
 from .problem.coverage import held_moment, refuse_uncovered
@@ -94,6 +95,29 @@ class Solution(Frictionless, StressAnswers):
         if self.scene.coupled:
             return Normal(self.coupled[0], not (self.scene.tangential_load or self.scene.tau))
         return super()._contact()
+
+    @property
+    def _not_convex(self) -> Normal | SeveralPatches | FullContact:
+        """The same; of dissimilar bodies that slide one patch, whose inequalities are verified."""
+        if not self.scene.epsilon:
+            return super()._not_convex
+        from .certificate.pressure_check import certificate
+        from .contact.least_gaps import TOLERATED, shown
+
+        found = self.unverified
+        density = pressure(found, self.scene, self.tol, self.economy)
+        measured = certificate(density, found.slope(self.scene.profile), self.tol)
+        if min(measured.lowest_pressure, measured.lowest_gap) < -TOLERATED:
+            where = shown(measured.tension or measured.overlap)
+            raise InequalityError(
+                f"one patch of contact {density.interval} would need tension, or overlap, at "
+                f"{where}, and dissimilar bodies that slide are solved in one patch only; smooth "
+                "the profile, or give dundurs = 0 to neglect β",
+                edges=density.interval,
+                tension=measured.tension,
+                overlap=measured.overlap,
+            )
+        return found
 
     @cached_property
     def bonded(self) -> tuple[Edges, JacobiDensity]:
@@ -608,7 +632,7 @@ class Solution(Frictionless, StressAnswers):
 
         The error of the pressure that a report states is estimated from the misfit of the spline.
         The certificate measures something else: how well the equations are solved for this spline.
-        The cost is a smoothing by cross validation; no contact is solved again.
+        The cost is a smoothing by cross validation and a dozen systems for the edges.
 
         Returns
         -------
@@ -617,14 +641,8 @@ class Solution(Frictionless, StressAnswers):
         """
         from .certificate.trace_noise import trace_reports
 
-        several = self._several
-        if several is None:
-            if self.scene.bonded or self.scene.coupled:
-                return ()
-            return trace_reports(self.scene, self.as_one_patch.edges, self.slope_density)
-        if several.found is None:
-            return ()
-        return trace_reports(self.scene, several.edges, several)
+        several = None if self.scene.bonded or self.scene.coupled else self.in_patches
+        return trace_reports(self.scene, several) if several is not None and several.found else ()
 
     def plot(self, ax: Any = None, what: str = "pressure", units: Any = None) -> Any:
         """One panel of the picture of the contact, on axes of Matplotlib.

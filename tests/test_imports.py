@@ -56,14 +56,11 @@ HANDED_UP = {
     ("sie.paths.history", "sie.plots.one_axes"),
     ("sie.io.html_report", "sie.plots.contact_plot"),
     ("sie.io.html_report", "sie.plots.loop_plot"),
-    ("sie.problem.load_path", "sie.io.html_report"),
     ("sie.problem.scene", "sie.io.scene_writing"),
     ("sie.profiles.base", "sie.profiles.derived"),
     ("sie.solution", "sie.paths.history"),
     ("sie.solution", "sie.io.html_report"),
     ("sie.solution", "sie.plots.one_axes"),
-    ("sie.paths.steady_state", "sie.io.html_report"),
-    ("sie.stress.fretting", "sie.io.html_report"),
 }
 
 

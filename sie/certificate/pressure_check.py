@@ -61,20 +61,18 @@ def _measured(density: SlopeDensity, slope: Slope, tol: float) -> Certificate:
     contact = density.contact
     resolved = refined(slope, contact.x1, contact.x2, EPS)
     rule = composite_rule(contact, slope, epsilon=density.epsilon, resolution=resolved)
-    x, weight = rule.x, rule.weight
-    p = _finite(density(x))
-    finite = _of_sharp_edges(density, x)
+    p = _finite(density(rule.x))
+    finite = _of_sharp_edges(density, rule.x)
     if density.k1 or density.k2:  # p dx = p finite r dφ, both at x as it is rounded
-        weight = weight * finite / np.sin(rule.angle)
-        rule = rule._replace(weight=weight)
+        rule = rule._replace(weight=rule.weight * finite / np.sin(rule.angle))
     peak = float((p * finite).max())
-    P, r = density.resultant, contact.r
     H, H_beside, H_at_edges = _slopes(slope, contact, rule.between)
     residual = _residual(density, H, rule, p)
     outside, gaps = relative_gaps(density, slope, FINER, start_of(density.interval))
     of_force, of_equation = _rounding(density, H_beside - H, rule, p)
-    abscissae = max(of_force / P, of_equation / peak)
-    regular = regular_points(density, slope, x)
+    abscissae = max(of_force / density.resultant, of_equation / peak)
+    force, moment = _equilibrium(density, rule, p)
+    regular = regular_points(density, slope, rule.x)
     bounded_peak = float(p[regular].max(initial=0.0))
     by_values = bool(slope.functions)
     unseen = largest_misfit(slope, density.resolved_slope, contact) if by_values else 0.0
@@ -82,23 +80,28 @@ def _measured(density: SlopeDensity, slope: Slope, tol: float) -> Certificate:
     return Certificate(
         residual=float(np.abs(residual).max()) / peak,
         implied=_implied(residual, contact, rule.between) / peak,
-        force=abs(float(weight @ p) - P) / P,
-        moment=abs(
-            float(weight @ (p * ((x - contact.m) / r))) + P * (contact.m / r) - density.moment / r
-        )
-        / P,  # P r may underflow
+        force=force,
+        moment=moment,
         lowest_pressure=min(float(p.min()) / peak, 0.0),
         lowest_gap=float(gaps.min(initial=0.0)),
         abscissae=abscissae,
         tol=tol,
-        tension=intervals_below(x, p / peak),
+        tension=intervals_below(rule.x, p / peak),
         overlap=intervals_below(outside, gaps),
         resolution=resolution,
-        edges=_load_on_edges(density, resolved, rule) / (math.pi * r * (bounded_peak or peak)),
+        edges=_load_on_edges(density, resolved, rule)
+        / (math.pi * contact.r * (bounded_peak or peak)),
         root=0.5 + abs(density.epsilon),
         notes=unresolved(abscissae)
         + notes(np.concatenate((H, H_at_edges)), bounded_peak / (2.0 * density.half_modulus)),
     )
+
+
+def _equilibrium(density: SlopeDensity, rule: Rule, p: Array) -> tuple[float, float]:
+    """The defects of force and moment over P and P r; P r may underflow."""
+    P, r, m = density.resultant, density.contact.r, density.contact.m
+    arm = float(rule.weight @ (p * ((rule.x - m) / r)))
+    return abs(float(rule.weight @ p) - P) / P, abs(arm + P * (m / r) - density.moment / r) / P
 
 
 def _of_sharp_edges(density: SlopeDensity, x: Array) -> Array:

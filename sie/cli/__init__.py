@@ -247,12 +247,10 @@ def _example(arguments: argparse.Namespace) -> int:
 
 def _benchmark_set(arguments: argparse.Namespace) -> int:
     """Write the set into a new or an empty folder: all of its files, or none."""
-    from sie.io import export
     from sie.io.benchmark_set import benchmark_set
 
     folder = files.empty_folder(arguments.folder)
-    texts = benchmark_set({"csv": export.csv_text, "json": export.json_text})
-    contents = {folder / name: text.encode() for name, text in texts.items()}
+    contents = {folder / name: text.encode() for name, text in benchmark_set().items()}
     with files.making_folder(folder):
         _give(contents, f"wrote {len(contents)} files, see {folder / 'README.md'}\n")
     return CERTIFIED

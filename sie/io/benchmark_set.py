@@ -1,8 +1,7 @@
 """Contacts with exact references, by which other codes are measured.
 
 The folder `sie/benchmark_set` has a scene file for each case, and a README that describes the set.
-The references are computed when the set is asked for, with all digits of a double. What writes them
-is given by the caller: so this module does not import the export, which imports load paths.
+The references are computed when the set is asked for, with all digits of a double.
 
 >>> case_names()
 ('cattaneo', 'hertz', 'rounded-flat', 'spence', 'two-parabolas')
@@ -10,15 +9,15 @@ is given by the caller: so this module does not import the export, which imports
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
 from importlib import resources
 
 from sie import __version__
 from sie.progress_bar import counted
 from sie.solution import Solution, solve
 
+from .export import csv_text, json_text
 from .sample_points import peak
-from .scene_file import SceneFile, parse
+from .scene_file import parse
 
 SET = resources.files("sie") / "benchmark_set"
 
@@ -28,8 +27,8 @@ def case_names() -> tuple[str, ...]:
     return tuple(sorted(file.name[:-5] for file in SET.iterdir() if file.name.endswith(".toml")))
 
 
-def benchmark_set(formats: Mapping[str, Callable[[Solution, SceneFile], str]]) -> dict[str, str]:
-    """The text of every file of the set; for each format its suffix and what writes it."""
+def benchmark_set() -> dict[str, str]:
+    """The text of every file of the set."""
     texts: dict[str, str] = {}
     rows = ["| case | quantity | value |", "| --- | --- | --- |"]
     names = case_names()
@@ -38,7 +37,10 @@ def benchmark_set(formats: Mapping[str, Callable[[Solution, SceneFile], str]]) -
         file = parse(scene, f"{name}.toml")
         solution = solve(file.scene)
         texts[f"{name}.toml"] = scene
-        texts |= {f"{name}.{kind}": write(solution, file) for kind, write in formats.items()}
+        texts |= {
+            f"{name}.csv": csv_text(solution, file),
+            f"{name}.json": json_text(solution, file),
+        }
         rows += [f"| {name} | {quantity} | {value!r} |" for quantity, value in _chief(solution)]
     readme = (SET / "README.md").read_text(encoding="utf-8")
     texts["README.md"] = readme + "\n".join([*rows, "", f"Computed by sie {__version__}.", ""])

@@ -1,4 +1,4 @@
-"""Solutions, paths and cycles as a notebook shows them: a table, and a picture where there is one.
+"""Solutions and histories as a notebook shows them: a table, and a picture where there is one.
 
 The units are the labels that scene files have by default; nothing is converted.
 """
@@ -6,14 +6,12 @@ The units are the labels that scene files have by default; nothing is converted.
 from __future__ import annotations
 
 import base64
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable
 from html import escape
 from typing import Any
 
 from sie.errors import ContactError
 from sie.paths.history import History
-from sie.paths.steady_state import SteadyCycle
-from sie.problem.load_path import Path
 from sie.solution import Solution
 
 from .report import edge_rows, peak_rows, shear_rows
@@ -27,9 +25,6 @@ HEADS = {
     "normal_load": "P",
     "tangential_load": "Q",
     "bulk_stress": "σ",
-    "sigma": "σ",
-    "stick_from": "stick from",
-    "stick_to": "to",
     "energy_lost": "energy lost",
 }
 
@@ -39,39 +34,11 @@ def html(solution: Solution) -> str:
     return _shown(solution.scene, lambda: _of_solution(solution))
 
 
-def path_html(path: Path) -> str:
-    """The points of a path."""
-
-    def row(k: int) -> dict[str, float]:
-        turns = {name: getattr(path, name)[k] for name in ("tilt", "moment") if getattr(path, name)}
-        return dict(zip(("P", "Q", "σ"), path.points[k], strict=True)) | turns
-
-    return _shown(path, lambda: _points(row, len(path)))
-
-
-def cycle_html(states: Sequence[Any], row: Callable[[Any], Mapping[str, Any]]) -> str:
-    """The states of a cycle by their rows."""
-    return _shown(states, lambda: _points(lambda k: row(states[k]), len(states)))
-
-
-def steady_html(steady: SteadyCycle) -> str:
-    """The turning points, the permanent stick zone and the energy of each cycle."""
-
-    def content() -> str:
-        zones = ", ".join(f"{lo:.6g} to {hi:.6g}" for lo, hi in steady.stick) or "none"
-        rows = [("stick", zones), ("energy in a cycle", f"{steady.energy:.6g}")]
-        loads = [point.loads for point in steady.history.turning_points]
-        points = _points(lambda k: {"P": loads[k].P, "Q": loads[k].Q, "σ": loads[k].sigma}, 2)
-        return points + _table(rows)
-
-    return _shown(steady, content)
-
-
 def history_html(history: History) -> str:
     """The turning points and the loop."""
 
     def content() -> str:
-        return _points(history.row, len(history)) + _picture(_loop, history)
+        return _points(history) + _picture(_loop, history)
 
     return _shown(history, content)
 
@@ -91,11 +58,11 @@ def _table(rows: Iterable[Iterable[str]]) -> str:
     return f"<table>{''.join(f'<tr>{line}</tr>' for line in lines)}</table><small>{LABELS}</small>"
 
 
-def _points(row: Callable[[int], Mapping[str, Any]], count: int) -> str:
-    """Numbered rows of points: all of a few, else the first and the last ones."""
-    half = MANY // 2
+def _points(history: History) -> str:
+    """Numbered rows of the points: all of a few, else the first and the last ones."""
+    count, half = len(history), MANY // 2
     numbers = range(count) if count <= MANY else [*range(half), *range(count - half, count)]
-    rows = {k: row(k) for k in numbers}
+    rows = {k: history.row(k) for k in numbers}
     names = list(dict.fromkeys(name for values in rows.values() for name in values))
     cells = [[str(k), *(_cell(values.get(n, "")) for n in names)] for k, values in rows.items()]
     if count > MANY:
@@ -103,7 +70,7 @@ def _points(row: Callable[[int], Mapping[str, Any]], count: int) -> str:
     return _table([["point", *(HEADS.get(name, name) for name in names)], *cells])
 
 
-def _cell(value: Any) -> str:
+def _cell(value: float | str | list[Any]) -> str:
     if isinstance(value, list):
         return "; ".join(f"{lo:.6g} to {hi:.6g}" for lo, hi in value) or "none"
     return value if isinstance(value, str) else f"{value + 0.0:.6g}"

@@ -9,7 +9,7 @@ columns = ["P", "Q", "sigma", ...]   what the numbers of each row or line are, i
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from itertools import zip_longest
 from pathlib import Path as File
 from typing import Any
@@ -18,8 +18,9 @@ from sie.arguments import suggestion
 from sie.problem.load_path import Path
 from sie.profiles.trace_files import read_table
 
-from .quantities import ANGLE, FORCE, MOMENT, STRESS, Converter
-from .toml_values import refuse_unread
+from .profile_tables import Surroundings
+from .quantities import ANGLE, FORCE, MOMENT, STRESS
+from .toml_values import NUMBER, refuse_unread
 
 # Each point is solved and listed, all of them within seconds.
 MOST_POINTS = 2000
@@ -34,50 +35,43 @@ NAMES = {name.lower(): name for name in DIMENSIONS} | {
 }
 
 
-def in_units(load: Any, convert: Converter) -> Any:
-    """The table [load] with numbers in place of quantities in the rows of its path."""
-    if not isinstance(load, dict) or not isinstance(load.get("path"), list):
-        return load
-    columns = load.get("columns")
-    names = columns if isinstance(columns, list) else LOADS
-    kinds = [DIMENSIONS.get(NAMES.get(str(name).lower(), "")) for name in names]
-
-    def converted(i: int, row: Sequence[Any]) -> list[Any]:
-        cells = enumerate(zip_longest(row, kinds[: len(row)]))
-        return [
-            convert.number(f"[load] path[{i}][{j}]", v, kind) if kind else v
-            for j, (v, kind) in cells
-        ]
-
-    rows = enumerate(load["path"])
-    return load | {"path": [converted(i, r) if isinstance(r, list) else r for i, r in rows]}
-
-
 def path_of(
-    rows: str | Sequence[Sequence[float]],
-    columns: Sequence[str] | None,
-    place: Callable[[str], File],
+    rows: str | Sequence[Sequence[Any]], columns: Sequence[str] | None, around: Surroundings
 ) -> Path:
-    """The path of [load] path and [load] columns; `place` is where a file of that name is.
+    """The path of [load] path and [load] columns, their cells numbers or quantities with a unit.
 
     Raises ValueError where they make none.
     """
     named = None if columns is None else [_quantity(name) for name in columns]
     if isinstance(rows, str):
-        return _path(_of_file(rows, named, place(rows)))
+        return _path(_of_file(rows, named, around.place(rows)))
     if len(rows) > MOST_POINTS:
         raise ValueError(
             f"path has {len(rows)} points, more than {MOST_POINTS}: "
             "follow it in Python, by sie.follow"
         )
-    if named is None:
-        return Path(rows)
-    for k, row in enumerate(rows):
-        if len(row) != len(named):
+    for k, row in enumerate(rows if named else ()):
+        if len(row) != len(named or ()):
             raise ValueError(
-                f"path[{k}] has {len(row)} numbers for {len(named)} columns: give one for each"
+                f"path[{k}] has {len(row)} numbers for {len(columns or ())} columns: give one for "
+                "each"
             )
-    return _path(_chosen(named, list(zip(*rows, strict=True))))
+    values = [_numbers(f"path[{k}]", row, named or LOADS, around) for k, row in enumerate(rows)]
+    if named is None:
+        return Path(values)
+    return _path(_chosen(named, list(zip(*values, strict=True))))
+
+
+def _numbers(
+    where: str, row: Sequence[Any], named: Sequence[str], around: Surroundings
+) -> list[float]:
+    """The cells of a row as numbers in the units of the file."""
+    cells = []
+    for j, (cell, name) in enumerate(zip_longest(row, named[: len(row)], fillvalue="")):
+        place = f"{where}[{j}]"
+        number = around.convert.number(place, cell, DIMENSIONS[name]) if name else cell
+        cells.append(NUMBER.read(place, number))
+    return cells
 
 
 def _path(values: Mapping[str, Sequence[float]]) -> Path:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pathlib
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import partial
 from typing import Any
@@ -18,11 +18,8 @@ from .quantities import Converter
 from .scene_keys import (
     MODIFIERS,
     PERIOD,
-    TREATMENTS,
-    Entries,
     Key,
-    entries_of,
-    entries_of_file,
+    forms_of,
     naming,
     read_values,
     require,
@@ -92,14 +89,15 @@ def _term(where: str, table: dict[str, Any], around: Surroundings) -> Profile:
     if table.get("kind") == "row":
         return _row(where, dict(table), around)
     kind = _kind(where, table)
-    make, entries = _maker(kind, table, around)
-    treatments = TREATMENTS if KINDS[kind] is Sampled else {}
-    keys = {**KIND, **entries.keys, **treatments, **MODIFIERS}
+    first, *others = forms_of(kind)
+    form = next((f for f in others if table.keys() & (f.keys.keys() - first.keys.keys())), first)
+    keys = {**KIND, **form.keys, **form.treatments, **MODIFIERS}
     values = read_values(where, table, keys, around.convert, kind=f' of kind "{kind}"')
-    require(f'{where} of kind "{kind}"', values, entries.required)
-    given = {name: v for name, v in values.items() if name in entries.keys}
+    require(f'{where} of kind "{kind}"', values, form.required)
+    make = form.make if form is first else partial(_trace, around)
     with naming(where):
-        return _moved(_treated(make(**given), values), values)
+        made = make(**{name: v for name, v in values.items() if name in form.keys})
+        return _moved(_treated(made, values), values)
 
 
 def _treated(profile: Profile, values: Mapping[str, Any]) -> Profile:
@@ -148,17 +146,6 @@ def _kind(where: str, table: dict[str, Any]) -> str:
         known = [*KINDS, "row"]
         raise ValueError(f'{where} kind = "{kind}" is not known: {suggestion(kind, known)}')
     return kind
-
-
-def _maker(
-    kind: str, table: dict[str, Any], around: Surroundings
-) -> tuple[Callable[..., Profile], Entries]:
-    """The function that makes a profile of the kind, and its parameters; a trace may be a file."""
-    make = KINDS[kind]
-    entries, of_file = entries_of(make), entries_of_file()
-    if make is Sampled and table.keys() & (of_file.keys.keys() - entries.keys.keys()):
-        return partial(_trace, around), of_file
-    return make, entries
 
 
 def _trace(around: Surroundings, path: str, **options: Any) -> Sampled:

@@ -61,7 +61,7 @@ from sie.problem.scene import Scene
 from sie.profiles.kinds import KINDS
 
 from .fatigue_table import Fatigue, fatigue_of
-from .path_table import in_units, path_of
+from .path_table import path_of
 from .profile_tables import Surroundings, profile_of
 from .quantities import Converter
 from .scene_keys import LOADS, TOP, naming, remedy, require, values_of
@@ -100,15 +100,9 @@ EXAMPLES = resources.files("sie.examples")
 HERE = pathlib.Path()
 # A trace of 1e4 points has 0.4 MB as x and h; longer ones belong in a file of their own.
 MOST_BYTES = 10**6
-# Names in a dotted key. The time and memory of TOML's reader grow with their square, and a scene
+# The time and memory of TOML's reader grow with the square of the names in a dotted key; a scene
 # needs three.
-DEEPEST = 20
-# An unclosed string ends with the line, or with the file: so each character is scanned once.
-_STRING_OR_COMMENT = re.compile(
-    r'"{3}(?:\\.|[^\\])*?(?:"{3,5}|\Z)' "|" r"'{3}.*?(?:'{3,5}|\Z)" "|"
-    r'"(?:\\.|[^"\\\n])*+"?' "|" r"'[^'\n]*+'?" "|" r"#[^\n]*+", re.DOTALL,
-)  # fmt: skip
-_DEEP_KEY = re.compile(rf"(?<![\w-])[\w-]++(?:[ \t]*+\.[ \t]*+[\w-]++){{{DEEPEST}}}")
+_DEEP_KEY = re.compile(r"(?<![\w-])(?:[\w-]++[ \t]*+\.[ \t]*+){20}")
 
 
 @dataclass(frozen=True)
@@ -173,7 +167,7 @@ def parse(text: str | bytes, name: str = "scene", folder: pathlib.Path = HERE) -
         )
     text = text if isinstance(text, str) else _decoded(text, name)
     try:
-        if _DEEP_KEY.search(_STRING_OR_COMMENT.sub("s", text)):
+        if _DEEP_KEY.search(text):
             raise RecursionError
         table = tomllib.loads(text)
     except ValueError as problem:  # also of Python, for a number of more than 4300 digits
@@ -271,7 +265,7 @@ def from_tables(top: dict[str, Any], folder: pathlib.Path = HERE) -> SceneFile:
 
 def _loads(table: Any, around: Surroundings) -> tuple[Path | None, dict[str, Any]]:
     """The path of [load], and the loads, which are those of its last point."""
-    loads = values_of("load", in_units(table, around.convert), around.convert)
+    loads = values_of("load", table, around.convert)
     columns = loads.pop("columns", None)
     if "path" not in loads:
         if columns is not None:
@@ -284,7 +278,7 @@ def _loads(table: Any, around: Surroundings) -> tuple[Path | None, dict[str, Any
             f"leave {both} out"
         )
     with naming("[load]"):
-        path = path_of(loads.pop("path"), columns, around.place)
+        path = path_of(loads.pop("path"), columns, around)
     last = zip(("normal_load", "tangential_load", "bulk_stress"), path.points[-1], strict=True)
     return path, loads | dict(last)
 

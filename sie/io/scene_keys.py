@@ -19,7 +19,7 @@ from numpy.typing import ArrayLike
 from sie.arguments import choices, nearest, suggestion
 from sie.problem.material import Plane
 from sie.problem.scene import COUPLINGS
-from sie.profiles.base import Parity
+from sie.profiles.base import Parity, Profile
 from sie.profiles.kinds import KINDS
 from sie.profiles.sampled import Sampled
 from sie.profiles.slope import Vectorised
@@ -29,6 +29,7 @@ from sie.profiles.trace_values import Smoothing
 
 from .quantities import ANGLE, FORCE, LENGTH, MOMENT, STRESS, Converter
 from .toml_values import (
+    CELL,
     CONSTANT,
     FLAG,
     NUMBER,
@@ -93,7 +94,7 @@ TABLES: Mapping[str, Keys] = {
         "tilt": Key(NUMBER, ANGLE),
         "moment": Key(NUMBER, MOMENT),
         "friction": Key(in_range(minimum=0.0)),
-        "path": Key(by_type(str, TEXT, list_of(NUMBERS))),
+        "path": Key(by_type(str, TEXT, list_of(list_of(CELL)))),
         "columns": Key(TEXTS),
     },
 }
@@ -143,33 +144,37 @@ ANNOTATED: Mapping[Any, Kind] = {
 }
 
 
-class Entries(NamedTuple):
-    """The keys of a table, and the names of those that must be given."""
+class Form(NamedTuple):
+    """A form of a kind of profile: by its points a trace, say, or by its file.
 
+    make        the class or the function whose parameters are its keys
+    required    the names of those that must be given
+    treatments  keys that name methods, which are applied to what was made
+    """
+
+    make: Callable[..., Profile]
     keys: Keys
     required: tuple[str, ...]
+    treatments: Keys
+
+
+def forms_of(kind: str) -> tuple[Form, ...]:
+    """The forms of a kind of profile."""
+    make = KINDS[kind]
+    return tuple(map(_form, (Sampled, Sampled.read) if make is Sampled else (make,)))
 
 
 @lru_cache(maxsize=64)
-def entries_of(make: Callable[..., Any]) -> Entries:
-    """The parameters of a class or function as the keys of a table."""
-    parameters = inspect.signature(make, eval_str=True).parameters.values()
-    return Entries(
+def _form(make: Callable[..., Profile]) -> Form:
+    of_file = make == Sampled.read
+    given = inspect.signature(make, eval_str=True).parameters.values()
+    parameters = [p for p in given if not of_file or p.name != "length"]  # [units] has that
+    return Form(
+        make,
         {p.name: PARAMETERS.get(p.name) or Key(ANNOTATED[p.annotation]) for p in parameters},
         tuple(p.name for p in parameters if p.default is p.empty),
+        TREATMENTS if of_file or make is Sampled else {},
     )
-
-
-def entries_of_file() -> Entries:
-    """The keys of a trace in a file, which stand in place of x and h; [units] has its length."""
-    keys, required = entries_of(Sampled.read)
-    return Entries({name: key for name, key in keys.items() if name != "length"}, required)
-
-
-def _keys_of(kind: str) -> Keys:
-    """All keys of a kind of profile: of a trace also those of a file."""
-    of_traces = {**entries_of_file().keys, **TREATMENTS} if KINDS[kind] is Sampled else {}
-    return {**entries_of(KINDS[kind]).keys, **of_traces}
 
 
 # -- reading ---------------------------------------------------------------------------------------
@@ -248,7 +253,11 @@ def remedy(key: str, known: Iterable[str], here: str) -> str:
     elsewhere = _elsewhere(key) if here else ""
     if elsewhere or nearest(key, known):
         return elsewhere or suggestion(key, known)
-    kinds = [kind for kind in KINDS if key in _keys_of(kind)]
+    kinds = [
+        kind
+        for kind in KINDS
+        if any(key in form.keys or key in form.treatments for form in forms_of(kind))
+    ]
     if of_profile and kinds:
         return f"it belongs to kind {choices(kinds)}"
     homes = [f"[{table}]" for table, keys in TABLES.items() if key in keys]

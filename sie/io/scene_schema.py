@@ -14,7 +14,7 @@ from __future__ import annotations
 import inspect
 import json
 import re
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 from sie.problem.material import Elastic
@@ -31,11 +31,9 @@ from .scene_keys import (
     MODIFIERS,
     PERIOD,
     TABLES,
-    TREATMENTS,
-    Entries,
+    Form,
     Keys,
-    entries_of,
-    entries_of_file,
+    forms_of,
 )
 from .toml_values import TEXT, Json
 
@@ -109,18 +107,16 @@ def _of_the_whole() -> Json:
 def _kinds(more: Json) -> list[Json]:
     """The tables of all kinds of profile, each with more keys."""
     moved = more | _values(MODIFIERS, _summaries(Profile, MODIFIERS))
-    tables = [_kind(name, make, entries_of(make), moved) for name, make in KINDS.items()]
-    of_file = _kind("sampled", Sampled.read, entries_of_file(), moved)
+    tables = [_kind(name, form, moved) for name in KINDS for form in forms_of(name)]
     indenters = {"type": "array", "minItems": 1, "items": {"$ref": "#/definitions/term"}}
     row = _object({"kind": {"const": "row"}, "of": indenters, **moved}, ("kind", "of"))
-    return [*tables, of_file, row]
+    return [*tables, row]
 
 
-def _kind(name: str, make: Callable[..., Profile], entries: Entries, more: Json) -> Json:
-    keys = {"kind": {"const": name}, **_values(entries.keys, _descriptions(make)), **more}
-    if KINDS[name] is Sampled:
-        keys |= _values(TREATMENTS, _summaries(Sampled, TREATMENTS))
-    return _object(keys, ("kind", *entries.required))
+def _kind(name: str, form: Form, more: Json) -> Json:
+    keys = {"kind": {"const": name}, **_values(form.keys, _descriptions(form.make)), **more}
+    treatments = _values(form.treatments, _summaries(Sampled, form.treatments))
+    return _object(keys | treatments, ("kind", *form.required))
 
 
 # -- parts of a schema ---------------------------------------------------------------------------

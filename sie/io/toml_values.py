@@ -68,6 +68,8 @@ def in_range(**limits: float) -> Kind:
 
 NUMBER, TEXT = in_range(), Kind(_text, {"type": "string"})
 FLAG, WHOLE = Kind(_flag, {"type": "boolean"}), Kind(_whole, {"type": "integer"})
+# One of a row of numbers, whose column says what it is a number of.
+CELL = Kind(lambda _, value: value, NUMBER.shape)
 POSITIVE = in_range(exclusiveMinimum=0.0)
 # A number that nothing else checks.
 CONSTANT = Kind(lambda where, value: positive(where, _number(where, value)), POSITIVE.shape)

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import json
-from collections import OrderedDict
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from http import HTTPStatus
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
-from threading import Condition
+from threading import Lock
 from typing import Any
 from urllib.parse import parse_qsl, urlsplit
 
@@ -22,7 +21,6 @@ from .setting import Setting, sliders
 
 HOST = "127.0.0.1"  # no other machine is answered
 NAMES = (HOST, "localhost")  # a page of another name would be of a site that points here
-PAGES = 64  # that are remembered: a page that is forgotten is answered like a new one
 
 
 class LiveServer(ThreadingHTTPServer):
@@ -80,34 +78,15 @@ class Turns:
     """
 
     def __init__(self) -> None:
-        self._change = Condition()
-        self._busy = False
-        self._newest: OrderedDict[str, int] = OrderedDict()
+        self._work = Lock()
+        self._newest: dict[str, int] = {}
 
     @contextmanager
     def taken(self, page: str, turn: int) -> Iterator[bool]:
-        """Wait until no other request is worked on; False at once if the page has moved on."""
-        with self._change:
-            self._note(page, turn)
-            self._change.wait_for(lambda: not self._busy or self._late(page, turn))
-            wanted = not self._late(page, turn)
-            self._busy = self._busy or wanted
-        try:
-            yield wanted
-        finally:
-            if wanted:
-                with self._change:
-                    self._busy = False
-                    self._change.notify_all()
-
-    def _note(self, page: str, turn: int) -> None:
-        self._newest[page] = max(turn, self._newest.pop(page, turn))
-        while len(self._newest) > PAGES:
-            self._newest.popitem(last=False)
-        self._change.notify_all()
-
-    def _late(self, page: str, turn: int) -> bool:
-        return turn < self._newest.get(page, turn)
+        """Wait until no other request is worked on; False if the page has moved on by then."""
+        self._newest[page] = max(turn, self._newest.get(page, turn))
+        with self._work:
+            yield turn >= self._newest[page]
 
 
 class _Handler(BaseHTTPRequestHandler):

@@ -55,15 +55,13 @@ def changes(
 
     All are of the same period. `moment`: whether that is given, and the tilt changes.
     """
-    P = found.state.patches
+    P, half_modulus = found.state.patches, pressure.half_modulus
     angle = np.pi * (np.arange(PLACES) + 0.5) / PLACES
     places = P.c[:, None] - INNER * P.r[:, None] * np.cos(angle)
-    half_modulus = pressure.half_modulus
-    first, *others = (_changed(found, half_modulus, one, places, moment) for one in errors)
-    p, moved = (
-        np.abs(first[k]) + spread * np.sqrt(np.mean([o[k] ** 2 for o in others], axis=0))
-        for k in (0, 1)
-    )
+    changed = (_changed(found, half_modulus, one, places, moment) for one in errors)
+    p, charge = (_together(spread, *parts) for parts in zip(*changed, strict=True))
+    sharp, intensity = found.state.sharp, np.abs(conditions_of(found).intensity)
+    moved = np.where(sharp, 0.0, 2.0 * charge / np.where(sharp, 1.0, intensity))
     peak = float(pressure(places).max())
     inner = float(p.max()) / peak
     edges = moved.reshape(-1, 2)
@@ -76,19 +74,20 @@ def changes(
     )
 
 
+def _together(spread: float, first: Array, *others: Array) -> Array:
+    return np.abs(first) + spread * np.sqrt(np.mean(np.square(others), axis=0))
+
+
 def _changed(
     found: Found, half_modulus: float, error: Profile, places: Array, moment: bool
 ) -> tuple[Array, Array]:
-    """δp at places and the shifts of the edges (2N,) by an error; sharp edges stay."""
-    state = found.state
-    P, sharp = state.patches, state.sharp
+    """δp at places and the point charges at the edges (2N,) by an error."""
+    P = found.state.patches
     pieces = of_profile(error, found.operator.pieces.domain, TOLERANCE)
     none = Given(0.0, 0.0, 0.0 if moment else None)
     still = State(P, np.ones(2 * P.number, dtype=bool), np.zeros(2 * P.number), 0.0)
     o = operator_of(still, pieces)
     linear = conditions(still, o, none)
-    moved = np.where(sharp, 0.0, 2.0 / np.where(sharp, 1.0, conditions_of(found).intensity))
     y = linear.charged(-missed(still, o, none, linear)[:, None])[:, 0]
     charged = Operator(P, pieces, y[:-1])
-    p = PatchPressure(charged, half_modulus, float(y[-1]), 0.0)(places)
-    return p, moved * y[:-1]
+    return PatchPressure(charged, half_modulus, float(y[-1]), 0.0)(places), y[:-1]

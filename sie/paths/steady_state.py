@@ -74,11 +74,6 @@ class SteadyCycle(Sequence["SteadyState"]):
     def __iter__(self) -> Iterator[SteadyState]:
         return iter(self._states)
 
-    def _repr_html_(self) -> str:
-        from sie.io.html_report import steady_html  # noqa: PLC0415 -- a higher layer
-
-        return steady_html(self)
-
     @property
     def _slipping(self) -> bool:
         return self.history.turning_points[0].memory.top is not None

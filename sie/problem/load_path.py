@@ -135,11 +135,6 @@ class Path:
             moment=turns if self.moment else (),
         )
 
-    def _repr_html_(self) -> str:
-        from sie.io.html_report import path_html  # noqa: PLC0415 -- a higher layer
-
-        return path_html(self)
-
     def __repr__(self) -> str:
         more = ("tilt", self.tilt), ("moment", self.moment)
         shown = "".join(f", {name}=[{abridged(values)}]" for name, values in more if values)

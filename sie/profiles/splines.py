@@ -180,23 +180,14 @@ def explains(x: Array, h: Array, lam: float, least: float, between: tuple[float,
     return (rss - least_rss) * least_left <= expected * least_rss
 
 
-def slope_deviations(x: Array, h: Array, lam: float, points: Array, weights: Array) -> Array:
-    """The standard deviations (m,) that noise causes in Σ_k weights[i, k] f'(points[k]).
+def noise_level(x: Array, h: Array, lam: float, between: tuple[float, float]) -> float:
+    """The standard deviation of the noise of the heights, by the misfit about these places.
 
-    weights (m, K), points (K,) in the trace. Noise is measured by the misfit about the points:
-    without bias its sum of squares has the expectation s² tr (I - A)².
+    Without bias its sum of squares has the expectation s² tr (I - A)².
     """
-    from scipy.interpolate import BSpline  # noqa: PLC0415
-
     problem = _Problem(x, h)
-    lam /= problem.length**3
-    basis = problem.basis(lam)
-    rss, left = problem.misfit(lam, _local(x, float(points.min()), float(points.max())))
-    u = (points - x[0]) / problem.length
-    design = BSpline.design_matrix(u, basis.knots[1:-1], 2) @ basis.first_difference
-    functional = design.T @ weights.T
-    variance = np.einsum("ij,ij->j", functional, basis.solved(lam, functional))
-    return np.sqrt(rss / left * variance) * (problem.unit / problem.length)
+    rss, left = problem.misfit(lam / problem.length**3, _local(x, *between))
+    return math.sqrt(rss / left) * problem.unit
 
 
 def _local(x: Array, lo: float, hi: float) -> slice:

@@ -125,11 +125,6 @@ class Cycle:
     def __repr__(self) -> str:
         return f"Cycle([{abridged(self.states)}])"
 
-    def _repr_html_(self) -> str:
-        from sie.io.html_report import cycle_html  # noqa: PLC0415 -- a higher layer
-
-        return cycle_html(self.states, _row)
-
     @cached_property
     def size(self) -> int:
         """The number of states."""

@@ -5,7 +5,6 @@ What the package names has a long name and a unit there.
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Mapping
 from contextlib import suppress
 from typing import Any
@@ -139,30 +138,20 @@ def _joined(name: str, inner: tuple[int, ...], answers: list[Answer]) -> Any:
 
 
 def _of_one_rank(answers: list[Answer]) -> list[Answer]:
-    """The answers without values whose rank differs from that of most points.
+    """The answers without values whose rank differs from that of an earlier point.
 
     One array holds a quantity of all points, and has as many dimensions everywhere.
     """
-    ranks: dict[str, Counter[int]] = {}
-    for values, _ in answers:
-        for name, value in values.items():
-            ranks.setdefault(name, Counter())[value.ndim] += 1
-    usual = {name: count.most_common(1)[0][0] for name, count in ranks.items() if len(count) > 1}
-    return [_without_odd(answer, usual) for answer in answers] if usual else answers
-
-
-def _without_odd(answer: Answer, usual: dict[str, int]) -> Answer:
-    values, reason = answer
-    odd = {
-        name: values[name].ndim
-        for name in usual
-        if name in values and values[name].ndim != usual[name]
-    }
-    told = "; ".join(
-        f"{name} has {rank} dimensions here and {usual[name]} at most other points"
-        for name, rank in odd.items()
-    )
-    return {name: value for name, value in values.items() if name not in odd}, told or reason
+    ranks: dict[str, int] = {}
+    kept = []
+    for values, reason in answers:
+        odd = [n for n, value in values.items() if ranks.setdefault(n, value.ndim) != value.ndim]
+        told = "; ".join(
+            f"{name} has {values[name].ndim} dimensions here and {ranks[name]} at an earlier point"
+            for name in odd
+        )
+        kept.append(({n: v for n, v in values.items() if n not in odd}, told or reason))
+    return kept
 
 
 def _coordinate(values: list[Any]) -> Any:

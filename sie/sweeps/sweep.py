@@ -13,13 +13,13 @@ leaves nan and the sentence that says why.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from concurrent.futures import Executor, Future
-from contextlib import closing
+from concurrent.futures import Executor, Future, as_completed
 from dataclasses import dataclass, fields
-from functools import partial
 from numbers import Integral
 from pathlib import Path
+from time import perf_counter
 from typing import Any, cast
 
 import numpy as np
@@ -31,18 +31,9 @@ from sie.solution import Solution
 
 from .file import SweepFile
 from .result import Answer, labelled, labels
-from .work import (
-    DEFAULT,
-    QUANTITIES,
-    Part,
-    Point,
-    Wanted,
-    Work,
-    answer_at,
-    answers_of,
-    reason,
-)
-from .workers import Chunks, Outcome, outcomes
+from .work import DEFAULT, QUANTITIES, Point, Wanted, Work, answer_at, answers_of, reason
+
+AIM = 0.2  # seconds that a chunk takes a worker: to send it costs some milliseconds
 
 NOT_YET: Answer = ({}, "not computed yet")
 INTERRUPTED: Answer = ({}, "interrupted")
@@ -98,8 +89,8 @@ def sweep(
     tol : float, optional
         As in `solve`.
     chunk : int, optional
-        Points in a chunk; if it is not given, chunks are sized by the measured time of a scene, to
-        take a worker some tenths of a second.
+        Points in a chunk; if it is not given, the first points are solved here, and a chunk has as
+        many as took some tenths of a second.
     to : str or Path, optional
         A new NetCDF file, "x.nc", that holds the result and grows while the work goes on, by
         xarray. It is readable at any moment, also after this process was killed; points that are
@@ -136,11 +127,10 @@ def sweep(
     """
     axes, named = _axes(scene, over), labels(units)
     wanted, points = _wanted(want), list(_points(axes))
-    chunks, file = Chunks(len(points), _chunk_size(chunk)), SweepFile(to)
+    size, file = _chunk_size(chunk), SweepFile(to)
     run = _Run(
         Work(scene, wanted, tol),
         points,
-        chunks,
         Progress("sweep", len(points), progress),
         lambda answers: file.grow(lambda: labelled(axes, wanted, answers, named)),
         [NOT_YET] * len(points),
@@ -150,7 +140,7 @@ def sweep(
             if executor is None:
                 run.here()
             else:
-                run.through(executor)
+                run.through(executor, size)
     except KeyboardInterrupt:
         stopped = [INTERRUPTED if answer is NOT_YET else answer for answer in run.answers]
         done = len(points) - stopped.count(INTERRUPTED)
@@ -241,44 +231,59 @@ class _Run:
 
     work: Work
     points: list[Point]
-    chunks: Chunks
     progress: Progress
     grow: Callable[[list[Answer]], None]
     answers: list[Answer]
 
-    def here(self) -> None:
+    def here(self, seconds: float = math.inf) -> int:
+        """Answer points in this process, for so long after the first; their number."""
         last: Solution | None = None
+        end = math.inf
         for k, point in enumerate(self.points):
             self.answers[k], last = answer_at(self.work, point, last)
-            self.progress.update(1)
-            self.grow(self.answers)
+            self._count(1)
+            end = end if k else perf_counter() + seconds  # the first point imports what it needs
+            if perf_counter() > end:
+                return k + 1
+        return len(self.points)
 
-    def through(self, executor: Executor) -> None:
-        left: list[Outcome] = []
-        task = partial(answers_of, self.work, self.chunks.limit)
+    def through(self, executor: Executor, size: int | None) -> None:
+        """Answer points in chunks of this size; if it is not given, of some tenths of a second."""
+        start = self.here(AIM) if size is None else 0
+        size = size or max(start - 1, 1)
+        pending: dict[Future[list[Answer]], int] = {}
         try:
-            with closing(outcomes(task, self._taken, executor, left)) as done:
-                for chunk, future in done:
-                    self.progress.update(self._keep(chunk, future))
-                    self.grow(self.answers)
-        finally:
-            for chunk, future in left:
-                self._keep(chunk, future)
+            for k in range(start, len(self.points), size):
+                pending[self._submitted(executor, self.points[k : k + size])] = k
+            for future in as_completed([*pending]):
+                self._keep(pending.pop(future), size, future)
+        finally:  # of an interruption too
+            for future, k in pending.items():
+                if not future.cancel() and future.done():
+                    self._keep(k, size, future)
 
-    def _taken(self) -> tuple[range, list[Point]] | None:
-        """The next chunk and its points."""
-        chunk = self.chunks.take()
-        return None if chunk is None else (chunk, [self.points[k] for k in chunk])
+    def _submitted(self, executor: Executor, points: list[Point]) -> Future[list[Answer]]:
+        """The future of a chunk; a failed one if the executor takes no more: it broke, or ended."""
+        try:
+            return executor.submit(answers_of, self.work, points)
+        except Exception as problem:  # whatever an executor raises
+            failed: Future[list[Answer]] = Future()
+            failed.set_exception(problem)
+            return failed
 
-    def _keep(self, chunk: range, future: Future[Part]) -> int:
-        """The number of points of a chunk that have an answer now, or the reason for none.
+    def _keep(self, start: int, size: int, future: Future[list[Answer]]) -> None:
+        """Take the answers of a chunk, or the reason why there are none.
 
         A process may have died, or a function could not be sent to another process.
         """
+        points = range(start, min(start + size, len(self.points)))
         try:
-            answers, seconds = future.result()
-            self.chunks.measured(chunk, len(answers), seconds)
+            answers = future.result()
         except Exception as problem:  # whatever an executor raises
-            answers = [({}, reason(problem))] * len(chunk)
-        self.answers[chunk.start : chunk.start + len(answers)] = answers
-        return len(answers)
+            answers = [({}, reason(problem))] * len(points)
+        self.answers[points.start : points.stop] = answers
+        self._count(len(points))
+
+    def _count(self, points: int) -> None:
+        self.progress.update(points)
+        self.grow(self.answers)

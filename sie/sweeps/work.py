@@ -7,10 +7,9 @@ tangential loads is solved once. The answers do not depend on which points are a
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from concurrent.futures import CancelledError
+from concurrent.futures import BrokenExecutor, CancelledError
 from dataclasses import replace
 from operator import attrgetter
-from time import perf_counter
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -21,7 +20,6 @@ from sie.progress_bar import Progress
 from sie.solution import Solution, solve
 
 from .result import PARTS, Answer
-from .workers import is_death
 
 Point = dict[str, Any]
 Wanted = Callable[[Solution], Any]
@@ -58,25 +56,15 @@ class Work(NamedTuple):
     tol: float
 
 
-class Part(NamedTuple):
-    """The answers of the first points of a chunk, and the time that they took in seconds."""
-
-    answers: list[Answer]
-    seconds: float
-
-
-def answers_of(work: Work, limit: float, points: list[Point]) -> Part:
-    """The answers of one chunk, those alone that begin within so many seconds."""
+def answers_of(work: Work, points: list[Point]) -> list[Answer]:
+    """The answers of one chunk."""
     answers: list[Answer] = []
     last: Solution | None = None
-    begin = perf_counter()
     with Progress("chunk", shown=False):
         for point in points:
-            if answers and perf_counter() - begin > limit:
-                break
             answer, last = answer_at(work, point, last)
             answers.append(answer)
-    return Part(answers, perf_counter() - begin)
+    return answers
 
 
 def answer_at(work: Work, point: Point, last: Solution | None) -> tuple[Answer, Solution | None]:
@@ -93,10 +81,10 @@ def reason(problem: Exception) -> str:
     """The message of an error, after its class if it is none of this package."""
     if isinstance(problem, CancelledError):
         return "the executor was closed before it computed this chunk: ask for these points again"
-    if is_death(problem):
+    if isinstance(problem, BrokenExecutor) or type(problem).__name__ == "KilledWorker":  # of Dask
         return (
-            "the process that computed this chunk died: its memory was exhausted, or a function "
-            "that is wanted crashed; ask for these points alone, or with a smaller chunk"
+            "a process died, and with it its pool: its memory was exhausted, or a function that is "
+            "wanted crashed; ask for these points again, with a smaller chunk"
         )
     return (
         str(problem)

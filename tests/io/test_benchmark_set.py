@@ -11,7 +11,7 @@ from analytic import cattaneo, hertz, rounded_flat, spence, two_parabolas
 from sie import files
 from sie.cli import main
 from sie.io import benchmark_set as module
-from sie.io import export, scene_file
+from sie.io import scene_file
 
 CASES = ("cattaneo", "hertz", "rounded-flat", "spence", "two-parabolas")
 mp = mpmath.mp.clone()
@@ -30,7 +30,7 @@ EPS = 1e-14
 
 @pytest.fixture(scope="module")
 def texts():
-    return module.benchmark_set({"csv": export.csv_text, "json": export.json_text})
+    return module.benchmark_set()
 
 
 def columns(text):
@@ -130,7 +130,7 @@ def test_edges_and_pressure_of_two_feet_are_those_of_the_closed_form(texts):
 def short(monkeypatch):
     """A set of two files, in place of the computed one."""
     texts = {"README.md": "µ", "hertz.csv": "x,p\n"}
-    monkeypatch.setattr(module, "benchmark_set", lambda formats: texts)
+    monkeypatch.setattr(module, "benchmark_set", lambda: texts)
 
 
 @pytest.mark.usefixtures("short")

@@ -2,16 +2,15 @@
 
 import os
 import signal
+import time
 import traceback
 from concurrent.futures import Executor, Future, ProcessPoolExecutor
-from queue import SimpleQueue
 
 import numpy as np
 import pytest
 from sweep_cases import LOADS, SCENE, plain
 
 import sie
-from sie.sweeps import workers
 
 THREE_WIDTHS = {"over": {"normal_load": [0.1, 0.2, 0.3]}, "want": "half_width"}
 FOUR_WIDTHS = {"over": {"normal_load": [0.1, 0.2, 0.3, 0.4]}, "want": "half_width"}
@@ -20,12 +19,14 @@ FOUR_WIDTHS = {"over": {"normal_load": [0.1, 0.2, 0.3, 0.4]}, "want": "half_widt
 
 
 class Interrupting(Executor):
-    """Runs two chunks, then the user presses Ctrl-C."""
+    """Runs two chunks and takes a third; then the user presses Ctrl-C."""
 
     def __init__(self):
         self.futures = []
 
     def submit(self, function, /, *args, **kwargs):
+        if len(self.futures) == 3:
+            raise KeyboardInterrupt
         future = Future()
         self.futures.append(future)
         if len(self.futures) <= 2:
@@ -33,16 +34,8 @@ class Interrupting(Executor):
         return future
 
 
-def test_an_interrupt_keeps_all_chunks_that_are_done(monkeypatch):
-    pool, get, taken = Interrupting(), SimpleQueue.get, []
-
-    def pressed(queue):
-        taken.append(queue)
-        if len(taken) > 2:
-            raise KeyboardInterrupt
-        return get(queue)
-
-    monkeypatch.setattr(workers, "SimpleQueue", type("Queue", (SimpleQueue,), {"get": pressed}))
+def test_an_interrupt_keeps_all_chunks_that_are_done():
+    pool = Interrupting()
     with pytest.raises(sie.Interrupted) as caught:
         sie.sweep(SCENE, **FOUR_WIDTHS, executor=pool, chunk=1)
     found = plain(caught.value.result)
@@ -139,11 +132,34 @@ pools_of_processes = pytest.mark.filterwarnings("ignore:.*fork.*:DeprecationWarn
 
 
 @pools_of_processes
-def test_a_process_that_dies_costs_its_own_chunk_only():
-    dying = {0, 4, 7}
-    loads = [0.1 + 0.1 * k + (10.0 if k in dying else 0.0) for k in range(8)]
-    with ProcessPoolExecutor(2) as pool:
+def test_a_process_that_dies_costs_what_its_pool_still_held_and_each_point_says_so():
+    loads = [0.1, 0.2, 10.0, 0.3]
+    with ProcessPoolExecutor(1) as pool:
         over = {"normal_load": loads}
         found = plain(sie.sweep(SCENE, over, {"b": deadly}, executor=pool, chunk=1))
-    assert np.isnan(found["b"]).tolist() == [k in dying for k in range(8)]
-    assert ["died" in reason for reason in found["reason"]] == [k in dying for k in range(8)]
+    lost = np.isnan(found["b"])
+    assert lost[2] and (found["b"][~lost] > 0.0).all()
+    assert ["died" in reason for reason in found["reason"]] == lost.tolist()
+
+
+class Ended(Executor):
+    """Takes no task."""
+
+    def submit(self, function, /, *args, **kwargs):
+        raise RuntimeError("cannot schedule new futures after shutdown")
+
+
+def test_an_executor_that_takes_no_task_leaves_the_reason():
+    found = plain(sie.sweep(SCENE, **THREE_WIDTHS, executor=Ended(), chunk=2))
+    assert all("after shutdown" in reason for reason in found["reason"])
+
+
+def test_chunks_that_are_timed_answer_every_point(executor):
+    loads = np.linspace(0.1, 1.0, 7)
+    found = plain(sie.sweep(SCENE, {"normal_load": loads}, {"b": slow}, executor=executor))
+    assert (found["b"] > 0.0).all() and set(found["reason"]) == {""}
+
+
+def slow(solution):
+    time.sleep(0.07)
+    return solution.half_width

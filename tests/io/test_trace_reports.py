@@ -129,15 +129,6 @@ def test_a_trace_in_another_profile_has_the_error_that_it_has_alone(made):
     assert abs(within.tilt) == pytest.approx(abs(alone.tilt), rel=1e-9)
 
 
-def test_a_report_solves_no_contact(monkeypatch):
-    solution = solved(sie.Sampled(X, 0.5 * (X**2 + 1e-4 * white(5)), "gcv"))
-    before, _ = solution.edges, solution.pressure
-    monkeypatch.setattr("sie.frictionless.normal_contact", None)
-    monkeypatch.setattr("sie.frictionless.pressure", None)
-    assert solution.trace_reports()[0].points == 401
-    assert solution.edges == before
-
-
 def test_a_profile_that_is_no_trace_has_no_report():
     assert solved(sie.Parabola(1.0)).trace_reports() == ()
     assert solved(sie.Flat(1.0), friction=float("inf")).trace_reports() == ()
