@@ -4,7 +4,6 @@ The truth is `validation.topics.kinks`: the conditions of the edges in 100 digit
 integrals of polynomial pieces.
 """
 
-import contextlib
 from dataclasses import replace
 
 import numpy as np
@@ -16,8 +15,6 @@ import sie
 from sie.contact import edges
 from validation.kinked_contacts import ASKED, Shape, Trial, drawn, mp
 from validation.topics import kinks
-
-EPS = float(np.finfo(float).eps)
 
 
 def straight(breaks, rows):
@@ -120,91 +117,31 @@ def test_a_contact_far_from_the_origin_keeps_its_half_width():
     )
 
 
-@pytest.mark.parametrize("moment", [-1.79, 1.79, 1e-8])
-def test_a_profile_that_is_flat_to_rounding_is_answered_or_refused_with_a_reason(moment):
-    """Whatever else it raises fails the test."""
-    scene = sie.Scene(profile=sie.Power(51.1, 1.237), modulus=1.0, half_width=0.264, moment=moment)
-    with contextlib.suppress(sie.ContactError):
-        assert sie.solve(scene).moment == pytest.approx(moment, rel=1e-9)
-
-
-@pytest.mark.parametrize(
-    ("profile", "r", "tilt"),
-    [
-        (sie.RoundedFlat(1.0, 1.0), 0.2, 0.05), (sie.RoundedFlat(1.0, 1.0), 0.2, -0.4),
-        (sie.RoundedFlat(0.5, 2.0), 0.7, 0.1),
-        (sie.Wedge(0.3), 0.8, 0.05), (sie.Parabola(1.0).shifted(-3.0), 0.5, 0.2),
-        (sie.Power(2.5, 0.75), 0.6, 0.3),
-        (sie.FromFunction("sinh(x) + x**2/4"), 0.6, 0.3), (UNEQUAL.profile, 0.4, -1.2),
-    ],
-)  # fmt: skip
-def test_a_half_width_with_the_moment_of_a_tilt_gives_that_moment(profile, r, tilt):
-    tilted = sie.solve(sie.Scene(profile=profile, modulus=1.0, half_width=r, tilt=tilt))
-    turned = tilted.with_(tilt=0.0, moment=tilted.moment)
-    assert turned.half_width == pytest.approx(r, rel=1e-14)
-    assert turned.pressure.moment == pytest.approx(tilted.moment, rel=1e-12)
-
-
-@pytest.mark.parametrize("share", [1e3, 1e6, -1e9])
-@pytest.mark.parametrize("radius", [1e-7, 1.0, 1e5])
-def test_a_half_width_far_from_the_axis_carries_what_it_does_on_the_axis(share, radius):
-    """The load of a parabola is that of the half-width, wherever it acts: m = M/P, tilt = -m/R."""
-    r = 0.3 * radius
-    P = 0.25 * np.pi * r * r / radius
-    solution = sie.solve(
-        sie.Scene(profile=sie.Parabola(radius), modulus=1.0, half_width=r, moment=share * r * P)
-    )
-    assert solution.normal_load == pytest.approx(P, rel=1e-14)
-    assert solution.tilt == pytest.approx(-share * r / radius, rel=32 * EPS)
-    assert solution.centre == pytest.approx(share * r, rel=32 * EPS)
-
-
-@pytest.mark.parametrize("m", [1e2, -1e5, 1e9])
-def test_a_half_width_far_from_the_axis_of_a_fourth_power_is_right_to_rounding_of_the_moment(m):
-    """h' = 4 (m + sin φ)³: P = I1/2 = π (3 m² + 3/4), M = m P - (C2 - I0/2)/2 = m P + 3 π m/4."""
-    load = mp.pi * (3 * mp.mpf(m) ** 2 + mp.mpf(3) / 4)
-    moment = m * load + 3 * mp.pi * m / 4
-    profile = sie.Power(4.0, 1.0)
-    scene = sie.Scene(profile=profile, modulus=1.0, half_width=1.0, moment=float(moment))
-    solution = sie.solve(scene)
-    assert solution.normal_load == pytest.approx(float(load), rel=32 * EPS)
-    assert solution.centre == pytest.approx(m, rel=32 * EPS)
-
-
-def test_the_centre_of_two_that_have_the_moment_is_where_a_load_presses():
-    """Between the lowest points of this profile such a contact would be pulled."""
-    profile = sie.Polynomial((0.0, 0.0, 0.5, -0.26, -0.17, 0.0, 0.05))
-    tilted = sie.solve(sie.Scene(profile=profile, modulus=1.0, half_width=0.3, tilt=0.58))
-    turned = tilted.with_(tilt=0.0, moment=tilted.moment)
-    assert turned.edges == pytest.approx(tilted.edges, rel=1e-12)
-
-
 def test_a_half_width_under_a_large_tilt_lies_where_the_slope_has_risen_to_it():
     profile = sie.FromFunction(slope=lambda x: np.sign(x) * np.abs(x) ** 1.5, breaks=(0.0,))
     solution = sie.solve(sie.Scene(profile=profile, modulus=1.0, half_width=1.0, tilt=-1e20))
     assert solution.centre == pytest.approx(1e20 ** (2 / 3), rel=1e-12)
 
 
-BEYOND = [
-    (profile, given, moment)
+BEYOND = [(sie.Polynomial((0.0, 0.05, 1.0, 0.4, 0.6)), 1e200)]
+BEYOND += [
+    (profile, moment)
     for profile in (
         sie.Parabola(1.0), sie.RoundedFlat(0.5, 1.0), sie.Wedge(0.3), sie.Power(2.5, 0.75)
     )
-    for given in ({"normal_load": 0.3}, {"half_width": 0.8})
     for moment in (-1e16, 1e100)
 ]  # fmt: skip
-BEYOND = [(sie.Polynomial((0.0, 0.05, 1.0, 0.4, 0.6)), {"normal_load": 0.3}, 1e200), *BEYOND]
 
 
-@pytest.mark.slow(but=13)
-@pytest.mark.parametrize(("profile", "given", "moment"), BEYOND)
+@pytest.mark.slow(but=7)
+@pytest.mark.parametrize(("profile", "moment"), BEYOND)
 def test_a_load_beyond_where_doubles_show_the_slope_is_refused_at_once(
-    profile, given, moment, monkeypatch
+    profile, moment, monkeypatch
 ):
     evaluated, right = [], edges.edge_integrals
     monkeypatch.setattr(
         edges, "edge_integrals", lambda *asked, **how: evaluated.append(1) or right(*asked, **how)
     )
     with pytest.raises(sie.ContactError):
-        _ = sie.solve(sie.Scene(profile=profile, modulus=1.0, moment=moment, **given)).edges
+        _ = sie.solve(sie.Scene(profile=profile, modulus=1.0, normal_load=0.3, moment=moment)).edges
     assert len(evaluated) <= 5000

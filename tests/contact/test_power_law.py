@@ -1,19 +1,13 @@
 """|x|^m, upright in closed form and tilted by panels, against integrals in mpmath."""
 
-from contextlib import ExitStack
-
 import mpmath as mp
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from test_cost import counted
 
 import sie
 from analytic import power
-from sie.contact import normal, pressure
-from sie.problem.request import ECONOMY
-from sie.traction import on_panels
 
 EXPONENTS = (1.0001, 1.001, 1.02, 1.3, 1.5, 2.5, 3.0, 3.0 + 1e-9, 5.0 - 1e-12, 6.4, 7.0)
 EXPONENTS += (31.0, 33.0, 59.99, 60.0)
@@ -78,30 +72,6 @@ def test_the_pressure_is_that_of_the_closed_form_package(m, s):
     assert abs(float(pressure(s)) - truth[0]) <= 3e-14 * truth.max()
 
 
-@pytest.mark.parametrize("m", [1.3, 2.5, 7.0, 45.6])
-def test_the_explicit_form_and_the_panels_agree(m):
-    explicit, panels = sie.solve(scene(m)), sie.solve(scene(m), economy=ECONOMY - {"symmetry"})
-    x = np.linspace(*panels.edges, 103)[1:-1]
-    assert explicit.half_width == pytest.approx(panels.half_width, rel=1e-14)
-    p = explicit.pressure(x)
-    assert np.abs(p - panels.pressure(x)).max() <= 3e-14 * p.max()
-
-
-@pytest.mark.parametrize("m", [1.001, 1.5, 2.5, 7.0, 60.0])
-@pytest.mark.parametrize("given", [{}, {"normal_load": None, "half_width": 0.8}, {"moment": 0.0}])
-def test_an_upright_power_takes_no_search_and_no_panels(m, given):
-    with ExitStack() as stack:
-        parts = (
-            (normal, "Search"),
-            (normal, "refined"),
-            (pressure, "refined"),
-            (on_panels, "Panels"),
-        )
-        calls = [stack.enter_context(counted(*part)) for part in parts]
-        _ = sie.solve(scene(m, **given)).pressure(np.linspace(-0.5, 0.5, 1001))
-    assert not any(calls)
-
-
 def test_a_moment_about_another_axis_than_the_profiles_is_no_upright_contact():
     profile = sie.Power(2.5, 0.75).shifted(0.5)
     upright = sie.solve(sie.Scene(profile=profile, modulus=2.0, normal_load=0.3, moment=0.15))
@@ -148,15 +118,6 @@ def test_a_tilted_power_next_to_a_wedge_far_from_x_0_is_answered(dx):
     profile = sie.Power(1.0002, 0.142).shifted(dx)
     tilted = sie.solve(sie.Scene(profile=profile, modulus=1.0, half_width=0.086, tilt=0.136))
     assert tilted.check().force < 1e-9
-
-
-@pytest.mark.parametrize(
-    ("m", "A", "b", "M"), [(50.0, 0.0108, 0.0341, -0.00389), (51.1, 1.237, 0.264, -1.79)]
-)
-def test_a_half_width_and_a_moment_find_the_tilt_of_a_steep_power(m, A, b, M):
-    tilted = sie.solve(sie.Scene(profile=sie.Power(m, A), modulus=1.0, half_width=b, moment=M))
-    assert tilted.moment == pytest.approx(M, rel=1e-12)
-    assert tilted.check().ok
 
 
 @pytest.mark.parametrize("m", [*NEAR_ONE, 51.1, 60.0])
