@@ -2,18 +2,13 @@
 refusals.
 """
 
-import mpmath
 import numpy as np
 import pytest
 from cauchy_cases import counted, smooth_kernel
 
 import sie
 from sie.cauchy import system
-from sie.numerics import jacobi
-from sie.numerics.jacobi_weight import Weight
 
-mp = mpmath.mp.clone()
-mp.dps = 40
 SINGULAR, BOUNDED = "singular", "bounded"
 KINDS = [(SINGULAR, SINGULAR), (SINGULAR, BOUNDED), (BOUNDED, SINGULAR), (BOUNDED, BOUNDED)]
 
@@ -97,62 +92,6 @@ def test_all_conditions_are_met(k):
 def test_ends_may_be_words_pairs_or_arrays(ends):
     plain = sie.CauchyEquation([(-1, 1), (2, 3)], 1.0, ends="bounded", free=(1.0, lambda x: x))
     assert sie.CauchyEquation([(-1, 1), (2, 3)], 1.0, ends=ends, free=plain.free).ends == plain.ends
-
-
-def recurrence(a, b, n):
-    """A_k and B_k of the monic Jacobi polynomials, P_k+1 = (s - A_k) P_k - B_k P_k-1."""
-    total = a + b
-    A = [(b - a) / (total + 2)]
-    B = [mp.zero, 4 * (1 + a) * (1 + b) / ((2 + total) ** 2 * (3 + total))]
-    for k in range(1, n + 1):
-        twice = 2 * k + total
-        A.append((b - a) * total / (twice * (twice + 2)))
-        if k > 1:
-            B.append(4 * k * (k + a) * (k + b) * (k + total) / (twice**2 * (twice**2 - 1)))
-    return A, B
-
-
-def exact_rule(weight, nodes):
-    """The Gauss rule in 40 digits, from guesses: Newton on the monic recurrence (Szegö 1939),
-    Christoffel's weights.
-    """
-    n, total = len(nodes), mp.mpf(-weight.kappa)
-    small = weight.alpha if abs(weight.alpha) <= abs(weight.beta) else weight.beta
-    a = mp.mpmathify(small) if small is weight.alpha else total - mp.mpmathify(small)
-    b = total - a
-    A, B = recurrence(a, b, n)
-    whole = mp.power(2, 1 + total) * mp.gamma(1 + a) * mp.gamma(1 + b) / mp.gamma(2 + total)
-    for node in nodes:
-        s = mp.mpmathify(node.item())
-        for _ in range(2):
-            before, p, norm, squares = mp.zero, mp.one, mp.one, mp.zero
-            slope_before, slope = mp.zero, mp.zero
-            for k in range(n):
-                squares += p * p / norm
-                x = s - A[k]
-                slope_before, slope = slope, x * slope + p - B[k] * slope_before
-                before, p = p, x * p - B[k] * before
-                norm *= B[k + 1]
-            s -= p / slope
-        yield s, whole / squares
-
-
-EXPONENTS = [
-    (-0.3, 1), (-0.001, 1), (-0.999, 1), (-1e-9, 1), (-1 + 1e-9, 1), (0.4, 0), (0.999, 0),
-    (-0.9999999, 0), (0.5, 0), (0.2, -1),
-    (0.999, -1), (-0.5 + 0.1j, 1), (-0.5 - 1.3j, 1), (0.3 + 0.4j, 0), (0.2j, 0), (0.5 + 0.7j, -1),
-    (0.99 + 0.01j, -1),
-]  # fmt: skip
-
-
-@pytest.mark.parametrize(("alpha", "kappa"), EXPONENTS)
-@pytest.mark.parametrize("n", [1, 2, 23])
-def test_nodes_and_weights_are_those_of_40_digits(alpha, kappa, n):
-    weight = Weight(alpha, -kappa - alpha, kappa)
-    nodes, weights = jacobi.gauss(weight, n)
-    for s, w, (s_exact, w_exact) in zip(nodes, weights, exact_rule(weight, nodes), strict=True):
-        assert abs(mp.mpmathify(s.item()) - s_exact) <= 1e-15
-        assert abs(mp.mpmathify(w.item()) / w_exact - 1) <= 1e-14
 
 
 # -- size, cost, conditioning ----------------------------------------------------------------------

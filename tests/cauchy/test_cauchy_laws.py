@@ -13,7 +13,6 @@ from strategies import between
 
 import sie
 from oracles.manufactured import Manufactured, exponents, mp
-from validation.topics.collocation import parabola_in_sliding
 
 # -- everywhere in the plane -----------------------------------------------------------------------
 
@@ -190,45 +189,6 @@ def test_the_residual_is_small_at_points_that_were_not_used(k):
 
 
 # -- contacts in closed form -----------------------------------------------------------------------
-
-
-@pytest.mark.parametrize("strength", [-0.3, -0.05, 0.0, 0.2, 0.3])
-def test_the_sliding_parabola_has_the_pressure_of_the_closed_form(strength):
-    pressure, x, closed = parabola_in_sliding(strength, 101)
-    epsilon = np.arctan(-strength) / np.pi
-    assert pressure(x) == pytest.approx(closed, rel=PROMISE)
-    assert pressure.resultant == pytest.approx(np.pi * (0.25 - epsilon**2), rel=PROMISE)
-
-
-@pytest.mark.parametrize("strength", [-0.3, 0.0, 0.2])
-def test_the_sliding_flat_punch_has_the_pressure_of_the_closed_form(strength):
-    epsilon = np.arctan(-strength) / np.pi
-    pressure = sie.CauchyEquation((-2.0, 2.0), 0.0, a=-strength, b=-1.0, total=3.0).solve()
-    x = np.linspace(-1.99, 1.99, 41)
-    closed = (
-        3.0
-        * np.cos(np.pi * epsilon)
-        / np.pi
-        * (2.0 - x) ** (-0.5 - epsilon)
-        * (2.0 + x) ** (-0.5 + epsilon)
-    )
-    assert pressure(x) == pytest.approx(closed, rel=PROMISE)
-
-
-@pytest.mark.parametrize("beta", [-0.4, 0.1, 0.3])
-def test_the_bonded_flat_punch_oscillates_as_in_closed_form(beta):
-    """p + iq under P + iQ: 1/π PV∫ φ/(x - t) dt + iβ φ = 0 (Muskhelishvili 1953, § 114)."""
-    load, eta = 2.0 + 0.7j, np.arctanh(beta) / np.pi
-    traction = sie.CauchyEquation((-1.5, 1.5), 0.0, a=1j * beta, b=-1.0, total=load).solve()
-    x = np.linspace(-1.4999, 1.4999, 51)
-    closed = (
-        load
-        / np.pi
-        * np.cosh(np.pi * eta)
-        / np.sqrt((1.5 - x) * (1.5 + x))
-        * np.exp(1j * eta * np.log((1.5 + x) / (1.5 - x)))
-    )
-    agrees(traction(x) / np.abs(closed), closed / np.abs(closed), PROMISE, "p + iq")
 
 
 @pytest.mark.parametrize(("incidence", "camber"), [(0.1, 0.0), (0.03, 0.2)])

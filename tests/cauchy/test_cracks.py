@@ -15,6 +15,7 @@ from hypothesis import strategies as st
 from strategies import between, log_between
 
 import sie
+from analytic import cracks
 
 PROMISE = 1e-12  # of a stress intensity factor
 mp = mpmath.mp.clone()
@@ -98,81 +99,16 @@ def test_the_stress_ahead_of_a_slit():
 # -- several cracks -------------------------------------------------------------------------------
 
 
-def willmore(a, b):
-    """K at the inner tips ±a and at the outer tips ±b of two equal collinear cracks under unit
-    pressure.
-    """
-    a, b = mp.mpf(a), mp.mpf(b)
-    m = (1 - a / b) * (1 + a / b)
-    ratio = mp.ellipe(m) / mp.ellipk(m)
-    root = mp.sqrt((b - a) * (b + a))
-    return mp.sqrt(mp.pi / a) * (b * b * ratio - a * a) / root, mp.sqrt(mp.pi * b) * b * (
-        1 - ratio
-    ) / root
-
-
 @pytest.mark.parametrize("ligament", [1.0, 1e-2, 1e-4, 1e-6, 1e-8])
 def test_two_collinear_cracks(ligament):
     """`ligament` relative to the length of a crack. The bar at 1e-6 is 1e-9."""
     a = 0.5 * ligament
     density = sie.CauchyEquation(((-1.0 - a, -a), (a, 1.0 + a)), 1.0, total=(0.0, 0.0)).solve()
-    inner, outer = willmore(a, 1.0 + a)
+    inner, outer = cracks.pair(inner=mp.mpf(a), outer=mp.mpf(1.0 + a), tension=1, lib=mp)
     (left_outer, left_inner), (right_inner, right_outer) = intensity_factors(density)
     assert [left_outer, right_outer] == pytest.approx([float(outer)] * 2, rel=PROMISE)
     assert [left_inner, right_inner] == pytest.approx([float(inner)] * 2, rel=PROMISE)
     assert max(density.n) <= 128
-
-
-def collinear(cracks):
-    """(K left, K right) of each crack under unit pressure: F(z) = 1 - q(z)/sqrt(Π(z - tip)), q of
-    40 digits by ∫φ = 0 over each.
-
-    Gauss-Chebyshev in 40 digits: φ sqrt((b - x)(x - a)) is analytic over each crack.
-    """
-    tips = [(mp.mpf(a), mp.mpf(b)) for a, b in cracks]
-    n, nodes = len(tips), [mp.cos(mp.pi * (2 * k + 1) / 320) for k in range(160)]
-
-    def rest(i, x):
-        """Π over the other cracks, with φ's sign there."""
-        sign = (-1) ** (n - 1 - i)
-        return sign / mp.sqrt(
-            mp.fprod(abs((x - a) * (x - b)) for j, (a, b) in enumerate(tips) if j != i)
-        )
-
-    rows = []
-    for i, (a, b) in enumerate(tips):
-        at = [(a + b) / 2 + (b - a) / 2 * s for s in nodes]
-        rows.append([mp.fsum(rest(i, x) * x**k for x in at) / len(at) for k in range(n + 1)])
-    q = mp.lu_solve(mp.matrix([row[:n] for row in rows]), mp.matrix([-row[n] for row in rows]))
-    found = []
-    for i, (a, b) in enumerate(tips):
-        factor = mp.sqrt(2 * mp.pi / (b - a))
-        left, right = (
-            factor * (mp.fsum(c * x**k for k, c in enumerate(q)) + x**n) * rest(i, x)
-            for x in (a, b)
-        )
-        found.append((float(-left), float(right)))
-    return found
-
-
-def test_the_reference_for_collinear_cracks_agrees_with_elliptic_integrals():
-    (_, inner), (_, outer) = collinear([(-2.0, -0.25), (0.25, 2.0)])
-    assert (inner, outer) == pytest.approx([float(v) for v in willmore(0.25, 2.0)], rel=1e-15)
-
-
-CRACKS = [
-    ((-3.0, -1.0), (-0.9, 0.5), (1.5, 2.0)),
-    ((0.0, 1.0), (1.05, 4.0), (4.5, 5.0)),
-    ((-9.0, -8.0), (0.0, 2.0), (3.0, 9.0)),
-]
-
-
-@pytest.mark.parametrize("cracks", CRACKS)
-def test_three_collinear_cracks_with_unequal_gaps(cracks):
-    density = sie.CauchyEquation(cracks, 1.0, total=(0.0, 0.0, 0.0)).solve()
-    assert np.array(intensity_factors(density)) == pytest.approx(
-        np.array(collinear(cracks)), rel=PROMISE
-    )
 
 
 @given(between(0.02, 0.98))

@@ -13,7 +13,6 @@ from sie.certificate import result
 from sie.certificate.result import BESIDES, PROMISE
 from sie.contact import least_gaps, normal
 from sie.numerics.interval import interval_about
-from sie.profiles import unresolved
 from validation.wrong_programs.pressures import with_pressure
 
 SHARE = 3.0  # of the promise
@@ -137,23 +136,6 @@ def test_a_slope_that_a_tilt_cancels_costs_no_digits_that_the_certificate_does_n
     np.testing.assert_allclose(one.edges, other.edges, rtol=0.0, atol=1e-14)
 
 
-@pytest.mark.parametrize("given", ["tilt", "moment"])
-@pytest.mark.parametrize("steepness", [1.0, 2.0**12])
-def test_a_trace_pressed_on_a_steep_flank_costs_no_digits_either(steepness, given):
-    """K (x + 1)² less the slope 2K is K x²: beside x = 0 nothing is left of slopes up to 6K."""
-    points = np.delete(X, [3, 9, 10, 40])
-    rough = np.round(2048.0 * points**2 + 16.0 * np.sin(40.0 * points)) / 2**16
-    cancelled = sie.Sampled(points, steepness * (points + 1.0) ** 2 + rough)
-    plain = sie.Sampled(points, rough) + sie.Polynomial([0.0, 0.0, steepness])
-    other = solved(plain, half_width=2e-3)
-    how = {"tilt": -2.0 * steepness} if given == "tilt" else {"moment": other.moment}
-    load = other.normal_load
-    one = solved(cancelled, load, **how)
-    found, x = one.check(), other.centre + 2e-3 * np.linspace(-0.99, 0.99, 40)
-    error = np.abs(one.pressure(x) - other.pressure(x)).max() / other.pressure(x).max()
-    assert error <= 3.0 * (found.error + 10.0 * found.edges) + 3e-15
-
-
 def test_the_same_promise_is_printed_and_documented():
     found = solved(sie.Parabola(1.0)).check()
     assert PROMISE in " ".join(str(found).split())
@@ -219,16 +201,6 @@ def test_undeclared_features_are_found_and_resolved(name, load):
     assert found.check().ok
 
 
-@pytest.mark.parametrize("name", ["jump", "narrow bump"])
-def test_the_stick_zone_of_such_a_function_is_right_too(name):
-    slope, breaks = UNDECLARED[name]
-    found, declared = (
-        pressed(slope, 0.5, breaks=b).with_(friction=0.4, tangential_load=0.02)
-        for b in ((), breaks)
-    )
-    assert found.stick[0] == pytest.approx(declared.stick[0], abs=1e-13)
-
-
 @pytest.mark.parametrize("name", ["narrow bump", "faint bump"])
 def test_the_certificate_detects_a_feature_that_the_solver_missed(name, monkeypatch):
     """The solver does not test between its points: the certificate does, at points of its own."""
@@ -263,75 +235,15 @@ def test_a_kink_just_inside_an_edge_is_found(part, side):
     assert (np.abs(p - q) <= 2.0 * promised * q.max()).all()
 
 
-def test_the_certificate_s_points_are_not_those_of_the_solver():
-    contact = solved(sie.Parabola(1.0)).normal.edges.contact
-    assert not np.isin(
-        unresolved.scattered(contact, unresolved.SAMPLES), unresolved.scattered(contact)
-    ).any()
-
-
-def test_no_gap_between_the_scattered_points_is_wider_than_documented():
-    contact = solved(sie.Parabola(1.0)).normal.edges.contact
-    assert np.diff(np.sort(unresolved.scattered(contact))).max() <= 5e-4 * 2.0 * contact.r
-
-
-def test_where_the_scattered_points_lie_depends_on_the_last_digit_of_an_edge():
-    one = solved(sie.Parabola(1.0)).normal.edges.contact
-    other = one._replace(x2=math.nextafter(one.x2, 9.0))
-    first = slice(0, 9)  # the last are near the edges
-    assert (
-        np.abs(unresolved.scattered(one)[first] - unresolved.scattered(other)[first]).max() > 1e-9
-    )
-
-
 def test_nan_on_a_thousandth_of_the_contact_is_refused_where_it_is():
     with pytest.raises(ValueError, match=r"slope returned nan at x = 0\.(299|300)"):
         pressed(lambda x: np.where(np.abs(x - 0.3) < 1e-3, np.nan, x)).pressure(0.0)
-
-
-@pytest.mark.parametrize(
-    "slope",
-    [
-        lambda x: (-8.0 + 0j) ** (1 / 3) * x,
-        lambda x: x if np.ndim(x) == 1 else np.sqrt(x.astype(complex)),
-        lambda x: np.where(np.abs(x) > 0.2, x.astype(complex), 1j),
-    ],
-)
-def test_complex_slopes_are_refused_by_name(slope):
-    with pytest.raises(ValueError, match="slope returned complex numbers"):
-        pressed(slope).pressure(0.0)
-
-
-@pytest.mark.parametrize(
-    "slope",
-    [
-        lambda x: [float(v) for v in np.ravel(x)],
-        lambda x: [[1.0], [2.0, 3.0]],
-        lambda x: (x, x),
-        lambda x: None,
-        lambda x: x.slope,
-        lambda x: x > 0,
-    ],
-    ids=["list", "rows", "pair", "none", "attribute", "bool"],
-)
-def test_a_slope_that_is_no_function_of_an_array_is_refused_when_the_profile_is_built(slope):
-    with pytest.raises(ValueError, match=r"^slope (returned|fails)"):
-        sie.FromFunction(slope)
 
 
 def test_a_slope_that_returns_a_list_of_the_right_shape_is_a_function_all_the_same():
     assert pressed(lambda x: [*x]).half_width == pytest.approx(
         pressed(lambda x: x).half_width, rel=1e-15
     )
-
-
-@pytest.mark.parametrize(("exponent", "tilt"), [(1.0424, -0.0519), (1.006, 0.03), (1.02, 0.002)])
-def test_a_tilted_power_next_to_a_wedge_is_certified(exponent, tilt):
-    """Its slope |x|^0.006 is steep on the axis to 1e-97 of the contact, which changes no pressure
-    beside it.
-    """
-    profile = sie.Power(exponent, 0.75)
-    assert solved(profile, tilt=tilt).check().ok
 
 
 @pytest.mark.parametrize("corner", [0.0, -1e-30, -2.1426e-288, 5e-324])

@@ -82,25 +82,6 @@ def test_where_hertz_sticks_nothing_stretches_and_where_it_slips_the_slip_follow
         assert abs(strain - mp.mpf(3) / 2 * slope) < 1e-20
 
 
-@pytest.mark.slow
-def test_hertz_carries_its_tangential_load_in_every_state() -> None:
-    c = cattaneo.stick_half_width(**with_load(HERTZ, 0.6), lib=mp)
-    loads = {**HERTZ, "largest_load": 0.36, "lib": mp}
-    for density, Q in (
-        (lambda t: cattaneo.shear(t, **with_load(HERTZ, 0.6), lib=mp), mp.mpf(0.6 * 0.3 * 2.0)),
-        (lambda t: cattaneo.unloading_shear(t, **loads, tangential_load=-0.1), mp.mpf(-0.1)),
-        (
-            lambda t: cattaneo.reloading_shear(t, **loads, least_load=-0.2, tangential_load=0.3),
-            mp.mpf(0.3),
-        ),
-    ):
-        edges = [mp.sqrt(1 - mp.mpf(v) / mp.mpf("0.6")) for v in (0.23, 0.28, 0.25)]
-        assert (
-            abs(resultant(density, sorted([-1, 1, -c, c, *edges, *(-v for v in edges)])) - Q)
-            < 1e-20
-        )
-
-
 def test_bulk_tension_stretches_the_stick_zone_by_a_quarter_of_it() -> None:
     for sigma in (0.2, -0.2):
         given = {**with_load(HERTZ, 0.5), "bulk_stress": sigma, "lib": mp}

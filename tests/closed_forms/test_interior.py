@@ -23,13 +23,6 @@ def test_mcewens_form_is_the_line_contact():
         assert ours == pytest.approx(his, abs=4e-15 * 16)
 
 
-def test_the_chebyshev_form_of_one_term_is_the_line_contact():
-    for f in (0.0, 0.4):
-        series = interior.chebyshev(X, Y, coefficients=[1.0], half_width=1.0, friction=f)
-        for ours, theirs in zip(interior.hertz(X, Y, friction=f, **HERTZ), series, strict=True):
-            assert ours == pytest.approx(theirs, abs=1e-14)
-
-
 def test_the_chebyshev_form_of_the_punch_converges_to_the_closed_one_at_depth():
     b_n = rounded_flat.chebyshev_coefficients(40, **PUNCH)
     series = interior.chebyshev(X[-2:], Y[-2:], coefficients=b_n, half_width=1.0, friction=0.3)

@@ -10,13 +10,11 @@ import pytest
 
 import sie
 from sie import frictionless
-from sie.certificate import quadrature
 from sie.contact import normal, pressure
 from sie.friction import growth_panels
 from sie.numerics import chebyshev
-from sie.numerics.interval import Interval
 from sie.patches import answer
-from sie.profiles import lowest_points, resolution
+from sie.profiles import resolution
 from sie.traction.of_slope import SlopeDensity
 
 PUNCH = sie.RoundedFlat(0.5, 1.0)
@@ -102,24 +100,6 @@ def test_a_smooth_function_takes_one_transform_a_step_and_no_pieces(profile, giv
     assert len(transforms) <= most
 
 
-def test_a_sweep_over_the_tangential_load_solves_the_normal_problem_once():
-    with counted(frictionless, "normal_contact") as solves:
-        base = sie.solve(scene(PUNCH, friction=0.5))
-        _ = base.pressure
-        for Q in (0.02, 0.05, 0.1, 0.14):
-            _ = base.with_(tangential_load=Q).shear(0.1)
-    assert len(solves) == 1
-
-
-def test_full_sliding_of_similar_bodies_is_no_second_solve():
-    with counted(normal, "Search") as searches:
-        _ = sie.solve(scene(PUNCH, friction=0.5, sliding=1)).shear(0.1)
-    sliding = len(searches)
-    with counted(normal, "Search") as searches:
-        _ = sie.solve(scene(PUNCH)).pressure(0.1)
-    assert sliding == len(searches)
-
-
 def test_a_cauchy_equation_without_kernel_builds_no_matrix():
     from sie.cauchy import system  # noqa: PLC0415
 
@@ -193,30 +173,6 @@ def calls_for(jumps):
 @pytest.mark.slow
 def test_jumps_are_looked_for_all_at_once():
     assert calls_for(41) <= 2 * calls_for(5)
-
-
-def test_a_jump_at_the_origin_is_found_without_bisection_to_the_smallest_double():
-    calls = []
-
-    def slope(x):
-        calls.append(1)
-        return x + np.where(x < 0.0, -0.1, 0.2)
-
-    assert lowest_points.lowest_points(sie.FromFunction(slope, domain=(-1.0, 0.9)).pieces) == (
-        0.0,
-        0.0,
-    )
-    assert len(calls) <= 20
-
-
-def test_the_rule_over_a_sum_of_powers_grows_with_their_number_alone():
-    def nodes(powers):
-        total = sie.Power(1.5, 0.01)
-        for k in range(1, powers):
-            total = total + sie.Power(1.5, 0.01).shifted(k / powers)
-        return len(quadrature.composite_rule(Interval(-0.5, 1.5), total.pieces).x)
-
-    assert nodes(20) <= 20 * 64 * quadrature.NODES
 
 
 def test_the_gap_under_a_function_is_resolved_from_half_widths_outwards():

@@ -117,31 +117,6 @@ def test_potential_and_derivative_of_a_wave(part):
     assert pressure.cauchy_derivative(z) == pytest.approx(exact, rel=1e-10)
 
 
-@pytest.mark.slow(but=2)
-@pytest.mark.parametrize("gap", GAPS)
-def test_the_ridge_between_two_parabolas_that_close_in_stands_off_as_its_pressure_says(gap):
-    """g(0) = h(0) - h(c) - 2/(πE*) ∫_c^b p ln(t²/(t² - c²)) dt, patches [c, b] and [-b, -c]."""
-    shape = {"radius": 1.0, "modulus": 1.0}
-    d = float(two_parabolas.distance(inner=0.5 * gap, outer=0.5 * gap + 1.0))
-    load = float(two_parabolas.load(inner=0.5 * gap, outer=0.5 * gap + 1.0, **shape))
-    row = sie.Row([sie.Parabola(1.0).shifted(s * d) for s in (-1.0, 1.0)])
-    digits = mpmath.MPContext()
-    digits.dps = 25
-    c, b = two_parabolas.edges(
-        normal_load=digits.mpf(load), distance=digits.mpf(d), radius=1, modulus=1, lib=digits
-    )
-
-    def work(t):
-        p = two_parabolas.pressure(t, inner=c, outer=b, radius=1, modulus=1, lib=digits)
-        return p * digits.log(t * t / ((t - c) * (t + c)))
-
-    ends = [c, *(c * 10**k for k in range(1, 12) if c * 10**k < b), b]
-    rise = c * (2 * digits.mpf(d) - c) / 2
-    expected = float(rise - 2 / digits.pi * digits.quad(work, ends))
-    (found,) = solved(profile=row, normal_load=load).gap([0.0])
-    assert found == pytest.approx(expected, rel=1e-11)
-
-
 # -- waves that close without a corner -------------------------------------------------------------
 
 

@@ -1,10 +1,11 @@
-"""Contact beside an event: a birth, a merger, an edge that turns sharp; what the certificate says.
+"""Contact beside an event: a birth, a merger, an edge that turns sharp; lengths and gaps.
 
 The condition of the certificate is held against the edges of two loads that are next to each other.
 """
 
 import numpy as np
 import pytest
+from traces import rough_trace
 
 import sie
 from analytic import parabola_row
@@ -66,15 +67,6 @@ def test_the_condition_is_what_the_load_changes(profile, load):
     assert 0.1 * condition < measured(solution) < 10.0 * condition
 
 
-def test_full_contact_is_certified_with_a_knot_within_rounding_of_a_panel():
-    """The knots 0.01 k and the even cuts of the period differ by rounding."""
-    x = 0.01 * np.arange(240)
-    trace = sie.Sampled(x, 1e-4 * np.cos(2.0 * np.pi * x / 2.4))
-    scene = sie.Scene(profile=sie.Periodic(trace, 2.4), modulus=1.0, normal_load=2.4)
-    certificate = sie.solve(scene).check()
-    assert certificate.ok and certificate.error < 1e-13
-
-
 def test_full_contact_that_is_about_to_end_is_said_to_be():
     """The lowest pressure of a wave, P less 2, changes by 1/δ of itself where P = 2 (1 + δ)."""
     certificate = solved(WAVE, 2.0 * (1.0 + 1e-7)).check()
@@ -87,17 +79,70 @@ def test_an_edge_just_before_the_end_of_the_indenter_is_smooth():
     assert patch == pytest.approx((-1.0 + 5e-10, 1.0 - 5e-10), abs=1e-14)
 
 
-@pytest.mark.parametrize("load", [0.00082, 0.00084, 0.00087])
-def test_the_corner_of_a_tilted_flat_is_touched_in_a_patch_that_is_narrow_by_orders(load):
-    flats = ((0.49, 1.6796, 0.0101848), (0.179, 3.1852, 0.0035474), (0.186, 22.5, 0.0))
-    row = sie.Row([sie.Flat(half).shifted(x).raised(z) for half, x, z in flats])
-    solution = solved(row, load, tilt=0.0029733)
-    assert len(solution.patches) == 2
-    assert solution.check().ok
-
-
 def test_patches_of_a_period_keep_their_place_where_two_gaps_are_as_wide():
     profile = sie.Periodic(PAIR.shifted(0.3), 4.0)
     loads = 1.7 * (1.0 + 1e-12 * np.arange(4))
     first, *others = (np.array(solved(profile, load).patches) for load in loads)
     assert all(patches == pytest.approx(first, abs=1e-9) for patches in others)
+
+
+@pytest.mark.parametrize("gap", [1e-2, 1e-4, 1e-6])
+def test_parabolas_in_a_row_are_never_in_full_contact(gap):
+    solution = solved(sie.Periodic(sie.Parabola(1.0), 1.0), parabolas(gap))
+    assert 1.0 - solution.contact_length == pytest.approx(gap, rel=1e-6)
+    assert solution.check().ok
+
+
+# -- length and gaps -------------------------------------------------------------------------------
+
+
+HARMONICS = sie.FromFunction("0.8*sin(x) + 1.05*sin(3*x + 0.5) + 0.84*sin(7*x + 1.1)")
+
+
+@pytest.mark.parametrize(
+    ("profile", "load"),
+    [(sie.Periodic(HARMONICS, 2.0 * np.pi), 6.0), (sie.Periodic(sie.Parabola(1.0), 1.0), 0.02)],
+)
+def test_length_and_gap_volume(profile, load):
+    solution = solved(profile, load)
+    lengths = [b - a for a, b in solution.patches]
+    assert solution.contact_length == pytest.approx(sum(lengths), rel=1e-15)
+    following = solution.patches[0][0] + profile.period
+    ends = [*(x for patch in solution.patches for x in patch), following]
+    g, w = np.polynomial.legendre.leggauss(400)
+    volume = 0.0
+    for b, a in zip(ends[1::2], ends[2::2], strict=True):
+        for side in (-1.0, 1.0):  # from the middle, where a row of parabolas has a ridge
+            s = 0.25 * np.pi * (1.0 + g)
+            x = 0.5 * (a + b) + side * 0.5 * (a - b) * np.cos(s)
+            volume += float((solution.gap(x) * np.sin(s)) @ w) * 0.125 * np.pi * (a - b)
+    assert solution.gap_volume == pytest.approx(volume, rel=1e-5)
+
+
+def test_one_patch_on_the_line_has_no_gaps():
+    solution = solved(sie.Parabola(1.0), 0.1)
+    assert solution.gap_volume == 0.0
+    assert solution.contact_length == 2.0 * solution.half_width
+
+
+# -- what is refused -------------------------------------------------------------------------------
+
+
+def test_a_trace_whose_contact_reaches_its_end_may_be_repeated():
+    with pytest.raises(sie.ContactError, match=r"sie\.Periodic\(trace, period\)"):
+        _ = solved(rough_trace(120, 5), 0.1).patches
+
+
+def test_a_search_for_overlaps_of_too_many_parts_is_refused(monkeypatch):
+    """It does not take all memory."""
+    monkeypatch.setattr("sie.patches.gap.MOST", 0)
+    with pytest.raises(sie.ContactError, match="change the load"):
+        _ = solved(sie.Polynomial((0.0, 0.0, -1.0, 0.0, 0.5)), 0.2).edges
+
+
+@pytest.mark.slow(but=1)
+@pytest.mark.parametrize("load", [1e-249, 1e-120, 1e-60])
+def test_patches_narrower_than_doubles_are_refused(load):
+    row = sie.Row([sie.Parabola(1.0).shifted(-1.0), sie.Parabola(0.5).shifted(0.9).raised(0.02)])
+    with pytest.raises(sie.LoadError, match=r"raise the load|change the load"):
+        _ = solved(row, load, moment=0.0).patches

@@ -40,22 +40,15 @@ def pressure_of_unit_width(m, x):
 
 @pytest.mark.slow(but=1)
 @pytest.mark.parametrize("m", EXPONENTS)
-def test_the_pressure_keeps_1e_14_of_its_peak(m):
+def test_the_pressure_keeps_1e_14_of_its_peak_and_of_itself_up_to_the_edge(m):
     pressure = sie.solve(scene(m, normal_load=None, half_width=1.0)).pressure
     x = np.array([0.0, 2.0**-40, -1e-3, 0.25, -0.5, 0.7071, 0.70711, 0.75, 0.9, 0.96875])
     exact = [pressure_of_unit_width(m, v) for v in x.tolist()]
     errors = [abs(p - truth) for p, truth in zip(pressure(x).tolist(), exact, strict=True)]
     assert max(errors) <= 1e-14 * max(exact)
-
-
-@pytest.mark.slow(but=1)
-@pytest.mark.parametrize("m", EXPONENTS)
-def test_the_pressure_keeps_its_relative_accuracy_to_the_edge(m):
-    pressure = sie.solve(scene(m, normal_load=None, half_width=1.0)).pressure
-    for k in (4, 10, 20, 35, 52):
-        x = 1.0 - 2.0**-k
-        for side in (-1.0, 1.0):
-            assert abs(float(pressure(side * x)) / pressure_of_unit_width(m, x) - 1) <= 1e-13
+    for x in (1.0 - 2.0**-k for k in (4, 10, 20, 35, 52)):
+        for p in pressure([-x, x]).tolist():
+            assert abs(p / pressure_of_unit_width(m, x) - 1) <= 1e-13
 
 
 @given(
@@ -193,7 +186,7 @@ def test_a_wedge_on_the_axis_of_a_cusp_keeps_its_infinite_pressure(axis):
         assert both.pressure.cauchy(axis + 1j * d).real == pytest.approx(0.0, abs=1e-13 * exact)
 
 
-@pytest.mark.slow(but=6)
+@pytest.mark.slow(but=2)
 @pytest.mark.parametrize("rise", [1e-6, 0.01, 0.7])
 @pytest.mark.parametrize("place", [-0.3, 0.109375, 1e-3])
 @pytest.mark.parametrize("m", [1.05, 1.5, 1.9, 2.5])
@@ -219,35 +212,6 @@ def test_powers_about_one_axis_add_up(other):
     x = np.array([0.0, *2.0 ** np.arange(-60.0, -1.0, 3.0)])
     both, one, two = (p(x) for p in solve)
     assert np.abs(both - one - two).max() <= 1e-13 * both.max()
-
-
-@pytest.mark.slow
-def test_a_jump_of_curvature_on_the_axis_of_a_cusp_is_resolved_at_every_distance():
-    """p = E*/2 w(x)/π ∫ (H(t) - H(x))/(w(t) (t - x)) dt between the edges that were found."""
-    profile = sie.Power(1.3, 0.3) + sie.Piecewise((0.0,), ((0.0, 1.0), (0.0, 5.0)))
-    solution = sie.solve(sie.Scene(profile=profile, modulus=2.0, normal_load=1.0))
-    x1, x2 = map(DIGITS.mpf, solution.edges)
-    m, r = (x1 + x2) / 2, (x2 - x1) / 2
-
-    def slope(t):
-        return DIGITS.sign(t) * 1.3 * DIGITS.mpf(0.3) * abs(t) ** DIGITS.mpf(1.3 - 1) + t * (
-            5 if t > 0 else 1
-        )
-
-    for x in (2.0**-31, -(2.0**-31), 2.0**-34, -(2.0**-40)):
-        decades = [DIGITS.mpf(10) ** -k for k in range(1, 16)]
-        beside = [
-            DIGITS.mpf(centre) + side * d for d in decades for centre in (0, x) for side in (-1, 1)
-        ]
-        cuts = sorted({x1, DIGITS.mpf(0), DIGITS.mpf(x), x2, *beside})
-        cuts = [DIGITS.asin(min(max((c - m) / r, -1), 1)) for c in cuts if x1 <= c <= x2]
-
-        def integrand(phi, x=x):
-            t = m + r * DIGITS.sin(phi)
-            return (slope(t) - slope(DIGITS.mpf(x))) / (t - x) if t != x else DIGITS.zero
-
-        exact = DIGITS.sqrt((x - x1) * (x2 - x)) / DIGITS.pi * DIGITS.quad(integrand, cuts)
-        assert solution.pressure(x) == pytest.approx(float(exact), rel=2e-13)
 
 
 @pytest.mark.parametrize("m", [1.02, 1.2, 1.7])

@@ -250,8 +250,6 @@ def test_an_equation_that_follows_its_refusal_s_remedy_is_solved(name):
 
 # What is asked of a path, words of the remedy, and the path and the scene that follow it.
 SHEARED = scene(PARABOLA, friction=0.4)
-MIXED = [(1, 0.1, 0.1), (1, -0.1, 0.2)]
-MOMENT = [(1.0, 0.1), (1.2, 0.15)]
 PATHS = {
     "raise the load": ([(1, 0.1), (1, 0.5)], "raise normal_load", [(1, 0.1), (1.3, 0.5)]),
     "a later point": ([(0, 0), (1, 0.1)], "ask for a later point", [(1, 0.1)]),
@@ -277,26 +275,6 @@ def answered(scene, points):
     for solution in sie.follow(scene, sie.Path(points)):
         assert solution.check().ok
         assert solution.shear.resultant == pytest.approx(solution.tangential_load, abs=1e-12)
-
-
-def test_the_steady_cycle_of_a_mixed_path_has_its_loads_and_energy():
-    cycle = sie.steady_cycle(SHEARED, *MIXED)
-    assert cycle.shear_change.resultant == pytest.approx(MIXED[0][1] - MIXED[1][1], rel=1e-13)
-    edges, (stick,) = cycle[0].pressure.interval, cycle.stick
-    lost = sum(friction_work(cycle, *zone) for zone in zip(edges, stick))
-    assert cycle.energy == pytest.approx(2.0 * lost, rel=1e-9)
-
-
-def friction_work(cycle, edge, end):
-    """∫ f p |slip| dx over a slip zone, on the way from one turning point to the other."""
-    t, w = np.polynomial.legendre.leggauss(40)
-    x = 0.5 * (edge + end) + 0.5 * (end - edge) * np.sin(0.5 * np.pi * t)
-    dx = 0.25 * np.pi * abs(end - edge) * np.cos(0.5 * np.pi * t) * w
-    return SHEARED.friction * np.sum(cycle[0].pressure(x) * cycle.slip_range(x) * dx)
-
-
-def test_a_normal_load_that_grows_under_a_given_moment_is_answered():
-    answered(scene(PUNCH, friction=0.4, moment=0.05), MOMENT)
 
 
 def test_a_path_needs_friction_and_a_finite_one():

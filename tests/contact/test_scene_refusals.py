@@ -134,24 +134,16 @@ def test_every_poisson_ratio_of_a_stable_solid_is_accepted(nu):
 @pytest.mark.parametrize(
     ("changes", "words"),
     [
-        ({"normal_load": None}, "neither.*normal_load.*half_width"),
-        ({"half_width": 1.5}, "both.*normal_load.*half_width"),
-        ({"tilt": 0.125, "moment": 0.5}, r"both.*0\.125.*0\.5"),
         (
             {"normal_load": None, "half_width": 0.25, "moment": 0.5},
             r"both half_width = 0\.25 and moment = 0\.5.*give normal_load beside a moment",
         ),
-        ({"modulus": None}, "neither.*body.*modulus"),
         ({"body": STEEL}, "both.*body.*modulus"),
-        ({"modulus": None, "body": STEEL, "dundurs": 0.1}, r"dundurs.*0\.1"),
-        ({"modulus": None, "body": STEEL, "poisson": 0.3}, r"poisson.*0\.3"),
-        ({"indenter": STEEL}, "indenter without body"),
-        ({"modulus": None, "body": sie.RIGID, "indenter": sie.RIGID}, "rigid"),
         ({"modulus": None, "body": 210e3}, "210000"),
         ({"modulus": None, "body": STEEL, "indenter": "steel"}, "steel"),
         ({"dundurs": 0.75}, r"0\.75"),
         ({"friction": -0.25}, r"-0\.25"),
-        ({"tangential_load": 0.5}, r"0\.5.*friction"),
+        ({"sliding": 2, "friction": 0.1}, "sliding = 2"),
         ({"profile": 2.0}, r"2\.0.*profile"),
         ({"profile": "punch"}, "punch"),
     ],
@@ -239,16 +231,6 @@ def test_solve_and_with_refuse_unknown_names():
 
 # -- good questions without an answer -------------------------------------------------------------
 
-BUMP = sie.FromFunction(lambda x: x * np.exp(-x * x / 2), domain=(-INF, INF))
-
-
-@pytest.mark.slow
-def test_the_refusal_of_a_load_names_it_and_the_largest_load():
-    """The slope of a Gauss bump falls again: P has a largest value in one patch."""
-    with pytest.raises(sie.ContactError, match="50") as caught:
-        asked(scene(profile=BUMP, normal_load=50.0))
-    assert isinstance(caught.value.reached, dict)
-
 
 def wave(height, number, shift=0.0):
     """A parabola with a wave on it, as a function that is not known to be symmetric."""
@@ -296,25 +278,10 @@ def test_a_tilt_as_steep_as_the_wedge_has_no_contact():
     assert sie.solve(scene(profile=sie.Wedge(0.25), tilt=0.2499)).half_width > 0
 
 
-@pytest.mark.parametrize("moment", [1.0, 2.0, -1.5])
-def test_a_moment_that_no_pressure_on_the_punch_can_have_is_refused_with_its_value(moment):
-    """|M| < P a: a load acts within the indenter."""
-    with pytest.raises(sie.LoadError, match=str(moment).removesuffix(".0")):
-        asked(scene(profile=sie.Flat(1.0), normal_load=1.0, moment=moment))
-
-
 def test_a_moment_just_within_the_punch_is_carried():
     solution = sie.solve(scene(profile=sie.Flat(1.0), normal_load=1.0, moment=0.9375))
     assert solution.moment == pytest.approx(0.9375, abs=1e-13)
     assert solution.check().ok
-
-
-def test_states_that_are_not_covered_are_refused_before_work():
-    with pytest.raises(sie.ContactError, match=r"dissimilar"):
-        sie.solve(sie.Scene(
-            profile=sie.Parabola(1.0), modulus=1.0, dundurs=0.2, normal_load=1.0, friction=0.5,
-            moment=0.25,
-        ))  # fmt: skip
 
 
 def test_a_contact_error_survives_a_process_pool():
@@ -331,12 +298,6 @@ def test_noise_is_distinguished_from_a_profile():
     noisy = sie.FromFunction(lambda x: x + 1e-3 * rng.normal(size=np.shape(x)), domain=(-1.0, 1.0))
     with pytest.raises(sie.ResolutionError, match="settle"):
         asked(scene(profile=noisy, normal_load=0.1))
-
-
-def test_no_stage_is_computed_before_it_is_read():
-    """A question without an answer fails when asked, not when put."""
-    solution = sie.solve(scene(profile=sie.Flat(1.0), moment=2.0))
-    assert "normal" not in vars(solution)
 
 
 def test_a_corner_that_points_into_the_indenter_is_no_contact_of_a_half_width():

@@ -1,6 +1,5 @@
 """What is said and kept of full sliding and of full stick."""
 
-import math
 from dataclasses import replace
 
 import numpy as np
@@ -133,31 +132,7 @@ def test_beta_below_1e_minus_12_is_zero(beta, similar):
     assert (scene.beta == 0.0) is similar
 
 
-def test_another_beta_than_that_of_the_bodies_is_refused():
-    with pytest.raises(ValueError, match=r"dundurs = 0\.1 follows .* or give 0"):
-        sie.Scene(profile=RIM, **PAIR, dundurs=0.1, normal_load=1.0)
-
-
 def test_a_changed_beta_changes_a_bonded_punch():
     first = sie.solve(bonded(0.1))
     _ = first.pressure(0.5)
     assert first.with_(dundurs=0.3).pressure(0.5) == sie.solve(bonded(0.3)).pressure(0.5)
-
-
-def test_full_stick_is_for_flat_punches():
-    with pytest.raises(sie.ContactError, match="full stick"):
-        _ = sie.solve(sie.Scene(profile=RIM, **SIMILAR, friction=math.inf, normal_load=0.1)).edges
-
-
-@pytest.mark.parametrize(
-    ("given", "words"),
-    [
-        ({"sliding": 2, "friction": 0.1}, "sliding = 2"),
-        ({"sliding": 1}, "without friction"),
-        ({"sliding": 1, "friction": 0.1, "tangential_load": 0.1}, "both sliding"),
-        ({"sliding": 1, "friction": math.inf}, "infinite friction"),
-    ],
-)
-def test_contradictory_sliding_is_refused(given, words):
-    with pytest.raises(ValueError, match=words):
-        sie.Scene(profile=RIM, **SIMILAR, normal_load=0.1, **given)

@@ -33,13 +33,6 @@ def solved(monkeypatch):
 # -- solve -----------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("kind", KINDS)
-def test_each_example_is_solved_and_certified_from_the_command_line(kind, tmp_path, capsys):
-    assert main(["solve", example(kind, tmp_path)]) == 0
-    out, err = capsys.readouterr()
-    assert "\ncertified to " in out and "█" in out and err == ""
-
-
 def test_the_summary_says_edges_load_peak_and_certificate(scene, capsys):
     main(["solve", scene])
     out = capsys.readouterr().out
@@ -230,10 +223,3 @@ def test_without_matplotlib_all_but_the_picture_works(scene, tmp_path):
     assert found.returncode == 2
     assert found.stderr == 'sie: --plot needs Matplotlib: pip install "plane-contact[plot]"\n'
     assert (tmp_path / "out.csv").exists() and not (tmp_path / "out.png").exists()
-
-
-def test_a_picture_is_written(scene, tmp_path, capsys):
-    pytest.importorskip("matplotlib")
-    assert main(["solve", scene, "--plot", "out.PNG"]) == 0
-    assert (tmp_path / "out.PNG").read_bytes().startswith(b"\x89PNG")
-    assert capsys.readouterr().out.endswith("wrote out.PNG\n")

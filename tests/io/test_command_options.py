@@ -9,7 +9,6 @@ from itertools import chain, combinations_with_replacement, permutations
 import pytest
 
 import sie
-from sie import progress_bar
 from sie.cli import main
 from sie.cli.parser import COMMANDS, parse
 from sie.io import scene_file
@@ -101,17 +100,6 @@ def test_a_program_gets_the_stages_by_python_s_logging(caplog):
     with caplog.at_level(logging.DEBUG, logger="sie"):
         assert solution.edges == solution.edges
     assert [record.getMessage().split(":")[0] for record in caplog.records].count("normal") == 1
-
-
-@pytest.mark.parametrize("options", [["--csv", "-"], ["--want", "shear"]])
-def test_a_long_path_shows_a_bar_on_a_terminal(options, folder, monkeypatch, capsys):
-    pytest.importorskip("tqdm")
-    (folder / "cycle.toml").write_text(scene_file.example("fretting-cycle"))
-    for wait in ("PATIENCE", "INTERVAL"):
-        monkeypatch.setattr(progress_bar, wait, 0.0)
-    monkeypatch.setattr(progress_bar.sys.stderr, "isatty", lambda: True)
-    assert main(["solve", "cycle.toml", *options]) == 0
-    assert "turning points " in capsys.readouterr().err
 
 
 # -- completion -----------------------------------------------------------------------------------

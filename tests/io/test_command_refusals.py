@@ -128,19 +128,16 @@ def test_a_device_is_written_to_and_not_replaced(scene):
     assert Path("/dev/null").is_char_device()
 
 
-def test_exhausted_memory_is_reported_in_a_sentence(scene, monkeypatch, capsys):
-    def exhausted(*args, **kwargs):
-        raise MemoryError
-
-    monkeypatch.setattr(command, "solve", exhausted)
-    assert main(["solve", scene]) == 2
-    assert "memory" in sentence(capsys)
+ENDED = [(MemoryError, 2, "memory"), (KeyboardInterrupt, 130, "sie: interrupted by Ctrl-C\n")]
 
 
-def test_an_interruption_is_exit_code_130_and_a_sentence(scene, monkeypatch, capsys):
-    def interrupted(*args, **kwargs):
-        raise KeyboardInterrupt
+@pytest.mark.parametrize("ended", ENDED)
+def test_exhausted_memory_and_an_interruption_are_a_sentence(ended, scene, monkeypatch, capsys):
+    error, code, said = ended
 
-    monkeypatch.setattr(command, "solve", interrupted)
-    assert main(["solve", scene]) == 130
-    assert capsys.readouterr() == ("", "sie: interrupted by Ctrl-C\n")
+    def solve(*args, **kwargs):
+        raise error
+
+    monkeypatch.setattr(command, "solve", solve)
+    assert main(["solve", scene]) == code
+    assert said in sentence(capsys)

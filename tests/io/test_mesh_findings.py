@@ -215,7 +215,6 @@ REFUSED = {
     "more names than columns": ("x,press,extra\n0,1\n0.1,1\n", "a.csv", "names 3"),
     "fewer names than columns": ("x press\n0 1 2\n0.1 1 2\n", "a.txt", "has 3 columns"),
     "a comment of another width": ("# x y p\n0 1\n0.1 1\n", "a.txt", "names 3"),
-    "an unknown quantity": ("x,presure\n0,1\n0.1,1\n", "a.csv", '"presure" meant as "pressure"'),
     "what CalculiX prints": (PRINTED, "run.dat", "have a .frd written"),
     "values by node without coordinates": (PRNSOL, "a.lis", "--nodes nlist.lis"),
     "a node that is not listed": (
@@ -238,7 +237,6 @@ REFUSED = {
     "a report without coordinates": (
         ABAQUS_FIELD.replace("COORD.COOR1", "U.U1       "), "a.rpt", "write COORD",
     ),
-    "another unit of length": (table("x,p", 1e-3 * X, P), "a.csv", "units of length"),
     "a vtu file that is none": ("<VTKFile", "a.vtu", "meshio"),
 }  # fmt: skip
 

@@ -2,6 +2,8 @@
 which it is the limit.
 """
 
+from itertools import product
+
 import laws
 import numpy as np
 import pytest
@@ -142,23 +144,16 @@ def test_the_potential_reaches_its_limit_at_the_surface_continuously(scene, seed
             ).all()
 
 
-FAR = [10.0, 1e2, 1e3, 1e4, 1e6]
-
-
 @pytest.mark.parametrize("case", CASES, ids=str)
-@pytest.mark.parametrize("angle", [0.0, 1e-9, 0.3, np.pi])
-def test_far_away_the_potential_is_that_of_a_line_load_to_full_relative_accuracy(case: Case, angle):
+def test_far_away_the_potential_is_that_of_a_line_load_to_full_relative_accuracy(case: Case):
     """π z F(z) = P + M/z + ..., about the centre."""
     solution = solved(case)
-    P, M, r = (
-        solution.normal_load,
-        solution.moment - solution.centre * solution.normal_load,
-        solution.half_width,
-    )
-    direction = complex(np.cos(angle), 0.0 if angle in (0.0, np.pi) else np.sin(angle))
+    P, r = solution.normal_load, solution.half_width
+    M = solution.moment - solution.centre * P
     t, weight = laws.rule(solution.edges, case.profile.breaks)
     second = float((weight * solution.pressure(t) * (t - solution.centre) ** 2).sum())
-    for k in FAR[3:]:
+    for k, angle in product((1e4, 1e6), (0.0, 1e-9, 0.3, np.pi)):
+        direction = complex(np.cos(angle), 0.0 if angle in (0.0, np.pi) else np.sin(angle))
         z = solution.centre + k * r * direction
         s = z - solution.centre
         expected = (P + M / s + second / s**2) / (np.pi * s)

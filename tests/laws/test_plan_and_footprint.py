@@ -70,15 +70,16 @@ def footprint(solution):
     return frozenset(STAGES & vars(solution).keys())
 
 
-@pytest.mark.slow(but=67)
+@pytest.mark.slow(but=15)
 @pytest.mark.parametrize("name", SCENES)
-@pytest.mark.parametrize("want", ASK)
 @pytest.mark.parametrize("economy", [ECONOMIES, ()], ids=["economical", "wasteful"])
-def test_the_footprint_is_the_plan(name, want, economy):
-    solution = sie.solve(SCENES[name], economy=economy)
-    assert footprint(solution) == frozenset()
-    ASK[want](solution)
-    assert footprint(solution) == sie.plan(SCENES[name], want=want, economy=economy).stages
+def test_the_footprint_is_the_plan(name, economy):
+    for want, ask in ASK.items():
+        solution = sie.solve(SCENES[name], economy=economy)
+        assert footprint(solution) == frozenset()
+        ask(solution)
+        planned = sie.plan(SCENES[name], want=want, economy=economy).stages
+        assert footprint(solution) == planned, want
 
 
 ATTRIBUTES = [
@@ -202,32 +203,3 @@ def test_a_given_load_replaces_a_half_width_and_a_moment_a_tilt():
     assert solution.with_(half_width=1.5).with_(normal_load=1.0).scene.half_width is None
     assert solution.with_(moment=0.1).scene.tilt == 0.0
     assert solution.with_(moment=0.1).with_(tilt=0.01).scene.moment is None
-
-
-# -- counts ---------------------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize(
-    ("name", "most"),
-    [
-        ("convex", 6),
-        ("cylinder", 2),
-        ("flat", 2),
-        ("even function", 8),
-        ("function", 25),
-        ("tilted", 60),
-        ("dissimilar", 4),
-    ],
-)
-def test_the_edges_cost_few_passes_over_the_pieces(name, most):
-    assert sie.solve(SCENES[name]).normal.edges.evaluations <= most
-
-
-def test_the_slope_of_a_function_is_called_a_few_times_only():
-    calls = []
-    profile = sie.FromFunction(lambda x: calls.append(np.size(x)) or np.sinh(x), domain=(-9.0, 9.0))
-    sie.solve(sie.Scene(profile=profile, modulus=1.0, normal_load=1.0)).pressure(
-        np.linspace(-1, 1, 1001)
-    )
-    assert len(calls) <= 80
-    assert sum(calls) <= 40_000  # 22,000 of them look for narrow valleys between the ends

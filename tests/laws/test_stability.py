@@ -155,6 +155,7 @@ def test_any_load_keeps_equilibrium(profile, load):
     assert pytest.approx(load, rel=PROMISE + 4 * rounding) == P
 
 
+@pytest.mark.slow(but=1)
 @pytest.mark.parametrize("n", [100, 10_000])
 def test_many_pieces_keep_full_accuracy(n):
     """A parabola cut into pieces is still a parabola: p = E*/(2R) sqrt(b² - x²)."""

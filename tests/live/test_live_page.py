@@ -161,12 +161,6 @@ def test_a_slider_that_moves_leaves_the_others_where_the_file_has_them():
     assert math.isclose(moved.bulk_stress, scene.bulk_stress)
 
 
-def test_a_load_off_the_centre_keeps_its_place():
-    scene = parse(example("flat")).scene
-    moved = Setting.of_words({"load": "2"}, scene).scene
-    assert (moved.normal_load, moved.moment) == (2 * scene.normal_load, 2 * scene.moment)
-
-
 def test_the_tilt_of_a_file_is_where_its_slider_starts():
     scene = sie.Scene(profile=sie.Parabola(2.0), modulus=3.0, normal_load=0.7, tilt=0.01)
     start = {control.name: control.start for control in sliders(scene)}["tilt"]
@@ -220,13 +214,6 @@ def test_the_names_of_other_hosts_are_refused(server, name):
         assert server.address in reply.read().decode()
 
 
-def test_a_page_of_this_machine_is_found_by_its_name_too(server):
-    address = server.address.replace("127.0.0.1", "localhost") + "bokeh.js"
-    request = urllib.request.Request(server.address + "bokeh.js", headers={"Host": address[7:-9]})
-    with urllib.request.urlopen(request) as reply:
-        assert reply.status == 200
-
-
 def test_of_many_settings_that_wait_only_the_newest_is_solved():
     turns, solved = Turns(), []
     free = threading.Event()
@@ -249,17 +236,6 @@ def test_of_many_settings_that_wait_only_the_newest_is_solved():
         assert first.result(60)
         assert [request.result(60) for request in rest] == [False] * 38 + [True]
     assert solved == [0, 39]
-
-
-def test_pages_do_not_drop_the_settings_of_each_other():
-    turns = Turns()
-    with turns.taken("one", 5) as wanted:
-        assert wanted
-    for page, turn in (("two", 1), ("", 0), ("one", 5)):
-        with turns.taken(page, turn) as wanted:
-            assert wanted
-    with turns.taken("one", 4) as wanted:
-        assert not wanted
 
 
 def test_a_setting_that_a_page_has_left_is_answered_with_nothing(server):

@@ -13,7 +13,6 @@ from hypothesis import given
 from strategies import between, dyadic
 
 import sie
-from analytic import power
 from sie.io import scene_file
 from sie.profiles import kinds
 
@@ -250,13 +249,23 @@ def test_heights_are_measured_from_the_nearest_point_to_zero():
     assert sie.FromFunction("x").height(0.0) == 0.0
 
 
-@pytest.mark.parametrize("exponent", [1.1, 1.2, 1.5, 1.9, 2.5])
-def test_the_pressure_at_the_apex_of_a_power_law_keeps_13_digits(exponent):
-    """There h' vanishes like |x|^(m-1), and what its pieces miss next to x = 0 is multiplied by the
-    logarithm of their length.
-    """
-    law = {"exponent": exponent, "coefficient": 1.0}
-    pressure = sie.solve(sie.Scene(profile=sie.Power(**law), modulus=2.0, half_width=1.0)).pressure
-    x = np.array([0.0, 1e-30, 1e-20, 1e-9])
-    expected = power.pressure(x, half_width=1.0, modulus=2.0, **law)
-    assert np.abs(pressure(x) / expected - 1.0).max() <= 1e-13
+# -- a class of one's own, which states its slope alone --------------------------------------------
+
+
+def test_a_height_that_a_class_does_not_state_is_the_integral_of_its_slope():
+    """At the corners the polygon is the parabola, but for what its middle is higher."""
+    x = np.array([-np.inf, -20.0, -0.5, -0.25, 0.0, 0.0625, 0.375, 12.5, np.nan])
+    h = [np.inf, np.inf, 0.0625, 0.015625, 0.0, 0.001953125, 0.03515625, 39.0625, np.nan]
+    assert Faceted(2.0, 0.125).height(x) == pytest.approx(h, rel=1e-14, nan_ok=True)
+
+
+def test_short_facets_press_like_the_parabola_of_hertz():
+    """b = sqrt(4 P R/(π E*)), and the difference falls faster than the length of a facet."""
+    missed = []
+    for facet in (0.05, 0.0125):
+        scene = sie.Scene(profile=Faceted(1.0, facet), modulus=1.0, normal_load=np.pi / 16.0)
+        solution = sie.solve(scene)
+        assert solution.check().ok
+        missed.append(abs(solution.half_width / 0.5 - 1.0))
+    assert 0.0 < missed[0] < 0.05
+    assert missed[1] < 0.25 * missed[0]

@@ -13,14 +13,6 @@ from analytic import rounded_flat
 from oracles.normal_contact import mp
 
 NU = 0.3
-# P/(bk) and whether it is on the surface: NUMERICS' table, computed with mpmath from the closed
-# form
-KNOWN = {
-    (0.0, 0.0): (4.88003571108, False), (0.3, 0.0): (5.32116806054, False),
-    (0.5, 0.0): (5.00129193126, False),
-    (0.8, 0.0): (3.52415662624, False), (0.0, 0.3): (4.081253, True), (0.3, 0.3): (3.883460, True),
-    (0.5, 0.3): (3.484226, True), (0.8, 0.3): (2.372888, True),
-}  # fmt: skip
 
 
 def punch(a, friction=0.0, **changes):
@@ -80,12 +72,14 @@ def polished(a, friction, x, y):
     return x, y, j2(x, y)
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize(("a", "f"),
-                         [(0.0, 0.0), (0.05, 0.0), (0.1, 0.1), (0.15, 0.0), (0.3, 0.2), (0.5, 0.0),
-                          (0.8, 0.05), (0.95, 0.0),
-                                      (0.05, 0.3), (0.5, 0.3), (0.8, 0.5),
-                                      (0.95, 0.4)])  # fmt: skip
+@pytest.mark.slow(but=2)
+@pytest.mark.parametrize(
+    ("a", "f"),
+    [
+        (0.5, 0.0), (0.5, 0.3), (0.0, 0.0), (0.05, 0.0), (0.1, 0.1), (0.15, 0.0), (0.3, 0.2),
+        (0.8, 0.05), (0.95, 0.0), (0.05, 0.3), (0.8, 0.5), (0.95, 0.4),
+    ],
+)  # fmt: skip
 def test_the_elastic_limit_has_twelve_digits_and_its_place_eight(a, f):
     found = punch(a, f).elastic_limit()
     x, y, j2 = polished(a, f, found.x, found.y)
@@ -94,15 +88,6 @@ def test_the_elastic_limit_has_twelve_digits_and_its_place_eight(a, f):
     )
     assert found.ratio == pytest.approx(float(P / mp.sqrt(j2)), rel=1e-12)
     assert abs(found.x - x) <= 1e-8 and abs(found.y - y) <= 1e-8
-
-
-@pytest.mark.parametrize(("a", "f"), KNOWN)
-def test_known_elastic_limits(a, f):
-    value, on_surface = KNOWN[a, f]
-    found = punch(a, f).elastic_limit()
-    # As many digits as the table has
-    assert found.ratio == pytest.approx(value, rel=2e-12 if f == 0 else 2e-7)
-    assert found.on_surface is on_surface
 
 
 def test_hertz_yields_below_the_centre_and_in_sliding_on_the_surface_as_in_johnson():

@@ -11,7 +11,6 @@ from hypothesis import given
 from stress_cases import PUNCH, SCENES, SHARP, STEEL, F, sliding
 
 import sie
-from analytic import rounded_flat
 from oracles import half_plane_stress
 from oracles.normal_contact import mp
 from validation.cases import CASES, SMOOTH_CASES, exact, solved
@@ -138,31 +137,6 @@ def _by_circle(function, z, n=40):
     turns = [mp.expjpi(mp.mpf(2 * j) / n) for j in range(n)]
     values = [function(z + rho * w) for w in turns]
     return sum(values) / n, sum(v / w for v, w in zip(values, turns, strict=True)) / (n * rho)
-
-
-@pytest.mark.parametrize("a", [0.0, 0.3, 0.8, 1 - 1e-6])
-def test_the_potentials_of_the_rounded_punch_are_the_closed_forms_ones(a):
-    solution = sie.solve(
-        sie.Scene(
-            profile=sie.RoundedFlat(a, 1.0) if a else sie.Parabola(1.0), modulus=1.0, half_width=1.0
-        )
-    )
-    x, y = np.meshgrid(
-        [-3.0, -1.0, -a, 0.0, 0.47, a, 1.0, 40.0], [1e-12, 1e-6, 1e-3, 0.1, 1.0, 2.9, 3.1, 1e4]
-    )
-    z = x + 1j * y
-    F, dF = solution.pressure.potentials(z)
-    parameters = {"half_flat": a, "half_width": 1.0, "radius": 1.0, "modulus": 1.0}
-    scale = peak(solution)
-    exact_F, exact_dF = (
-        rounded_flat.potential(z, **parameters),
-        rounded_flat.potential_derivative(z, **parameters),
-    )
-    assert np.abs(F - exact_F).max() <= 1e-13 * scale
-    assert (y * np.abs(dF - exact_dF)).max() <= 1e-13 * scale
-    far = np.abs(z) > 2.0
-    assert np.abs(F / exact_F - 1)[far].max() <= 1e-13
-    assert np.abs(dF / exact_dF - 1)[far].max() <= 1e-13
 
 
 # -- laws ------------------------------------------------------------------------------------------

@@ -6,8 +6,7 @@ import pytest
 from hypothesis import given, settings
 from strategies import between, log_between
 
-from oracles.principal_value import principal_value
-from validation.appendix_equations import DIGITS, EQUATIONS, Setting, mp
+from validation.appendix_equations import DIGITS, EQUATIONS, Setting
 from validation.topics.appendix import CASES, WRONG, agreed, digits
 
 
@@ -43,14 +42,3 @@ def test_a_misprinted_equation_is_wrong_in_the_third_digit(equation, case):
 def test_a_wrong_right_hand_side_is_detected(equation):
     case = (0.5, 1.25, 0.75, 2.0)
     assert digits(equation.right(Setting(*case, spoiled=WRONG)), equation.left(Setting(*case))) < 25
-
-
-def test_the_principal_value_of_one_over_x_is_a_logarithm():
-    for pole in (0.3, -0.9, 1.7, -1.001):
-        found = principal_value(
-            mp, lambda t, pole=pole: 1 / (t - mp.mpf(pole)), mp.mpf(pole), -mp.one, mp.one
-        )
-        assert (
-            abs(found - mp.log(abs((1 - mp.mpf(pole)) / (1 + mp.mpf(pole)))))
-            < mp.mpf(10) ** -DIGITS
-        )

@@ -13,13 +13,14 @@ from sie import charts
 from validation.__main__ import TOPICS, main, summary
 from validation.harness import measures
 from validation.harness.measures import largest, smallest
-from validation.harness.records import Claim, Found, checked
+from validation.harness.records import Claim, Found
 from validation.harness.report import Section
 from validation.harness.running import run
 from validation.rivals import solvers
 from validation.rivals.problems import kinked, sliding, wavy
 from validation.topics import paper, speed, stability, sweeps
 from validation.topics.sweeps import SPOILED
+from validation.wrong_programs.mutants import BAR, MUTANTS
 
 # -- verdicts --------------------------------------------------------------------------------------
 
@@ -43,11 +44,6 @@ from validation.topics.sweeps import SPOILED
 def test_a_verdict_follows_from_the_numbers(made, verdict):
     assert made.verdict == verdict
     assert made.ok == (verdict in ("holds", "refuted"))
-
-
-def test_a_measure_is_one_function_of_the_right_and_of_the_wrong_input():
-    made = checked(lambda v: v * v, 0.1, 3, what="", by="", named="three", high=1.0)
-    assert (made.measured, made.control, made.verdict) == (pytest.approx(0.01), 9.0, "holds")
 
 
 @pytest.mark.parametrize("place", [0, 1, 2])
@@ -199,46 +195,12 @@ def test_the_peers_are_right_where_they_should_be():
     assert errors[1] < errors[0] / 3 < 0.01
 
 
-def test_the_periodic_elements_reach_westergaards_wave():
-    problem, n = wavy(), 256
-    x = (np.arange(n) + 0.5) / n - 0.5
-    exact = np.where(np.abs(x) < 0.19, problem.closed(np.tan(np.pi * np.clip(x, -0.19, 0.19))), 0.0)
-    from validation.topics.work_precision import _closed_load  # noqa: PLC0415
-
-    p = solvers.boundary_elements(problem.gap(x), 1 / n, _closed_load(problem), periodic=True)
-    assert np.abs(p - exact)[np.abs(x) < 0.19].max() < 0.02 * exact.max()
-    assert _closed_load(problem) == pytest.approx(
-        np.pi * 0.01 * np.sin(0.2 * np.pi) ** 2, rel=1e-13
-    )
-
-
-def test_codes_of_others_race_where_they_are_installed_and_are_named_where_not(monkeypatch):
-    """A module that is always there stands for an installed code, with a wrong answer that the race
-    must see.
-    """
-    from validation.topics import work_precision  # noqa: PLC0415
-
-    def flat(gap, spacing, load):
-        return np.full(len(gap), load / (len(gap) * spacing))
-
-    monkeypatch.setattr(
-        solvers,
-        "INSTALLABLE",
-        {"Tamaas": ("math", flat), "ContactMechanics": ("no_such_module", flat)},
-    )
-    assert [m.name for m in work_precision.methods()][len(work_precision.OURS_AND_TEXTBOOKS) :] == [
-        "Tamaas"
-    ]
-    assert work_precision._absent() == ["ContactMechanics (not installed)"]
-    method = work_precision.methods()[-1]
-    assert method.applies(wavy())
-    assert not method.applies(kinked(0.5))
-    assert all(error > 0.5 for _, error, _, _ in work_precision.race(wavy(), method, quick=True))
-
-
 @pytest.mark.slow(but=2)
-@pytest.mark.parametrize("problem", [kinked(0.5), wavy(), sliding()], ids=lambda p: p.name)
-def test_a_race_measures_the_error_that_it_states(problem):
+@pytest.mark.parametrize(
+    "made", [lambda: kinked(0.5), wavy, sliding], ids=["kinked", "wavy", "sliding"]
+)
+def test_a_race_measures_the_error_that_it_states(made):
+    problem = made()
     p = problem.solution.pressure(problem.x)
     assert problem.error(p) < 1e-13
     assert problem.error(p * (1 + 1e-9)) == pytest.approx(1e-9, rel=0.1)
@@ -256,3 +218,17 @@ def test_the_truth_of_sliding_agrees_with_the_closed_form():
             x, normal_load=P, half_flat=0.5, radius=1.0, modulus=1.0, coupling=0.3
         )
         assert float(truth.pressure(x)) == pytest.approx(float(closed), rel=1e-12)
+
+
+# -- wrong programs, which their checkers catch ----------------------------------------------------
+
+
+@pytest.mark.parametrize("mutant", MUTANTS, ids=lambda m: m.name)
+def test_each_wrong_program_is_caught_and_the_right_one_is_not(mutant):
+    assert mutant.number(False) <= BAR
+    assert mutant.number(True) > BAR
+    assert mutant.number(False) <= BAR  # nothing stays replaced
+
+
+def test_the_list_names_each_once():
+    assert len({m.name for m in MUTANTS}) == len(MUTANTS) > 20
