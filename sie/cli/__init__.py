@@ -280,13 +280,11 @@ def _export_boundary(arguments: argparse.Namespace) -> int:
 
 def _benchmark_set(arguments: argparse.Namespace) -> int:
     """Write the set into a new or an empty folder: all of its files, or none."""
-    from sie.io import export
     from sie.io.benchmark_set import benchmark_set
 
     folder = files.empty_folder(arguments.folder)
-    texts = benchmark_set({"csv": export.csv_text, "json": export.json_text})
-    contents = {folder / name: text.encode() for name, text in texts.items()}
-    with files.making_folder(folder):
+    contents = {folder / name: data for name, data in benchmark_set().items()}
+    with files.making_folders({path.parent for path in contents} | {folder}):
         _give(contents, f"wrote {len(contents)} files, see {folder / 'README.md'}\n")
     return CERTIFIED
 

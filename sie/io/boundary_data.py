@@ -91,7 +91,7 @@ class BoundaryData:
         return files.table_of_columns((*self.head, "y is downward from the surface"), columns)
 
     def keywords(self) -> str:
-        """The lines *BOUNDARY or *CLOAD of an input deck, y upward."""
+        """The lines *BOUNDARY or *CLOAD of a deck, y upward; CalculiX reads 20 characters."""
         head = (*self.head, "y is upward, as in the mesh")
         lines = [f"** {line}" for line in head]
         forces = self.kind == "traction"
@@ -104,7 +104,7 @@ class BoundaryData:
         lines.append(card)
         for label, *vector in zip(labels.tolist(), *(c.tolist() for c in columns), strict=True):
             freedoms = enumerate(vector, 1)
-            lines += [f"{label}, {k}, {between.format(k)}{value!r}" for k, value in freedoms]
+            lines += [f"{label}, {k}, {between.format(k)}{value:.13e}" for k, value in freedoms]
         return "\n".join(lines) + "\n"
 
     def write(self, path: str | Path) -> None:
