@@ -128,8 +128,7 @@ def parser() -> argparse.ArgumentParser:
     about = "Plane elastic contact: edges, pressure, gap and stress, and how exact they are."
     parser = _Parser(prog="sie", description=about, **common)
     parser.add_argument("--version", action="version", version=f"sie {__version__}")
-    metavar = "{" + ",".join(COMMANDS) + "}"
-    subparsers = parser.add_subparsers(dest="command", required=True, metavar=metavar)
+    subparsers = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
     commands = {
         name: subparsers.add_parser(name, help=about, description=about, **common)
         for name, about in COMMANDS.items()
