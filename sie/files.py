@@ -167,16 +167,18 @@ def _move(parts: Mapping[Path, Path], contents: Iterable[Path]) -> None:
 
 
 @contextmanager
-def making_folder(path: Path) -> Iterator[None]:
-    """Make the folder if there is none; it is removed again if the block leaves it empty."""
-    made = not path.exists()
-    if made:
-        with _named([path]):
-            path.mkdir()
+def making_folders(paths: Iterable[Path]) -> Iterator[None]:
+    """Make the folders that are not there; those that the block leaves empty are removed again."""
+    made: list[Path] = []
     try:
+        for path in sorted(paths):  # a folder before what is in it
+            if not path.exists():
+                with _named([path]):
+                    path.mkdir()
+                made.append(path)
         yield
     finally:
-        if made:
+        for path in reversed(made):
             with suppress(OSError):  # it has files
                 path.rmdir()
 

@@ -62,7 +62,10 @@ HANDED_UP = {
     ("sie.io.html_report", "sie.plots.loop_plot"),
     ("sie.problem.scene", "sie.io.scene_writing"),
     ("sie.profiles.base", "sie.profiles.derived"),
+    ("sie.io.benchmark_set", "sie.plots.contact_plot"),
+    ("sie.io.benchmark_set", "sie.plots.style"),
     ("sie.solution", "sie.paths.history"),
+    ("sie.stress_answers", "sie.io.boundary_data"),
     ("sie.solution", "sie.io.html_report"),
     ("sie.solution", "sie.plots.one_axes"),
 }

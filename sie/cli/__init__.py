@@ -11,6 +11,9 @@
     sie live [scene.toml]           a page with sliders, served on this machine
         [--port N] [--no-browser]
     sie example [NAME]              a commented scene file; without NAME, the list of them
+    sie export-boundary scene.toml --nodes deck.inp --set NAME     lines for the deck: exact
+        [--kind KIND] [--surface Y]      displacements or forces on the boundary of a mesh
+        [--body SIDE] [--zero X,Y] [--csv FILE]
     sie benchmark-set DIR           contacts with exact references, to measure other codes by
     sie schema                      the JSON Schema of scene files, for editors
     sie completion bash             a script by which the shell completes commands (needs shtab)
@@ -245,13 +248,43 @@ def _example(arguments: argparse.Namespace) -> int:
     return CERTIFIED
 
 
+def _export_boundary(arguments: argparse.Namespace) -> int:
+    """Print the lines that give the nodes of a set the exact displacements or forces."""
+    if arguments.nodes is None or arguments.set is None:
+        raise ValueError(
+            "give the mesh and its node set: sie export-boundary scene.toml --nodes deck.inp "
+            "--set OUTER"
+        )
+    from sie.io.mesh_files.node_sets import nodes_of_set
+
+    outputs = outputs_of(arguments)
+    file = scene_of(arguments)
+    refuse_overwriting(arguments, outputs, file)
+    labels, mesh = nodes_of_set(arguments.nodes, arguments.set)
+    points = mesh.in_axes_of_depth(labels.tolist(), arguments.surface)
+    zero = arguments.zero and (arguments.zero[0], arguments.surface - arguments.zero[1])
+    with _progress(arguments):
+        data = _solution(file, TOL).boundary_data(
+            points,
+            kind=arguments.kind,
+            body="body" if arguments.body == "below" else "indenter",
+            labels=labels,
+            zero=zero,
+        )
+        contents = {path: data.csv().encode() for path in outputs.values()}
+    shown = contents.pop(pathlib.Path(STANDARD), None)
+    lines = data.keywords() if shown is None else shown.decode()
+    _give(contents, "" if arguments.quiet and shown is None else lines)
+    return CERTIFIED
+
+
 def _benchmark_set(arguments: argparse.Namespace) -> int:
     """Write the set into a new or an empty folder: all of its files, or none."""
     from sie.io.benchmark_set import benchmark_set
 
     folder = files.empty_folder(arguments.folder)
-    contents = {folder / name: text.encode() for name, text in benchmark_set().items()}
-    with files.making_folder(folder):
+    contents = {folder / name: data for name, data in benchmark_set().items()}
+    with files.making_folders({path.parent for path in contents} | {folder}):
         _give(contents, f"wrote {len(contents)} files, see {folder / 'README.md'}\n")
     return CERTIFIED
 
@@ -276,6 +309,7 @@ COMMANDS = {
     "plan": _plan,
     "live": _live,
     "example": _example,
+    "export-boundary": _export_boundary,
     "benchmark-set": _benchmark_set,
     "schema": _schema,
     "completion": _completion,

@@ -22,6 +22,7 @@ COMMANDS = {
     "plan": "what would be computed, what would be skipped, and why",
     "live": "serve a page with sliders: the contact of a scene, or of an example",
     "example": "print a commented scene file to start from",
+    "export-boundary": "exact displacements or forces for the boundary nodes of a mesh",
     "benchmark-set": "write contacts with exact references, by which other codes are measured",
     "schema": "print the JSON Schema of scene files, by which an editor completes their keys",
     "completion": "print a script by which a shell completes commands, options and files",
@@ -32,6 +33,7 @@ FILES = {
     "plan": ("scene",),
     "compare": ("scene", "mesh"),
     "live": ("scene",),
+    "export-boundary": ("scene",),
 }
 # What has the name of a file or a folder, as a refusal says it.
 NAMED = {
@@ -126,8 +128,7 @@ def parser() -> argparse.ArgumentParser:
     about = "Plane elastic contact: edges, pressure, gap and stress, and how exact they are."
     parser = _Parser(prog="sie", description=about, **common)
     parser.add_argument("--version", action="version", version=f"sie {__version__}")
-    metavar = "{" + ",".join(COMMANDS) + "}"
-    subparsers = parser.add_subparsers(dest="command", required=True, metavar=metavar)
+    subparsers = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
     commands = {
         name: subparsers.add_parser(name, help=about, description=about, **common)
         for name, about in COMMANDS.items()
@@ -151,9 +152,10 @@ def _add_options(commands: Mapping[str, argparse.ArgumentParser]) -> None:
         )
     _add_outputs_of_solve(commands["solve"])
     _add_mesh_and_outputs(commands["compare"])
-    for name in ("solve", "compare"):
+    for name in ("solve", "compare", "export-boundary"):
         about = "print no report, only what goes to standard output by -"
         commands[name].add_argument("--quiet", action="store_true", help=about)
+    _add_boundary(commands["export-boundary"])
     about = "the port of the page (a free one)"
     commands["live"].add_argument("--port", metavar="N", type=_port, default=0, help=about)
     about = "print the page's address, and open no browser"
@@ -204,6 +206,31 @@ def _add_mesh_and_outputs(parser: argparse.ArgumentParser) -> None:
     add("--plot", "FILE", "draw both and their difference (needs Matplotlib)")
     norms = "write the norms; without FILE, print them"
     add("--json", "FILE", norms, nargs="?", const=STANDARD)
+
+
+def _add_boundary(parser: argparse.ArgumentParser) -> None:
+    def add(option: str, metavar: str, about: str, **given: Any) -> None:
+        parser.add_argument(option, metavar=metavar, help=about, **given)
+
+    add("--nodes", "FILE", "the mesh: a deck of Abaqus or CalculiX, or what meshio reads")
+    add("--set", "NAME", "the node set on the boundary")
+    about = "displacement or traction (as nodal forces) (%(default)s)"
+    add("--kind", "KIND", about, choices=("displacement", "traction"), default="displacement")
+    add("--surface", "Y", "the height of the surface in the mesh (0)", type=_height, default=0.0)
+    about = "the body that the nodes belong to, below or above the surface (%(default)s)"
+    add("--body", "SIDE", about, type=_side, default="below")
+    add("--zero", "X,Y", "the point, in the axes of the mesh, that keeps its place", type=_place)
+    add("--csv", "FILE", "write a table, too")
+
+
+def _place(text: str) -> tuple[float, float]:
+    try:
+        x, y = map(float, text.split(","))
+    except ValueError:
+        x = y = math.nan
+    if not (math.isfinite(x) and math.isfinite(y)):
+        raise argparse.ArgumentTypeError(f"{text} is not a point: give X,Y, like 0,-10")
+    return x, y
 
 
 def _height(text: str) -> float:

@@ -92,10 +92,9 @@ def refuse_overwriting(
     """ValueError if an output, or what is printed, would go into a file that is read."""
     scene = 0 if arguments.scene == STANDARD else pathlib.Path(arguments.scene)
     read: dict[int | pathlib.Path, str] = {scene: "the scene file"}
-    if getattr(arguments, "mesh", None) is not None:
-        read[pathlib.Path(arguments.mesh)] = "the mesh result"
-        if arguments.nodes is not None:
-            read[pathlib.Path(arguments.nodes)] = "the file of nodes"
+    for name, what in (("mesh", "the mesh result"), ("nodes", "the file of nodes")):
+        if getattr(arguments, name, None) is not None:
+            read[pathlib.Path(getattr(arguments, name))] = what
     read |= dict.fromkeys(file.reads, "a trace that the scene reads")
     written = {f"--{kind} {path}": _place(path) for kind, path in outputs.items()} | {
         "standard output": 1

@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 from sie.io.mesh_difference import EXACT, Comparison, difference
 from sie.io.mesh_files.names import STRESSES, TRACTIONS
 from sie.io.mesh_result import Mesh, Points, joined
+from sie.io.targets import peaks
 from sie.solution import Solution
 
 Array = NDArray[np.float64]
@@ -40,7 +41,7 @@ def compare(solution: Solution, mesh: Mesh, tol: float) -> Comparison:
         mesh = step(solution, mesh)
     guess = _offset(solution, mesh)
     differences = {name: difference(name, solution, mesh, guess) for name in mesh.fields}
-    return Comparison(mesh, tol, differences)
+    return Comparison(mesh, tol, differences, peaks(solution, mesh))
 
 
 def _refuse_elsewhere(solution: Solution, mesh: Mesh) -> None:

@@ -23,7 +23,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import asdict, dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -71,6 +71,7 @@ UNITS = {
     1.0 / 0.1450377: "MPa beside ksi",
 }
 SAME_UNIT = 0.2
+STRESS_PEAKS = ("sxx_max", "mises_max")  # the last is the peak stress: σ_xx has a spike
 
 
 @dataclass(frozen=True)
@@ -134,6 +135,19 @@ class Difference:
         return lines
 
 
+class Peak(NamedTuple):
+    """The largest value of a quantity, exact and in the mesh."""
+
+    name: str
+    exact: float
+    mesh: float
+
+    @property
+    def error(self) -> float:
+        """The relative error."""
+        return self.mesh / self.exact - 1.0
+
+
 @dataclass(frozen=True)
 class Comparison:
     """All quantities of a file against a tolerance of l2."""
@@ -141,6 +155,7 @@ class Comparison:
     mesh: Mesh
     tol: float
     differences: dict[str, Difference]
+    peaks: tuple[Peak, ...] = ()
 
     @property
     def ok(self) -> bool:
@@ -159,6 +174,7 @@ class Comparison:
             "tol": self.tol,
             "ok": self.ok,
             "differences": {name: asdict(d) for name, d in self.differences.items()},
+            "peaks": [peak._asdict() | {"error": peak.error} for peak in self.peaks],
             "not_compared": list(self.mesh.others),
             "notes": list(self.mesh.notes),
         }
@@ -167,6 +183,10 @@ class Comparison:
         lines: list[str] = []
         for name, found in self.differences.items():
             lines += found.lines(name, self.mesh.name)
+        lines += [
+            f"{peak.name}: {peak.mesh:.6g}, exactly {peak.exact:.6g}, {peak.error:+.1%}"
+            for peak in self.peaks
+        ]
         lines += [f"note: {note}" for note in self.mesh.notes]
         if self.mesh.others:
             lines.append(
@@ -178,7 +198,16 @@ class Comparison:
             verdict = f"l2 is within {self.tol:g}"
         elif within:
             verdict += f"; that of {within} is within it"
-        return "\n".join([*lines, verdict])
+        return "\n".join([*lines, *self._score(), verdict])
+
+    def _score(self) -> list[str]:
+        """A line that says how good the mesh is."""
+        parts = [
+            f"{name} to {d.l2:.1%}" for name, d in self.differences.items() if name in "pq" and d.l2
+        ]
+        stress = [abs(peak.error) for peak in self.peaks if peak.name in STRESS_PEAKS]
+        parts += [f"peak stress to {stress[-1]:.1%}"] if stress else []
+        return [f"this mesh: {', '.join(parts)}"] if parts else []
 
 
 def difference(name: str, solution: Solution, mesh: Mesh, guess: float = 0.0) -> Difference:

@@ -1,7 +1,11 @@
 """`sie benchmark-set`: the references are those of closed forms in 30 digits; all files or none."""
 
 import csv
+import hashlib
 import json
+import re
+import shutil
+import subprocess
 
 import mpmath
 import pytest
@@ -12,15 +16,17 @@ from sie import files
 from sie.cli import main
 from sie.io import benchmark_set as module
 from sie.io import scene_file
+from sie.io.mesh_comparison import compare
+from sie.io.mesh_result import read_mesh
 
-CASES = ("cattaneo", "hertz", "rounded-flat", "spence", "two-parabolas")
+CASES = module.case_names()
 mp = mpmath.mp.clone()
 mp.dps = 30
 
 P, Q, F = mp.mpf(500), mp.mpf(100), mp.mpf(3) / 10
 ONE_BODY = mp.mpf(210000) / (1 - mp.mpf(9) / 100)  # E* on a rigid body; of two it is half of that
 CYLINDER = {"radius": mp.mpf(50), "modulus": ONE_BODY / 2}
-PUNCH = {"half_flat": mp.mpf(1), **CYLINDER}
+PUNCH = {"half_flat": mp.mpf(0.55), "radius": mp.mpf(500), "modulus": ONE_BODY / 2}
 FEET = {"normal_load": P, "distance": mp.mpf(1) / 2, **CYLINDER}
 SHEARED = {"normal_load": P, "tangential_load": Q, "friction": F}
 # c/b, by `analytic.spence` in a context of 25 digits: too slow for a test
@@ -30,7 +36,13 @@ EPS = 1e-14
 
 @pytest.fixture(scope="module")
 def texts():
-    return module.benchmark_set()
+    """The files of five cases with closed forms, by their paths."""
+    names = ("cattaneo", "hertz", "rounded-flat-55", "spence", "two-parabolas")
+    return {
+        f"{name}/{file}": data.decode(errors="replace")
+        for name in names
+        for file, data in module.case_files(name).items()
+    }
 
 
 def columns(text):
@@ -39,7 +51,7 @@ def columns(text):
 
 
 def numbers(texts, case):
-    return json.loads(texts[f"{case}.json"]), columns(texts[f"{case}.csv"])
+    return json.loads(texts[f"{case}/answer.json"]), columns(texts[f"{case}/curves.csv"])
 
 
 def agrees(table, name, exact, edges):
@@ -53,25 +65,69 @@ def agrees(table, name, exact, edges):
 # -- what the files hold --------------------------------------------------------------------------
 
 
-def test_each_case_has_its_input_and_its_references(texts):
-    endings = (".toml", ".csv", ".json")
-    assert set(texts) == {"README.md", *(case + ending for case in CASES for ending in endings)}
+def test_the_set_has_twelve_cases():
+    assert len(CASES) == 12
+    assert {"hertz", "westergaard", "spence", "sliding-dissimilar", "tilted-rounded-flat"} < {
+        *CASES
+    }
 
 
-@pytest.mark.parametrize("case", CASES)
-def test_the_references_are_the_certified_answer_to_the_input_in_all_digits(texts, case):
-    scene = scene_file.parse(texts[f"{case}.toml"]).scene
+def test_each_case_has_its_input_its_references_and_their_hashes(texts):
+    wanted = {"README.md", "scene.toml", "targets.csv", "curves.csv", "answer.json", "deck.inp"}
+    wanted |= {"displacement-body.csv", "traction-body.csv", "displacement-indenter.csv"}
+    for case in {path.partition("/")[0] for path in texts}:
+        assert wanted <= {path.partition("/")[2] for path in texts if path.startswith(f"{case}/")}
+
+
+@pytest.mark.parametrize("case", ["cattaneo", "spence", "rounded-flat-55"])
+def test_the_targets_are_the_certified_answer_to_the_input_in_all_digits(texts, case):
+    file = scene_file.parse(texts[f"{case}/scene.toml"])
     answer, _ = numbers(texts, case)
-    assert sie.Scene.from_dict(answer["scene"]) == scene
-    assert tuple(answer["edges"]) == sie.solve(scene).edges
+    solution = sie.solve(file.scene)
+    assert sie.Scene.from_dict(answer["scene"]) == file.scene
     assert answer["check"]["ok"]
     assert answer["units"] == {"length": "mm", "force": "N/mm", "stress": "MPa", "moment": "N"}
     assert answer["scene"]["body"] == {"young": 210e3, "poisson": 0.3}
-    lines = [line for line in texts[f"{case}.csv"].splitlines() if not line.startswith("#")]
-    cells = [cell for line in lines[1:] for cell in line.split(",")]
-    assert cells == [repr(float(cell)) for cell in cells]
-    edge = f"| {case} | edge of the contact, mm | {answer['edges'][1]!r} |"
-    assert edge in texts["README.md"]
+    rows = list(csv.DictReader(texts[f"{case}/targets.csv"].splitlines()))
+    targets = {row["name"]: float(row["value"]) for row in rows}
+    assert targets["x2, edge of the contact"] == solution.edges[1]
+    assert targets["P"] == solution.normal_load
+    assert all(row["value"] == repr(float(row["value"])) for row in rows)
+    assert all(float(row["certificate"]) < 1e-11 for row in rows)
+    approach = next(value for name, value in targets.items() if name.startswith("approach"))
+    assert approach == solution.displacement(0.0, 0.0).approach
+    for row in rows:
+        assert f"| {row['name']} | {row['value']} | {row['unit']} |" in texts[f"{case}/README.md"]
+
+
+@pytest.mark.slow
+def test_the_whole_set_is_certified_and_its_hashes_are_those_of_its_files():
+    contents = module.benchmark_set()
+    for case in CASES:
+        files_of = {p: d for p, d in contents.items() if p.startswith(f"{case}/")}
+        sums = files_of.pop(f"{case}/SHA256SUMS").decode()
+        assert sums == "".join(
+            f"{hashlib.sha256(data).hexdigest()}  {path.partition('/')[2]}\n"
+            for path, data in files_of.items()
+        )
+        assert json.loads(contents[f"{case}/answer.json"])["check"]["ok"]
+        assert f"({case}/README.md)" in contents["README.md"].decode()
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(shutil.which("ccx") is None, reason="CalculiX is not installed")
+@pytest.mark.parametrize("case", ["hertz", "westergaard", "tilted-rounded-flat", "cattaneo"])
+def test_calculix_runs_the_deck_as_it_is_and_comes_near(case, tmp_path):
+    for file, data in module.case_files(case).items():
+        (tmp_path / file).write_bytes(data)
+    subprocess.run(["ccx", "deck"], cwd=tmp_path, capture_output=True, check=True)
+    scene = scene_file.read(tmp_path / "scene.toml").scene
+    found = compare(sie.solve(scene), read_mesh(tmp_path / "deck.frd"), 1e-2)
+    assert {peak.name for peak in found.peaks} >= {"p_max", "mises_max"}
+    for peak in found.peaks:
+        if peak.name in ("p_max", "mises_max"):
+            assert abs(peak.error) < 0.02
+    assert re.search(r"this mesh: p to \d\.\d%.*, peak stress to \d\.\d%", str(found))
 
 
 # -- against closed forms in 30 digits ------------------------------------------------------------
@@ -89,10 +145,11 @@ def test_the_pressure_of_a_cylinder_is_that_of_hertz(texts, case):
 
 
 def test_the_pressure_of_a_rounded_punch_is_the_closed_form(texts):
-    answer, table = numbers(texts, "rounded-flat")
-    rim = rounded_flat.rim(normal_load=P, **PUNCH, lib=mp)
-    assert answer["edges"][1] == pytest.approx(float(1 + rim), rel=EPS)
-    agrees(table, "p", lambda x: rounded_flat.pressure(x, rim=rim, **PUNCH, lib=mp), [1 + rim])
+    answer, table = numbers(texts, "rounded-flat-55")
+    rim = 1 - PUNCH["half_flat"]
+    load = rounded_flat.load(half_width=1, **PUNCH, lib=mp)
+    assert answer["normal_load"] == pytest.approx(float(load), rel=EPS)
+    agrees(table, "p", lambda x: rounded_flat.pressure(x, rim=rim, **PUNCH, lib=mp), [1])
 
 
 def test_the_stick_zone_and_the_shear_are_those_of_cattaneo(texts):
@@ -129,8 +186,8 @@ def test_edges_and_pressure_of_two_feet_are_those_of_the_closed_form(texts):
 @pytest.fixture
 def short(monkeypatch):
     """A set of two files, in place of the computed one."""
-    texts = {"README.md": "µ", "hertz.csv": "x,p\n"}
-    monkeypatch.setattr(module, "benchmark_set", lambda: texts)
+    contents = {"README.md": "µ".encode(), "hertz/curves.csv": b"x,p\n"}
+    monkeypatch.setattr(module, "benchmark_set", lambda: contents)
 
 
 @pytest.mark.usefixtures("short")
@@ -140,8 +197,9 @@ def test_the_command_writes_the_set_into_a_new_or_an_empty_directory(tmp_path, c
     if there:
         folder.mkdir()
     assert main(["benchmark-set", str(folder)]) == 0
-    found = {path.name: path.read_text(encoding="utf-8") for path in folder.iterdir()}
-    assert found == {"README.md": "µ", "hertz.csv": "x,p\n"}
+    paths = [path for path in folder.rglob("*") if path.is_file()]
+    found = {str(path.relative_to(folder)): path.read_text(encoding="utf-8") for path in paths}
+    assert found == {"README.md": "µ", "hertz/curves.csv": "x,p\n"}
     assert capsys.readouterr().out.startswith("wrote 2 files")
 
 

@@ -36,6 +36,26 @@ _TENSORS = ("s", "stress", "sigma", "sig", "cauchy_stress")
 
 def read(path: Path, means: Meaning) -> Raw:
     """All fields whose names are known. ValueError without one, or without meshio."""
+    mesh = opened(path)
+    nodes = geometry(path.name, mesh)
+    bodies = nodes.bodies()
+    fields = _fields(mesh.point_data, means)
+    tractions = {name: v for name, v in fields.items() if name in TRACTIONS}
+    stresses = {name: v for name, v in fields.items() if name not in TRACTIONS}
+    labels = range(len(mesh.points))
+    groups = [nodes.columns(labels, of, bodies) for of in (tractions, stresses) if of]
+    groups += _of_cells(mesh, bodies, means)
+    if not groups:
+        found = ", ".join([*mesh.point_data, *mesh.cell_data]) or "no field"
+        raise ValueError(
+            f"{path.name} holds {found}: name one field {' or '.join(QUANTITIES)}, "
+            "or as the code names it, like CPRESS"
+        )
+    return Raw(path.name, tuple(groups), tops=nodes.tops(bodies))
+
+
+def opened(path: Path) -> Any:
+    """The mesh of a file. ValueError where meshio does not read it, or is missing."""
     files.content(path, MESH.size)  # refuses what is no file, or too large
     try:
         import meshio  # noqa: PLC0415 -- an extra
@@ -45,30 +65,16 @@ def read(path: Path, means: Meaning) -> Raw:
             "or export the points as CSV"
         ) from None
     try:
-        mesh: Any = meshio.read(path)
+        return meshio.read(path)
     except (Exception, SystemExit) as problem:  # whatever its many readers raise
         raise ValueError(
             f"{path.name} is not read by meshio ({type(problem).__name__}): "
             "export the points as CSV"
         ) from None
-    geometry = _geometry(path.name, mesh)
-    bodies = geometry.bodies()
-    fields = _fields(mesh.point_data, means)
-    tractions = {name: v for name, v in fields.items() if name in TRACTIONS}
-    stresses = {name: v for name, v in fields.items() if name not in TRACTIONS}
-    labels = range(len(mesh.points))
-    groups = [geometry.columns(labels, of, bodies) for of in (tractions, stresses) if of]
-    groups += _of_cells(mesh, bodies, means)
-    if not groups:
-        found = ", ".join([*mesh.point_data, *mesh.cell_data]) or "no field"
-        raise ValueError(
-            f"{path.name} holds {found}: name one field {' or '.join(QUANTITIES)}, "
-            "or as the code names it, like CPRESS"
-        )
-    return Raw(path.name, tuple(groups), tops=geometry.tops(bodies))
 
 
-def _geometry(file: str, mesh: Any) -> MeshGeometry:
+def geometry(file: str, mesh: Any) -> MeshGeometry:
+    """The nodes and elements of a mesh, by their indices."""
     nodes = {k: (float(p[0]), float(p[1])) for k, p in enumerate(mesh.points)}
     cells = (tuple(map(int, cell)) for block in mesh.cells for cell in block.data)
     return MeshGeometry(file, nodes, dict(enumerate(cells)))

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 Labels = NDArray[np.int64]
 
+ON_SURFACE = 1e-9  # of the largest depth: the digits of a deck
 
 # Quantities that are given at the same n points, each (n,): x, y where the file has it, quantities,
 # and, where they are known,
@@ -55,6 +56,13 @@ class MeshGeometry:
             raise ValueError(
                 f"{self.file} has no node {missing.args[0]}: list the nodes of the same mesh"
             ) from None
+
+    def in_axes_of_depth(self, labels: Iterable[int], surface: float) -> Array:
+        """Rows (x, depth) of nodes below or above the surface of this height, to the digits."""
+        x, y = self.points(labels).T
+        depth = surface - y
+        depth[np.abs(depth) <= ON_SURFACE * np.abs(depth).max(initial=0.0)] = 0.0
+        return np.column_stack((x, depth))
 
     def columns(self, labels: Sequence[int], values: Columns, bodies: dict[int, int]) -> Columns:
         """The values at nodes with the places of these, and their bodies where there are any."""
