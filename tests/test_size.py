@@ -18,7 +18,7 @@ LINES = {
     "cli": 910,
     "contact": 2800,
     "examples": 10,
-    "friction": 12830,
+    "friction": 12730,
     "io": 4680,
     "live": 1190,
     "numerics": 2210,

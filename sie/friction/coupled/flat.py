@@ -31,7 +31,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field
 from functools import cached_property, lru_cache
-from typing import TYPE_CHECKING, NamedTuple, cast
+from typing import NamedTuple, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -40,10 +40,7 @@ from sie.numerics.elliptic import Modulus, modulus_of_ratio
 
 from .fields import SHIFTS, Fields, cumulative, interpolated
 from .pieces import FINE, Pieces, Places
-from .state import Question, State
-
-if TYPE_CHECKING:
-    from .half_slope import HalfSlope
+from .state import HalfSlope, Question, State
 
 Array = NDArray[np.float64]
 
@@ -111,7 +108,7 @@ class FlatPunch:
 
     def asked(self, b: float, load: float) -> tuple[Pieces, Question]:
         """Its zones, and what the state is asked for."""
-        none = cast("HalfSlope", _NoSlope())
+        none = cast(HalfSlope, _NoSlope())
         approximate = self.approximate
         question = Question(self.beta, self.friction, none, np.zeros_like, load, 0.0, approximate)
         widths = self.rest * b, 2.0 * self.c * b, self.rest * b
@@ -203,9 +200,6 @@ class _NoSlope:
 
     def __call__(self, x: Array) -> Array:
         return np.zeros(x.shape)
-
-    def principal(self, contact: tuple[float, float], x: Array, left: Array, right: Array) -> Array:
-        return np.zeros(len(x))
 
 
 class _Sharp(Pieces):
