@@ -76,7 +76,8 @@ class Loaded:
         """The state under other loads; None where no zones keep the friction law.
 
         Where none is found at once, the step is halved. Slip may go on in the present zones, from
-        what was locked in when it began; else the loads turn, and everything sticks first.
+        what was locked in when it began; else the loads turn, and everything sticks first. A step
+        that passes loads at which they turned closes a loop there, and goes on as before it.
         """
         if Q == self.Q and strain == self.strain:
             return self
@@ -84,6 +85,12 @@ class Loaded:
         back = self.returned(Q, strain)
         if back is not None:
             return back
+        passed = self._passed(Q, strain)
+        if passed is not None:
+            closed = self.returned(passed.Q, passed.strain)
+            found = closed.stepped(Q, strain, 0) if closed is not None else None
+            if found is not None:
+                return replace(found, halfway=closed)
         for base, start in self._starts(Q, strain):
             state = settled(base.asked(Q, strain), start, base.marks) if start else None
             if state is not None:
@@ -95,6 +102,19 @@ class Loaded:
         half = self.stepped(self.Q + 0.5 * step[0], self.strain + 0.5 * step[1], halvings - 1)
         found = half.stepped(Q, strain, 0) if half is not None else None
         return replace(found, halfway=half) if found is not None else None
+
+    def _passed(self, Q: float, strain: float) -> Loaded | None:
+        """The state in which the loads turned last on the way to others."""
+        step = np.array([Q - self.Q, strain - self.strain])
+        for turn in self.turns:
+            ahead = np.array([turn.Q - self.Q, turn.strain - self.strain])
+            part = float(ahead @ step) / float(step @ step)
+            if (
+                0.0 < part < 1.0
+                and np.abs(ahead - part * step).max() <= CLOSED * np.abs(step).max()
+            ):
+                return turn
+        return None
 
     def _starts(self, Q: float, strain: float) -> Iterator[tuple[Loaded, Zones | None]]:
         """States from which a step may be solved, and zones to start from."""
