@@ -56,10 +56,7 @@ SETTLED, MOST_STEPS = 1e-13, 20  # of the search for K'/K: where a step ends it
 ALIKE = 1e-8  # the ratios that bound an eigenvalue, where one more step ends the iteration
 # v in the slip zone between which γ is tabulated: beyond, it is a power of the distance
 NEAREST_C, NEAREST_EDGE = -28.0, 40.0
-FINER, FEW = (
-    4,
-    8,
-)  # tables of the slip gradient: finer than the rule, and points of an interpolation
+FINER, FEW = 4, 8  # of tables beside the contact: finer than the rule; points of an interpolation
 MIRRORED = 20  # places of the table beyond infinity
 
 
