@@ -120,6 +120,13 @@ def test_certificate_holds_from_narrow_slip_zones_to_incipient_sliding(
     assert solved(profile, beta, friction, part).check().ok
 
 
+def test_a_step_past_a_load_at_which_loads_turned_is_that_in_two_parts():
+    parts = 0.65, 0.15, 0.12
+    at_once, apart = followed(*parts, 0.66)[-1], followed(*parts, 0.65, 0.66)[-1]
+    assert ends(at_once) == pytest.approx(ends(apart), abs=1e-11)
+    assert at_once.energy_lost == pytest.approx(apart.energy_lost, rel=1e-12)
+
+
 def test_certificate_is_not_ok_for_another_mismatch_or_load():
     right = solved()
     for wrong in ({"dundurs": 0.3001}, {"tangential_load": right.tangential_load * (1.0 + 1e-6)}):

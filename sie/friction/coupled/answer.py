@@ -143,10 +143,7 @@ class LoadedContact(View):
         """
         from scipy.special import digamma  # noqa: PLC0415 -- heavy, and seldom asked for
 
-        first = self.loaded
-        while first.before is not None:
-            first = first.before
-        ends = first.zones.ends
+        first, ends = self._first, self._first.zones.ends
         middle, b = 0.5 * float(ends[0] + ends[-1]), 0.5 * float(np.ptp(ends))
         edge = max(float(ends[-1]), float(self.loaded.zones.ends[-1]))  # beyond both contacts
         question = self.loaded.question

@@ -30,6 +30,7 @@ LAST = 745.0  # e-folds that doubles have
 FLAT = 1e-8  # of p and q: what changes less in v is no logarithm
 SMALL = 0.05  # β below which q loses digits by (1)
 NEAREST = 1e-8  # of the contact: nodes that are nearer to a mark are not looked at
+AT_NODE = 1e-30  # of a step: stands for no distance from a node
 
 
 @dataclass(frozen=True, eq=False)
@@ -213,13 +214,13 @@ class Fields:
 def interpolated(table: Array, place: Array, points: int = POINTS) -> Array:
     """Columns of a table at fractional places by Lagrange's polynomials."""
     first = np.clip(np.floor(place).astype(int) - points // 2 + 1, 0, table.shape[1] - points)
-    apart = (place - first)[:, None] - np.arange(points)
-    exact = apart == 0.0
-    weights = _binomial(points) / np.where(exact, 1.0, apart)
-    weights = np.where(exact.any(axis=1)[:, None], exact, weights)
-    weights /= weights.sum(axis=1)[:, None]
-    values: Array = np.einsum("rmk,mk->rm", table[:, first[:, None] + np.arange(points)], weights)
-    return values
+    apart, total = place - first, np.zeros(len(place))
+    values = np.zeros((len(table), len(place)))
+    for j, weight in enumerate(_binomial(points).tolist()):
+        share = weight / np.where(apart == j, AT_NODE, apart - j)
+        total += share
+        values += share * table[:, first + j]
+    return values / total
 
 
 @lru_cache(maxsize=4)

@@ -31,7 +31,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field
 from functools import cached_property, lru_cache
-from typing import TYPE_CHECKING, NamedTuple, cast
+from typing import NamedTuple, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -40,10 +40,7 @@ from sie.numerics.elliptic import Modulus, modulus_of_ratio
 
 from .fields import SHIFTS, Fields, cumulative, interpolated
 from .pieces import FINE, Pieces, Places
-from .state import Question, State
-
-if TYPE_CHECKING:
-    from .half_slope import HalfSlope
+from .state import HalfSlope, Question, State
 
 Array = NDArray[np.float64]
 
@@ -57,13 +54,9 @@ FULL_STICK = 1e-15
 NARROWEST_RATIO, DOUBTFUL = math.pi / math.log(8.0 / FULL_STICK), 1.05
 SETTLED, MOST_STEPS = 1e-13, 20  # of the search for K'/K: where a step ends it
 ALIKE = 1e-8  # the ratios that bound an eigenvalue, where one more step ends the iteration
-FAINT = 1e-17  # of the load: poles of D that are left out
 # v in the slip zone between which γ is tabulated: beyond, it is a power of the distance
 NEAREST_C, NEAREST_EDGE = -28.0, 40.0
-FINER, FEW = (
-    4,
-    8,
-)  # tables of the slip gradient: finer than the rule, and points of an interpolation
+FINER, FEW = 4, 8  # of tables beside the contact: finer than the rule; points of an interpolation
 MIRRORED = 20  # places of the table beyond infinity
 
 
@@ -104,28 +97,6 @@ class FlatPunch:
         """h = 1/2 - θ: p ~ (1 - x)^-h; of a large β f the difference would lose digits."""
         return math.atan2(1.0, self.beta * self.friction) / math.pi
 
-    # -- beside the contact ------------------------------------------------------------------------
-
-    @cached_property
-    def _poles(self) -> tuple[Array, Array, Array]:
-        """Places in stick, their distances from 1, and what D has there."""
-        t, near, dt = half_rule()
-        one, o = squares(self.modulus, t, near)
-        mass = 2.0 * dt * self.c ** (2.0 * self.theta) * self.pressure
-        mass *= one ** (self.theta - 0.5) * o**self.exponent
-        kept = mass > FAINT
-        return self.c * t[kept], self.rest + self.c * near[kept], mass[kept]
-
-    def outside(self, E: Array) -> Array:
-        """D at 1 + E."""
-        place, distance, mass = self._poles
-        flat = E.ravel()
-        kernel = (flat[:, None] + distance) * ((1.0 + flat)[:, None] + place)
-        np.divide(1.0 / math.pi, kernel, out=kernel)
-        chi = ((flat + self.rest) * (1.0 + self.c + flat) / (flat * (2.0 + flat))) ** self.exponent
-        D: Array = chi * (1.0 + flat) * (kernel @ mass)
-        return D.reshape(E.shape)
-
     # -- the slip gradient -------------------------------------------------------------------------
 
     def state(self, b: float, load: float) -> State:
@@ -134,7 +105,7 @@ class FlatPunch:
 
     def asked(self, b: float, load: float) -> tuple[Pieces, Question]:
         """Its zones, and what the state is asked for."""
-        none = cast("HalfSlope", _NoSlope())
+        none = cast(HalfSlope, _NoSlope())
         approximate = self.approximate
         question = Question(self.beta, self.friction, none, np.zeros_like, load, 0.0, approximate)
         widths = self.rest * b, 2.0 * self.c * b, self.rest * b
@@ -165,27 +136,37 @@ class FlatPunch:
         """The integral of γ from c."""
         return self._in_slip(1, np.log(from_c / e))
 
+    # -- beside the contact ------------------------------------------------------------------------
+
     @cached_property
     def _beyond(self) -> Table:
-        """γ τ² (1 - τ^-2)^h at τ > 1, by w = ln((τ - 1)/(τ + 1)), in which it is even."""
+        """D τ (1 - τ^-2)^h and γ τ² (1 - τ^-2)^h, τ > 1, which are even in ln((τ - 1)/(τ + 1))."""
         step = STEP / SHIFTS
         lowest = math.floor((-33.0 + math.log(0.5 * self.rest)) / step)
         w = step * np.arange(lowest, 0)
         E = 2.0 * np.exp(w) / -np.expm1(w)
         fields, anchor = self._fields, np.full(len(E), 3)
         none = np.zeros(len(E), dtype=int)
-        (t, (_, q, _)), outside = fields.whole, Places(anchor, E, 1.0 + E, none, none, none)
-        moment = t.weight * q * t.x / math.pi
-        values = (1.0 + E) * ((1.0 / fields.state.pieces.apart(outside, t)) @ moment)
-        values *= (E * (2.0 + E) / (1.0 + E) ** 2) ** self.exponent
-        whole = np.concatenate((values, [moment.sum()], values[: -MIRRORED - 1 : -1]))
-        return finer(lowest * step, whole[None])
+        (t, (p, q, _)), outside = fields.whole, Places(anchor, E, 1.0 + E, none, none, none)
+        moments = np.stack((p, q * t.x)) * t.weight / math.pi
+        values = moments @ (1.0 / fields.state.pieces.apart(outside, t)).T
+        values *= (1.0 + E) * (E * (2.0 + E) / (1.0 + E) ** 2) ** self.exponent
+        at_infinity = moments.sum(axis=1, keepdims=True)
+        whole = np.concatenate((values, at_infinity, values[:, : -MIRRORED - 1 : -1]), axis=1)
+        return finer(lowest * step, whole)
+
+    def outside(self, E: Array) -> Array:
+        """D at 1 + E."""
+        return self._beside(0, E) / (1.0 + E)
 
     def gradient_beside(self, E: Array) -> Array:
         """γ at 1 + E, which is no more than Hq."""
-        square = (1.0 + E) ** 2
-        values = self._beyond(0, np.log(E / (2.0 + E)))
-        return values * (E * (2.0 + E) / square) ** -self.exponent / square
+        return self._beside(1, E) / (1.0 + E) ** 2
+
+    def _beside(self, row: int, E: Array) -> Array:
+        to_other = 2.0 + E
+        values: Array = self._beyond(row, np.log(E / to_other))
+        return values * (E * to_other / (1.0 + E) ** 2) ** -self.exponent
 
 
 @dataclass(frozen=True, eq=False)
@@ -216,9 +197,6 @@ class _NoSlope:
 
     def __call__(self, x: Array) -> Array:
         return np.zeros(x.shape)
-
-    def principal(self, contact: tuple[float, float], x: Array, left: Array, right: Array) -> Array:
-        return np.zeros(len(x))
 
 
 class _Sharp(Pieces):

@@ -147,10 +147,6 @@ class GoodmanFlat(FlatPunch):
     def state(self, b: float, load: float) -> State:
         return UncoupledFlat(*self.asked(b, load))
 
-    def outside(self, E: Array) -> Array:
-        D: Array = 1.0 / (math.pi * np.sqrt(E * (2.0 + E)))
-        return D
-
 
 def goodman_flat(beta: float, friction: float) -> GoodmanFlat:
     """The flat punch for β > 0 and f > 0.

@@ -17,17 +17,15 @@ from numpy.typing import ArrayLike, NDArray
 
 from sie.numerics.gauss_jacobi import with_weight
 from sie.numerics.interval import Interval
-from sie.profiles.resolution import refined
 from sie.profiles.slope import Slope
 from sie.traction.base import on_line
 
 from .fields import Fields
 from .flat import FlatPunch
 from .frozen import Frozen, Gradient
-from .half_slope import HalfSlope
 from .pieces import FINE, Pieces
 from .search import state_of
-from .state import Question
+from .state import HalfSlope, Question
 from .step import Loaded
 from .view import View
 
@@ -204,7 +202,7 @@ class Grown(Pressed):
         m = self.frozen.middle(s) - origin
         slope = self.slope.shifted(-origin) if origin else self.slope
         window = m - WINDOW * s, m + WINDOW * s
-        half = HalfSlope(slope, self.half_modulus, window, refined)
+        half = HalfSlope(slope, self.half_modulus, window)
         question = Question(
             flat.beta,
             flat.friction,

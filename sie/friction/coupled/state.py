@@ -21,16 +21,36 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from .half_slope import HalfSlope
 from .pieces import Pieces, Places
+
+if TYPE_CHECKING:
+    from sie.profiles.slope import Slope
 
 Array = NDArray[np.float64]
 Gradient = Callable[[Array], Array]
+
+
+class HalfSlope(NamedTuple):
+    """E*/2 h' of a profile, and the window that a contact may reach."""
+
+    slope: Slope
+    half_modulus: float
+    window: tuple[float, float]
+
+    def __call__(self, x: Array) -> Array:
+        values: Array = self.half_modulus * self.slope(x)
+        return values
+
+    @property
+    def kinks(self) -> tuple[float, ...]:
+        """Places in the window where h' is not smooth."""
+        lo, hi = self.window
+        return tuple(x for x in self.slope.break_points if lo < x < hi)
 
 
 class Question(NamedTuple):
@@ -112,7 +132,9 @@ class State:
         slip = -math.cos(math.pi * self.question.theta) * self.question.slope(t.x[~sticks])
         d0 = L[:, ~sticks] @ slip
         stuck = t.chosen(sticks)
-        source = (self.of_slope(stuck) - beta * self.question.gamma(stuck.x)) / (1.0 - beta**2)
+        source = (self.of_slope(stuck, self.halfway) - beta * self.question.gamma(stuck.x)) / (
+            1.0 - beta**2
+        )
         L, M = L[:, sticks], M / (1.0 - beta**2)
         D = np.asarray(np.linalg.solve(np.eye(len(d0)) - L @ M, L @ source + d0), dtype=float)
         p = M @ D + source
@@ -130,11 +152,9 @@ class State:
         last = len(self.pieces.cuts) - 1
         return self.pieces.from_cut(at, 0), -self.pieces.from_cut(at, last)
 
-    def of_slope(self, at: Places) -> Array:
-        """1/π PV∫H1/(t - x) dt over the contact."""
-        ends = self.pieces.ends
-        contact = float(ends[0]), float(ends[-1])
-        return self.question.slope.principal(contact, at.x, *self._to_edges(at))
+    def of_slope(self, at: Places, sources: Places) -> Array:
+        """1/π PV∫H1/(t - x) dt over the contact, at places half a step from the sources."""
+        return -self.psi(at, sources, self.question.slope(sources.x) * sources.weight)
 
     # -- fields ------------------------------------------------------------------------------------
 
@@ -145,11 +165,11 @@ class State:
         values: Array = kernel @ (self._solved[0] if mass is None else mass)
         return values
 
-    def A(self, at: Places) -> Array:
-        """A in contact."""
+    def A(self, at: Places, sources: Places) -> Array:
+        """A in contact, at places half a step from the sources."""
         kernel = self.pieces.apart(at, self.beside)
         np.divide(-1.0 / math.pi, kernel, out=kernel)
-        values: Array = kernel @ (self.beside.weight * self._solved[1]) + self.of_slope(at)
+        values: Array = kernel @ (self.beside.weight * self._solved[1]) + self.of_slope(at, sources)
         return values
 
     def rows(self, rules: list[Places], *, shear: bool) -> list[Array]:
@@ -162,14 +182,16 @@ class State:
             [question.slope(at.x) for at in rules],
         )
         masses, gammas = [-cos * H for H in H1], [np.zeros(len(H)) for H in H1]
-        for sticks, at, mass, gamma in zip(held, rules, masses, gammas, strict=True):
-            places = at.chosen(sticks)
+        half = len(rules) // 2
+        for k, (sticks, mass, gamma) in enumerate(zip(held, masses, gammas, strict=True)):
+            places = rules[k].chosen(sticks)
             gamma[sticks] = question.gamma(places.x)
-            mass[sticks] = (self.A(places) - beta * gamma[sticks]) / (1.0 - beta**2)
+            mass[sticks] = (self.A(places, rules[k - half]) - beta * gamma[sticks]) / (
+                1.0 - beta**2
+            )
         for k, (at, sticks) in enumerate(zip(rules, held, strict=True)):
-            other, needed = (k + len(rules) // 2) % len(rules), ~sticks | shear
-            sources, flow = rules[other], np.zeros(len(at.x))
-            mass = masses[other] * sources.weight / chi[other]
+            sources, needed, flow = rules[k - half], ~sticks | shear, np.zeros(len(at.x))
+            mass = masses[k - half] * sources.weight / chi[k - half]
             flow[needed] = chi[k][needed] * self.psi(at.chosen(needed), sources, mass)
             limit = self.pieces.sign[at.zone] * question.friction
             kappa = limit * beta

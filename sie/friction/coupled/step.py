@@ -76,25 +76,46 @@ class Loaded:
         """The state under other loads; None where no zones keep the friction law.
 
         Where none is found at once, the step is halved. Slip may go on in the present zones, from
-        what was locked in when it began; else the loads turn, and everything sticks first.
+        what was locked in when it began; else the loads turn, and everything sticks first. A step
+        that passes loads at which they turned closes a loop there, and goes on as before it.
         """
         if Q == self.Q and strain == self.strain:
             return self
-        step = Q - self.Q, strain - self.strain
-        back = self.returned(Q, strain)
+        back = self.returned(Q, strain) or _past(self._closed(Q, strain), Q, strain)
         if back is not None:
             return back
+        after, turns = self._at_once(Q, strain)
+        if after is not None or turns or not halvings:
+            return after
+        middle = 0.5 * (self.Q + Q), 0.5 * (self.strain + strain)
+        return _past(self.stepped(*middle, halvings - 1), Q, strain)
+
+    def _at_once(self, Q: float, strain: float) -> tuple[Loaded | None, bool]:
+        """The state from one of the starts; without one, whether slip would turn back.
+
+        If so, it does from any other start, and in any part of the step.
+        """
+        step = Q - self.Q, strain - self.strain
         for base, start in self._starts(Q, strain):
             state = settled(base.asked(Q, strain), start, base.marks) if start else None
             if state is not None:
                 after = Loaded(Fields(state), Q, strain, base, step, self.friction)
                 if after.verdict.holds and (base is self or after.within(self)):
-                    return after
-        if not halvings:
-            return None
-        half = self.stepped(self.Q + 0.5 * step[0], self.strain + 0.5 * step[1], halvings - 1)
-        found = half.stepped(Q, strain, 0) if half is not None else None
-        return replace(found, halfway=half) if found is not None else None
+                    return after, False
+                if base is self and after.verdict.turns:
+                    return None, True
+        return None, False
+
+    def _closed(self, Q: float, strain: float) -> Loaded | None:
+        """The last state in which the loads turned on the way to others, if a loop closes there."""
+        step = np.array([Q - self.Q, strain - self.strain])
+        for turn in self.turns:
+            ahead = np.array([turn.Q - self.Q, turn.strain - self.strain])
+            part = float(ahead @ step) / float(step @ step)
+            off = float(np.abs(ahead - part * step).max())
+            if 0.0 < part < 1.0 and off <= CLOSED * np.abs(step).max():
+                return self.returned(turn.Q, turn.strain)
+        return None
 
     def _starts(self, Q: float, strain: float) -> Iterator[tuple[Loaded, Zones | None]]:
         """States from which a step may be solved, and zones to start from."""
@@ -176,6 +197,12 @@ class Loaded:
         return verdict(self)
 
 
+def _past(way: Loaded | None, Q: float, strain: float) -> Loaded | None:
+    """The state after a step whose first part leads to another one, if both are found."""
+    found = way.stepped(Q, strain, 0) if way is not None else None
+    return replace(found, halfway=way) if found is not None else None
+
+
 @dataclass(frozen=True)
 class Verdict:
     """How far a state is from the friction law; all are 0 or more where it is kept.
@@ -198,6 +225,11 @@ class Verdict:
     @property
     def holds(self) -> bool:
         return self.worst >= -TOLERATED
+
+    @property
+    def turns(self) -> bool:
+        """Whether friction is kept, but that slip begins to turn back."""
+        return min(self.deficit, self.pressure, self.slip) >= -TOLERATED > self.rate
 
 
 def verdict(after: Loaded) -> Verdict:
