@@ -20,9 +20,9 @@ from sie.numerics.interval import Interval, interval_about
 from sie.problem.request import ECONOMY
 from sie.problem.scene import Scene
 from sie.profiles.base import Profile
-from sie.profiles.resolution import one_piece, refined
+from sie.profiles.resolution import one_piece, refined, without_functions
 from sie.profiles.slope import Slope
-from sie.profiles.unresolved import between_points, expanded
+from sie.profiles.unresolved import between_points
 
 from .edges import NEAR, Found, Search
 from .known_contact import NEARER, Edges, Normal, refuse_unresolved, with_breaks
@@ -277,9 +277,9 @@ def _unseen(found: Normal, resolved: Slope, scene: Scene, tol: float) -> tuple[f
     """
     slope, contact = found.slope(scene.profile), found.edges.contact
     accuracy = resolution(tol)
-    pieces = expanded(slope, resolved, contact)
-    final = expanded(slope, refined(slope, contact.x1, contact.x2, accuracy), contact)
-    return between_points(slope, (pieces.H, final.H), contact, accuracy)
+    of_edges = without_functions(resolved.tilted(found.edges.tilt))
+    of_pressure = without_functions(refined(slope, contact.x1, contact.x2, accuracy))
+    return between_points(slope, (of_edges.H, of_pressure.H), contact, accuracy)
 
 
 def contact_under(
