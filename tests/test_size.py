@@ -16,7 +16,7 @@ LINES = {
     "cauchy": 2260,
     "certificate": 1680,
     "cli": 910,
-    "contact": 2540,
+    "contact": 2520,
     "examples": 10,
     "friction": 13670,
     "io": 4680,
@@ -26,10 +26,10 @@ LINES = {
     "paths": 1150,
     "plots": 1010,
     "problem": 970,
-    "profiles": 5580,
+    "profiles": 5560,
     "stress": 2230,
     "sweeps": 1080,
-    "traction": 2670,
+    "traction": 2660,
 }
 FILES = 282
 
