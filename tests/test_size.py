@@ -16,7 +16,7 @@ LINES = {
     "cauchy": 2260,
     "certificate": 1590,
     "cli": 960,
-    "contact": 2540,
+    "contact": 2520,
     "examples": 10,
     "friction": 12750,
     "io": 5400,
@@ -26,10 +26,10 @@ LINES = {
     "paths": 1140,
     "plots": 1010,
     "problem": 940,
-    "profiles": 5570,
+    "profiles": 5550,
     "stress": 2450,
     "sweeps": 880,
-    "traction": 2670,
+    "traction": 2660,
 }
 FILES = 280
 

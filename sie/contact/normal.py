@@ -20,13 +20,13 @@ from sie.numerics.interval import Interval, interval_about
 from sie.problem.request import ECONOMY
 from sie.problem.scene import Scene
 from sie.profiles.base import Profile
-from sie.profiles.resolution import one_piece, refined
+from sie.profiles.resolution import one_piece, refined, without_functions
 from sie.profiles.slope import Slope
-from sie.profiles.unresolved import between_points, expanded
+from sie.profiles.unresolved import between_points
 
 from .edges import NEAR, Found, Search
 from .known_contact import NEARER, Edges, Normal, refuse_unresolved, with_breaks
-from .pressure import resolution, slope_series
+from .pressure import resolution
 from .smooth_slope import smooth_contact
 from .tilt_of_moment import refuse_outside, tilt_of_moment
 from .window import FITTED, MOST_GROWN, Window, window_of
@@ -74,7 +74,7 @@ def of_one_patch(edges: Edges, scene: Scene, tol: float, economy: Collection[str
             window = max(lo - margin, ends[0]), min(hi + margin, ends[1])
             resolved = refined(resolved, *window, resolution(tol))
         found = replace(found, edges=_closer(edges, scene, resolved, economy))
-        more = _unseen(found, resolved, scene, tol, economy) if resolved.functions else ()
+        more = _unseen(found, resolved, scene, tol) if resolved.functions else ()
         if not more:
             break
         found = replace(found, seen=found.seen + more)
@@ -190,7 +190,7 @@ def _in_window(
             tilt = edges.tilt  # another may have its contact beyond the window
         else:
             found = replace(found, seen=seen)
-            more = _unseen(found, resolved, scene, tol, economy) if looks else ()
+            more = _unseen(found, resolved, scene, tol) if looks else ()
             if not more:
                 return found
             looks -= 1
@@ -270,23 +270,16 @@ def _unseen_by_series(found: Normal, profile: Profile, tol: float) -> bool:
     return bool(between_points(found.slope(profile), (series.H,), contact, resolution(tol)))
 
 
-def _unseen(
-    found: Normal, resolved: Slope, scene: Scene, tol: float, economy: Collection[str]
-) -> tuple[float, ...]:
+def _unseen(found: Normal, resolved: Slope, scene: Scene, tol: float) -> tuple[float, ...]:
     """The places where the slope needs a break that it does not have.
 
-    By the pieces that gave the edges, and by what will give the pressure.
+    By the pieces that gave the edges, and by those that will give the pressure.
     """
     slope, contact = found.slope(scene.profile), found.edges.contact
     accuracy = resolution(tol)
-    transform = not scene.epsilon and "transform" in economy
-    series = slope_series(slope, contact, accuracy) if transform else None
-    if series is None:
-        final = expanded(slope, refined(slope, contact.x1, contact.x2, accuracy), contact)
-    else:
-        final = one_piece(contact.x1, contact.x2, series)
-    pieces = expanded(slope, resolved, contact)
-    return between_points(slope, (pieces.H, final.H), contact, accuracy)
+    of_edges = without_functions(resolved.tilted(found.edges.tilt))
+    of_pressure = without_functions(refined(slope, contact.x1, contact.x2, accuracy))
+    return between_points(slope, (of_edges.H, of_pressure.H), contact, accuracy)
 
 
 def contact_under(

@@ -1,7 +1,7 @@
 """The pressure on a known contact, from the slope of the profile there.
 
-A slope that is smooth in the contact takes one Chebyshev series and its exact transform, any other
-slope exact integrals over its pieces.
+A polynomial, or a function that one Chebyshev series resolved in the search for the edges, takes
+that series and its exact transform, any other slope exact integrals over its pieces.
 """
 
 from __future__ import annotations
@@ -12,24 +12,19 @@ from collections.abc import Collection
 import numpy as np
 from numpy.typing import NDArray
 
-from sie.numerics import chebyshev
 from sie.numerics.interval import EPS, Interval
 from sie.problem.request import ECONOMY
 from sie.problem.scene import Scene
-from sie.profiles.resolution import NOISE, ROUGHEST, refined, rounding_noise
+from sie.profiles.resolution import refined
 from sie.profiles.slope import Slope
 from sie.traction.of_slope import SlopeDensity, TransformDensity
 from sie.traction.on_panels import PanelDensity, SlidingDensity
-from sie.traction.panels import CHOP, Panels
+from sie.traction.panels import Panels
 from sie.traction.piece_quadrature import Geometry, SlidingGeometry
 
 from .known_contact import Normal
 
 Array = NDArray[np.float64]
-
-# One Chebyshev series for the whole contact is tried up to this many points before the slope is cut
-# into pieces.
-LARGEST_TRANSFORM = 257
 
 
 def pressure(
@@ -52,7 +47,7 @@ def pressure(
         )
         return SlidingDensity(*common, Panels(geometry, edges.I0))
     if "transform" in economy:
-        series = slope_series(declared, contact, resolution(tol))
+        series = slope_series(declared, contact)
         if series is not None:
             if not any(edges.sharp):
                 series[0] = 0.0  # the edges' condition, which quadrature met to rounding
@@ -63,29 +58,17 @@ def pressure(
     )
 
 
-def slope_series(slope: Slope, contact: Interval, tol: float) -> np.ndarray | None:
+def slope_series(slope: Slope, contact: Interval) -> Array | None:
     """Chebyshev coefficients of H over the whole contact.
 
-    None if a break lies inside or they do not decay.
+    None if a break lies inside, and for functions, of which pieces are resolved.
     """
     breaks = slope.break_points
     inner = bisect_right(breaks, contact.x1), bisect_left(breaks, contact.x2)
-    if inner[0] < inner[1]:
+    if slope.functions or inner[0] < inner[1]:
         return None
     k = Geometry(slope, contact, keep_zero=True)
-    if len(k.k) != 1:
-        return None
-    if not slope.functions:
-        return k.chebyshev_slope(max(int(slope.degrees[k.k[0]]) + 1, 2))[0]
-    noise = NOISE * rounding_noise(slope.inside, contact.x1, contact.x2)
-    n = 17
-    while n <= LARGEST_TRANSFORM:
-        c = k.chebyshev_slope(n)[0]
-        scale = float(np.abs(c).max())
-        if np.abs(c[-3:]).max() <= max(tol * scale, min(noise, ROUGHEST * scale)):
-            return c[: max(chebyshev.chopped_length(c, max(CHOP * scale, 0.5 * noise)), 2)]
-        n = 2 * n - 1
-    return None
+    return k.chebyshev_slope(max(int(slope.degrees[k.k[0]]) + 1, 2))[0] if len(k.k) == 1 else None
 
 
 def resolution(tol: float) -> float:

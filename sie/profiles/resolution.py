@@ -235,12 +235,6 @@ def without_functions(resolved: Slope) -> Pieces:
     )
 
 
-def in_series(resolved: Slope) -> Pieces:
-    """The pieces of a resolved slope, polynomials too as series."""
-    flat = replace(resolved, coefficients=np.zeros((len(resolved.origins), 1)), functions=())
-    return replace(without_functions(flat), series=_series(resolved))
-
-
 def one_piece(lo: float, hi: float, c: Array) -> Pieces:
     """One piece by its Chebyshev coefficients."""
     zero, solid = np.zeros(1), np.zeros(1, dtype=bool)

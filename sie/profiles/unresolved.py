@@ -15,7 +15,6 @@ from __future__ import annotations
 import math
 import zlib
 from collections.abc import Callable, Sequence
-from dataclasses import replace
 from functools import lru_cache
 
 import numpy as np
@@ -24,8 +23,7 @@ from numpy.typing import NDArray
 from sie.numerics.interval import EPS, Interval
 
 from .look import values
-from .pieces import Pieces
-from .resolution import NOISE, in_series, refuse_non_finite, rounding_noise
+from .resolution import NOISE, refuse_non_finite, rounding_noise
 from .slope import Slope
 
 Array = NDArray[np.float64]
@@ -40,15 +38,6 @@ MISSED = 32.0
 STEEPER = 8.0  # ulp of x: what these change in H is rounding
 CLOSER = 129  # points about the worst
 MOST = 64  # places that are bisected at once
-
-
-def expanded(slope: Slope, resolved: Slope, contact: Interval) -> Pieces:
-    """The Chebyshev series of H on the pieces of its resolution inside a contact."""
-    ends = resolved.breaks
-    kept = np.flatnonzero((ends[1:] > contact.x1) & (ends[:-1] < contact.x2))
-    breaks = ends[kept[0] : kept[-1] + 2]
-    of_slope = slope.chosen(slope.locate(0.5 * (breaks[1:] + breaks[:-1])), breaks)
-    return in_series(replace(of_slope, degrees=resolved.degrees[kept]))
 
 
 def start_of(edges: tuple[float, ...]) -> float:

@@ -354,7 +354,7 @@ class TransformDensity(SlopeDensity):
         G[near] *= chebyshev.evaluate_second_kind(self.series[1:], s[near])
         continued = np.zeros_like(s)
         continued[near] = chebyshev.evaluate(self.series, s[near])
-        G[~near] = -self._powers(rho[~near]).real
+        G[~near] = -self._pair(x[~near])[0]
         return G, continued
 
     @cached_property
@@ -367,13 +367,3 @@ class TransformDensity(SlopeDensity):
 
     def _far_pair(self, z: Complex) -> tuple[Complex, Complex]:
         return outer_series(self.series, self.contact, z)
-
-    def _powers(self, rho: Any) -> Any:
-        """Σ_{n>=0} g_n ρ^n by Horner's rule.
-
-        g_0 belongs to the singular ends, whose part of F tends to -g_0 far away.
-        """
-        total = np.zeros_like(rho)
-        for g in self.series[:0:-1]:
-            total = (total + g) * rho
-        return total + self.series[0]
