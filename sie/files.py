@@ -12,7 +12,7 @@ import secrets
 import shutil
 import stat
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -164,21 +164,6 @@ def _move(parts: Mapping[Path, Path], contents: Iterable[Path]) -> None:
     with _named(contents):
         for place, part in parts.items():
             os.replace(part, place)
-
-
-@contextmanager
-def making_folder(path: Path) -> Iterator[None]:
-    """Make the folder if there is none; it is removed again if the block leaves it empty."""
-    made = not path.exists()
-    if made:
-        with _named([path]):
-            path.mkdir()
-    try:
-        yield
-    finally:
-        if made:
-            with suppress(OSError):  # it has files
-                path.rmdir()
 
 
 @contextmanager
