@@ -14,7 +14,7 @@ LINES = {
     "": 2800,
     "benchmark_set": 10,
     "cauchy": 2260,
-    "certificate": 1590,
+    "certificate": 1570,
     "cli": 960,
     "contact": 2520,
     "examples": 10,

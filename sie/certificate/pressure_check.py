@@ -35,7 +35,7 @@ from sie.profiles.unresolved import largest_misfit, start_of
 from sie.progress_bar import reported, step_done
 from sie.traction.of_slope import SlopeDensity
 
-from .quadrature import Rule, composite_rule
+from .quadrature import Rule, composite_rule, finite
 from .result import Certificate, unresolved
 
 Array = NDArray[np.float64]
@@ -61,11 +61,11 @@ def _measured(density: SlopeDensity, slope: Slope, tol: float) -> Certificate:
     contact = density.contact
     resolved = refined(slope, contact.x1, contact.x2, EPS)
     rule = composite_rule(contact, slope, epsilon=density.epsilon, resolution=resolved)
-    p = _finite(density(rule.x))
-    finite = _of_sharp_edges(density, rule.x)
-    if density.k1 or density.k2:  # p dx = p finite r dφ, both at x as it is rounded
-        rule = rule._replace(weight=rule.weight * finite / np.sin(rule.angle))
-    peak = float((p * finite).max())
+    p = finite(density(rule.x))
+    root = _of_sharp_edges(density, rule.x)
+    if density.k1 or density.k2:  # p dx = p root r dφ, both at x as it is rounded
+        rule = rule._replace(weight=rule.weight * root / np.sin(rule.angle))
+    peak = float((p * root).max())
     H, H_beside, H_at_edges = _slopes(slope, contact, rule.between)
     residual = _residual(density, H, rule, p)
     outside, gaps = relative_gaps(density, slope, FINER, start_of(density.interval))
@@ -147,14 +147,6 @@ def _sizes_of_terms(slope: Slope, x: Array) -> Array:
     return values
 
 
-def _finite(p: Array) -> Array:
-    """p with its infinities dropped.
-
-    A node that rounding put on a corner of the profile has the weight of rounding.
-    """
-    return np.where(np.isfinite(p), p, 0.0)
-
-
 def _slopes(slope: Slope, contact: Interval, at: Array) -> tuple[Array, Array, Array]:
     """H at points, one ulp further in, and at the edges."""
     H = slope(np.concatenate((at, np.nextafter(at, contact.m), (contact.x1, contact.x2))))
@@ -218,13 +210,13 @@ def _rounding(density: SlopeDensity, change: Array, rule: Rule, p: Array) -> tup
         np.minimum(density.contact.from_left(x), density.contact.from_right(x)), 0.0
     )
     of_root = np.abs(p) * np.minimum(ulp / np.maximum(2.0 * from_edge, ulp), 1.0)
-    finite, sharp = _of_sharp_edges(density, x), bool(density.k1 or density.k2)
-    weight, p = weight / finite, p * finite  # the weights of sharp edges have the root of p
+    root, sharp = _of_sharp_edges(density, x), bool(density.k1 or density.k2)
+    weight, p = weight / root, p * root  # the weights of sharp edges have the root of p
     steps = np.abs(np.diff(p)) * np.minimum(ulp[1:] / np.maximum(apart, ulp[1:]), 1.0)
     moved = np.zeros_like(p) if sharp else of_root
     moved[1:] = np.maximum(moved[1:], steps)
     moved[:-1] = np.maximum(moved[:-1], steps)
-    of_value = moved / finite + of_root * sharp
+    of_value = moved / root + of_root * sharp
     at = rule.between
     near = np.clip(np.searchsorted(x, at), 1, len(x) - 1) - 1
     return float(weight @ moved), float(

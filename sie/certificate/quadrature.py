@@ -56,6 +56,14 @@ class Rule(NamedTuple):
     ends: Interval
 
 
+def finite(values: Array) -> Array:
+    """The values, with 0 in place of infinities.
+
+    A node that rounding put on a corner of the profile has the weight of rounding.
+    """
+    return np.where(np.isfinite(values), values, 0.0)
+
+
 def composite_rule(
     contact: Interval,
     slope: Slope,

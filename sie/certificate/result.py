@@ -96,15 +96,9 @@ class Certificate:
     @property
     def error(self) -> float:
         """Estimated relative error of the pressure: the largest of the defects."""
-        defects = (
-            self.residual,
-            self.implied,
-            self.force,
-            self.moment,
-            self.resolution,
-            self.edges,
+        return _largest(
+            self.residual, self.implied, self.force, self.moment, self.resolution, self.edges
         )
-        return max(LEAST, *(float("inf") if math.isnan(d) else d for d in defects))
 
     @property
     def ok(self) -> bool:
@@ -201,13 +195,7 @@ class ShearCertificate:
     @property
     def error(self) -> float:
         """Estimated relative error of the shear traction."""
-        return max(
-            LEAST,
-            *(
-                float("inf") if math.isnan(d) else d
-                for d in (self.residual, self.equilibrium, self.excess)
-            ),
-        )
+        return _largest(self.residual, self.equilibrium, self.excess)
 
     @property
     def ok(self) -> bool:
@@ -247,6 +235,10 @@ def table(rows: Iterable[tuple[str, str]]) -> list[str]:
 def unresolved(abscissae: float) -> tuple[str, ...]:
     """The note on a certificate where rounding of x explains more than may be certified."""
     return (UNRESOLVED,) if EXPLAINED * abscissae > MOST_EXPLAINED else ()
+
+
+def _largest(*defects: float) -> float:
+    return max(LEAST, *(math.inf if math.isnan(d) else d for d in defects))
 
 
 def _allowed(tol: float, abscissae: float) -> float:

@@ -31,8 +31,8 @@ from sie.profiles.resolution import refined
 from sie.profiles.slope import Slope
 from sie.traction.base import Density
 
-from .quadrature import composite_rule
-from .result import ShearCertificate
+from .quadrature import composite_rule, finite
+from .result import EXPLAINED, ShearCertificate
 
 if TYPE_CHECKING:
     from sie.friction.part import Part
@@ -49,7 +49,6 @@ MANY = 12
 ENDS = 32.0 * EPS
 SLIPS = 400  # places at which the direction of slip is measured, about
 LINE = Chord()
-EXPLAINED = 16.0  # times rounding, that a certificate of a pressure allows for
 
 
 class Term(NamedTuple):
@@ -267,11 +266,6 @@ def points(zone: tuple[float, float], terms: Sequence[Term]) -> Array:
     k = k[np.arange(POINTS), np.argmax(nodes[k] - nodes[k - 1], axis=1)]
     at = np.unique(0.5 * (nodes[k - 1] + nodes[k]))
     return np.asarray(at[(at > lo) & (at < hi) & ~np.isin(at, nodes)])
-
-
-def finite(values: Array) -> Array:
-    """The values, with 0 in place of infinities."""
-    return np.where(np.isfinite(values), values, 0.0)
 
 
 # -- after steps that were followed part by part ---------------------------------------------------

@@ -115,7 +115,11 @@ def _solve(arguments: argparse.Namespace) -> int:
         refuse_unknown_poisson(file.scene)
     with _progress(arguments):
         solution = _solution(file, arguments.tol)
-        cycle = _cycle(solution, file) if "cycle" in file.want else None
+        cycle = None
+        if "cycle" in file.want:
+            from sie.io.cycle_answer import cycle_of
+
+            cycle = cycle_of(solution, file)
         contents = {
             path: _content(kind, path, solution, file, arguments, cycle=cycle)
             for kind, path in outputs.items()
@@ -139,12 +143,6 @@ def _solution(file: SceneFile, tol: float) -> Solution:
     from sie.paths.history import follow
 
     return follow(file.scene, file.load_path, tol=tol)[-1]
-
-
-def _cycle(solution: Solution, file: SceneFile) -> dict[str, Any]:
-    from sie.io.cycle_answer import cycle_of
-
-    return cycle_of(solution, file)
 
 
 def _progress(arguments: argparse.Namespace) -> Progress:
