@@ -23,7 +23,7 @@ LINES = {
     "live": 1190,
     "numerics": 2210,
     "patches": 5570,
-    "paths": 1150,
+    "paths": 1140,
     "plots": 1010,
     "problem": 970,
     "profiles": 5900,
