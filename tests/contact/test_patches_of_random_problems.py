@@ -87,8 +87,8 @@ def test_two_parabolas_that_nearly_fill_their_period_meet_the_equation(load, hei
 
 def test_a_step_that_was_cut_short_does_not_end_the_search():
     sizes = [1e-3, 1e-4, 1e-9]
-    assert newton._settled(sizes, newton.FINAL, True, np.False_)
-    assert not newton._settled(sizes, newton.FINAL, False, np.False_)
+    assert newton._settled(sizes, True, np.False_)
+    assert not newton._settled(sizes, False, np.False_)
 
 
 @pytest.mark.parametrize("waves_", [1, 2, 3])
