@@ -22,7 +22,7 @@ LINES = {
     "io": 4680,
     "live": 1190,
     "numerics": 2210,
-    "patches": 5570,
+    "patches": 5550,
     "paths": 1140,
     "plots": 1010,
     "problem": 970,
