@@ -36,7 +36,7 @@ Array = NDArray[np.float64]
 ROUNDS, STALLS = 30, 1  # the most rounds, and those that end without edges or an event
 # of the largest D: tension that is accepted beside a merger, where no arithmetic tells more
 NEARLY = 1e-7
-CELLS = 4.0  # for each break in the window
+CELLS = 6.0  # for each break in the window
 FEWEST_CELLS, MOST_CELLS = 2048, 1 << 18  # of a period, and of all
 FINER = 8  # a second grid, if the first as a start leads nowhere
 BEYOND = 0.9  # of a cell: an edge is no farther from the middle of the outer cell
