@@ -319,9 +319,8 @@ class CauchyEquation:
 
         Notes
         -----
-        k is called once, on a grid that resolves a smooth kernel and does not depend on g. It is
-        called once more where it is narrower, on up to 1000 points, and for each size, growing by
-        half, where it is rougher than that.
+        k is called once for each number of nodes, which grows by half until the density is
+        resolved: all calls together ask for about twice the values of the last one. No x is a t.
         """
         tol = arguments.tolerance(tol)
         if n is not None:
@@ -342,7 +341,7 @@ class CauchyEquation:
         rhs : ndarray, shape (N,)
         """
         system = System(self.problem, (_size(n),) * len(self.interval))
-        return system.matrix(), system.rhs
+        return system.matrix, system.rhs
 
 
 def _constant(name: str, value: Any) -> complex:

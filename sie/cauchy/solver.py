@@ -12,8 +12,7 @@ equations that κ = 1 lacks, and a free constant u_j is the unknown that κ = -1
 Without k on one interval nothing is solved: c is a transform of g, for a = 0 a DCT (`transform`).
 Otherwise the matrix is square, and about as well conditioned as the identity plus k (`system`). The
 sizes grow until coefficients have decayed, the residual is small at points that were not used, and
-the kernel's own coefficients show that its integrals are resolved. k itself is called once
-(`kernel`).
+the kernel's own coefficients show that its integrals are resolved. k is called once for each size.
 
 Sources: Erdogan & Gupta, Q. Appl. Math. 29 (1972); Erdogan, Gupta & Cook (1973); Elliott, SIAM J.
 Numer. Anal. 19 (1982), for the weighted spaces in which the condition number stays bounded; Kelley
@@ -34,7 +33,6 @@ from sie.numerics import chebyshev
 from .attempt import DECAYED, Attempt
 from .density import JacobiDensity
 from .formulation import Problem
-from .kernel import Series, series
 from .system import System
 from .transform import by_transform
 
@@ -74,11 +72,11 @@ def solve(problem: Problem, tol: float) -> JacobiDensity:
 
     Raises ContactError with the best `density` if it does not settle.
     """
-    sizes, idle, kernel = _first_sizes(problem, tol), 0, series(problem, tol)
+    sizes, idle = _first_sizes(problem, tol), 0
     best: Attempt | None = None
     seen: list[tuple[int, float]] = []
     while True:
-        tried = attempt(problem, sizes, kernel)
+        tried = attempt(problem, sizes)
         more = tried.unresolved(tol)
         if not more.any():
             return consistent(tried)
@@ -198,12 +196,9 @@ def consistent(found: Attempt) -> JacobiDensity:
     return found.answer()
 
 
-def attempt(problem: Problem, sizes: tuple[int, ...], kernel: Series | None = None) -> Attempt:
-    """The density with so many nodes on each interval.
-
-    The kernel's series stands for the kernel if it is known.
-    """
+def attempt(problem: Problem, sizes: tuple[int, ...]) -> Attempt:
+    """The density with so many nodes on each interval."""
     if problem.is_transform:
         return by_transform(problem, sizes[0])
-    system = System(problem, sizes, kernel)
+    system = System(problem, sizes)
     return system.attempt(system.solution())

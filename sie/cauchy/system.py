@@ -21,7 +21,6 @@ from sie.numerics.interval import EPS
 from .attempt import TAIL, Attempt, Terms, attempted
 from .formulation import (
     PROBES,
-    Kernel,
     Problem,
     condition_rows,
     constant_of,
@@ -34,7 +33,6 @@ from .formulation import (
     sample_kernel,
     solved,
 )  # fmt: skip
-from .kernel import Series
 from .rounding import Spread, signs, spread, unsure
 
 Array = NDArray[Any]
@@ -69,13 +67,11 @@ class System:
     The rows are, interval by interval, the projections on p̃, with a condition before them where κ
     = 1 and without the first one where κ = -1. The projections that were left out and the remaining
     conditions follow, one for each free constant. So the matrix is the identity plus a smooth part,
-    but for that border. The kernel is called once, or not at all where its series is given.
+    but for that border. The kernel is called once.
     """
 
-    def __init__(
-        self, problem: Problem, sizes: tuple[int, ...], series: Series | None = None
-    ) -> None:
-        self.problem, self.sizes, self.series = problem, sizes, series
+    def __init__(self, problem: Problem, sizes: tuple[int, ...]) -> None:
+        self.problem, self.sizes = problem, sizes
         self.blocks = [_block(problem, i, n) for i, n in enumerate(sizes)]
         self.regular, self.kernel = self._kernel()
         sampled = [
@@ -94,22 +90,14 @@ class System:
         t = np.concatenate([b.t for b in self.blocks])
         rho = np.concatenate([b.rows[2] for b in self.blocks])[:, None]
         rest = np.concatenate([b.columns[2] for b in self.blocks])
-        regular = (
-            None if self.problem.k is None else self._regular(self.problem.k, x, t) * rho * rest
-        )
+        k = self.problem.k
+        regular = None if k is None else sample_kernel(k, x, t) * rho * rest
         blocks = range(len(self.blocks))
         cauchy = np.concatenate(
             [np.concatenate([self._cauchy(i, j) for j in blocks], axis=1) for i in blocks]
         )
         out: Array = (real_if_real(self.problem.b) / np.pi) * cauchy
         return regular, out if regular is None else regular + out
-
-    def _regular(self, k: Kernel, x: Array, t: Array) -> Array:
-        if self.series is None:
-            return sample_kernel(k, x, t)
-        return self.series.at(
-            [0.5 * (b.left - b.right) for b in self.blocks], [b.sigma for b in self.blocks]
-        )
 
     def _cauchy(self, i: int, j: int) -> Array:
         rows, columns = self.blocks[i], self.blocks[j]
@@ -179,12 +167,9 @@ class System:
         """The right-hand side, in the order of the rows."""
         return np.concatenate((self.values, self._projected(self.sampled[0])))[self.order]
 
+    @cached_property
     def matrix(self) -> Array:
         """The whole matrix."""
-        return self._matrix
-
-    @cached_property
-    def _matrix(self) -> Array:
         smooth = np.concatenate(
             [
                 self.kernel[:, at] @ b.quadrature
@@ -225,7 +210,7 @@ class System:
 
     def by_lapack(self) -> Array:
         """The solution in n³ operations."""
-        return solved(self.matrix(), self.rhs)
+        return solved(self.matrix, self.rhs)
 
     def by_gmres(self) -> Array:
         """The solution in n² operations a step; the number of steps does not depend on n."""
@@ -283,10 +268,10 @@ class System:
                 self._projected(sizes[:, None] * at_rows),
             )
         )[self.order]
-        sums = np.abs(self._matrix[:, : len(c)]) @ np.abs(c)
+        sums = np.abs(self.matrix[:, : len(c)]) @ np.abs(c)
         # Near an eigenvalue the identity and the smooth part cancel; both were rounded before
         sums[: len(c)] += np.abs(c)
-        off = solved(self._matrix, terms + sums[:, None] * at_sums)
+        off = solved(self.matrix, terms + sums[:, None] * at_sums)
         of_interval = zip(
             self.problem.maps, self.problem.weights, self.blocks, self._column_slices, strict=True
         )

@@ -18,7 +18,7 @@ from sie.numerics.interval import EPS
 
 from .bounds import DEEPEST, NODES, legendre, lower_bound
 from .operator import Operator, gap_values
-from .panels import FARTHEST, GapPanels, distance_of, gap_panels
+from .panels import FARTHEST, GapPanels, distance_of, gap_panels, parameter_of
 from .state import Findings, Overlap
 
 Array = NDArray[np.float64]
@@ -276,7 +276,7 @@ def _parts(o: Operator, panels: GapPanels) -> Parts:
     count = np.maximum(stop - start, 0)
     panel = np.repeat(np.arange(len(low)), count)
     which = start[panel] + np.arange(count.sum()) - np.repeat(np.cumsum(count) - count, count)
-    cut = panels.parameter(panel, np.abs(pieces.cuts[which] - edge[panel]))
+    cut = parameter_of(np.abs(pieces.cuts[which] - edge[panel]), panels.width[panel])
     every = np.concatenate((panel, np.arange(len(low)), np.arange(len(low))))
     place = np.concatenate((np.clip(cut, panels.lo[panel], panels.hi[panel]), panels.lo, panels.hi))
     order = np.lexsort((place, every))
@@ -318,7 +318,7 @@ def gap(o: Operator, x: Array) -> Array:
     key = 2 * panels.gap + panels.right
     first = np.searchsorted(key, 2 * k + right)
     last = np.searchsorted(key, 2 * k + right, side="right") - 1
-    t = panels.parameter(first, distance)
+    t = parameter_of(distance, panels.width[first])
     panel = first.copy()
     for _ in range(int((last - first).max(initial=0))):
         panel = np.where((panel < last) & (t > panels.hi[panel]), panel + 1, panel)

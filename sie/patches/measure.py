@@ -80,7 +80,7 @@ class Measure:
             return out
         groups = self.groups(i, x, np.arange(len(i)) if group is None else group)
         chord, extent = self.patches.chord, groups.wide
-        near = self._tree_of_roots.separated(chord, groups.i, extent, extent)
+        near = self._tree_of_roots.separated(chord, groups.i, extent, extent, x.offset.size)
         out *= np.exp(far_sums(chord, groups, near, x, self._logarithms)[..., 0])
         block, pair = groups.blocks(near.group)
         for some in parts(len(block), out.shape[1]):

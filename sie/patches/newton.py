@@ -41,7 +41,7 @@ SMALL = 1e-3  # of the mean: no intensity counts for less
 TINY = 1e-200
 MOST_STEPS = 60
 SETTLED = 1e-11  # half-widths of its patch: steps below, that stop shrinking, are rounding
-FINAL = 4e-15
+FINAL = 4e-15  # half-widths that the last step may have
 QUADRATIC = 1e-3  # half-widths: the steps decrease quadratically from here on
 ULPS = 8.0  # of an edge and of the load: no step tells less
 NARROW = 1e-5  # half-widths: steps are told from this width of a gap on
@@ -52,18 +52,16 @@ BLURRED = 1e-7
 
 
 def solve(
-    state: State, pieces: Pieces, given: Given, accuracy: tuple[float, int], longest: int
+    state: State, pieces: Pieces, given: Given, longest: int
 ) -> tuple[State, Event | None, int]:
     """Edges that meet the conditions, or the event that stopped the search on its way.
 
-    The number of steps comes with them. `accuracy`: half-widths that the last step may have, and
-    the most steps since the last event. `longest`: the most of all.
+    The number of steps comes with them; `longest` is the most.
     """
-    enough, most = accuracy
     damping = Damping.none(2 * state.patches.number)
     sizes: list[float] = []
-    for step in range(min(most + MOST_STEPS * state.patches.number, longest)):
-        if len(sizes) == most:
+    for step in range(min(MOST_STEPS * (1 + state.patches.number), longest)):
+        if len(sizes) == MOST_STEPS:  # since the last event
             break
         step_done()
         o = operator_of(state, pieces)
@@ -83,7 +81,7 @@ def solve(
         state, clipped = moved(state, damping.moved, y, limits)
         sizes.append(np.inf if clipped else size)
         whole = np.array_equal(asked, damping.moved)
-        if _settled(sizes, enough, whole, state.sharp.any()):
+        if _settled(sizes, whole, state.sharp.any()):
             return state, turning_smooth(state), step + 1
         event = event_of(state, asked, damping.insists, pieces)
         if event is not None:
@@ -92,7 +90,7 @@ def solve(
                 return state, event, step + 1
             # what the other edges ask for is not changed by an event far from them
             damping, state = damping.carried(state, fewer)
-            sizes = sizes[:-1] if most < MOST_STEPS else []
+            sizes = []
         elif damping.insists.max() >= INSISTS:
             damping.insists[:] = 0
     return state, Event("stall", -1), step + 1
@@ -142,7 +140,7 @@ def relative_size(state: State, y: Array, told: Array) -> float:
     )
 
 
-def _settled(sizes: list[float], enough: float, whole: bool, sharp: np.bool_) -> bool:
+def _settled(sizes: list[float], whole: bool, sharp: np.bool_) -> bool:
     """Whether the last step is small enough.
 
     It is so too if what follows is, by the steps' quadratic decrease where it was done as a
@@ -150,10 +148,10 @@ def _settled(sizes: list[float], enough: float, whole: bool, sharp: np.bool_) ->
     before it were.
     """
     last, before = sizes[-1], sizes[-2] if len(sizes) > 1 else np.inf
-    if last < enough:
+    if last < FINAL:
         return True
     rate = before if sharp else (last / before) ** 2
-    decreased = last < QUADRATIC and before < QUADRATIC and last * rate < enough
+    decreased = last < QUADRATIC and before < QUADRATIC and last * rate < FINAL
     return (decreased and whole) or (last < SETTLED and last >= 0.5 * before)
 
 

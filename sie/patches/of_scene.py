@@ -15,6 +15,7 @@ from sie.profiles.pieces import Pieces
 from sie.profiles.profile_pieces import of_profile
 from sie.profiles.slope import Slope
 
+from .start import Grid, grid_pressure
 from .state import Effort, Given
 
 Array = NDArray[np.float64]
@@ -34,6 +35,7 @@ class Problem:
     load: float
     effort: Effort = field(default_factory=Effort)
     _known: dict[tuple[float, float], Pieces] = field(default_factory=dict)
+    _grids: dict[tuple[float, tuple[float, float], int], Grid] = field(default_factory=dict)
 
     @property
     def slope(self) -> Slope:
@@ -60,7 +62,15 @@ class Problem:
             self._known[window] = of_profile(self.profile, window, TOLERANCE)
         return self._known[window]
 
-    def tilted(self, tilt: float, window: tuple[float, float]) -> Callable[[Array], Array]:
+    def grid(self, tilt: float, window: tuple[float, float], cells: int) -> Grid:
+        """The pressure on a grid of the window, at a tilt."""
+        asked = tilt, window, cells
+        if asked not in self._grids:
+            height, load = self._tilted(tilt, window), self.given.load
+            self._grids[asked] = grid_pressure(height, window, cells, load, self.chord.periodic)
+        return self._grids[asked]
+
+    def _tilted(self, tilt: float, window: tuple[float, float]) -> Callable[[Array], Array]:
         """The function h + tilt x on the window, up to a constant."""
         if not self.by_slope:
             return lambda x: self.profile.height(x) + tilt * x

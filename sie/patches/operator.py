@@ -52,7 +52,8 @@ class Operator(Measure):
         """D_i at targets, (B, n)."""
         t = t._replace(reference=t.reference - self.H0)
         groups = self.groups(t.i, t.x, t.group)
-        near = self.tree.separated(self.patches.chord, groups.i, groups.narrow, groups.wide)
+        extents, places = (groups.narrow, groups.wide), t.x.offset.size
+        near = self.tree.separated(self.patches.chord, groups.i, *extents, places)
         total = self._near(t, *self._blocks(groups, near))
         if near.far:
             far = far_sums(self.patches.chord, groups, near, t.x, self._charges_at, odd=True)
@@ -159,7 +160,7 @@ class Operator(Measure):
         every = np.arange(N)
         x = Points(P.edges.reshape(N, 2), np.zeros((N, 2)))
         groups = self.groups(every, x, every)
-        near = self.tree.separated(P.chord, every, groups.narrow, groups.wide)
+        near = self.tree.separated(P.chord, every, groups.narrow, groups.wide, N)
         t, c = self.panels.points[near.row], P.c[near.group, None]
         nu = self.measure(near.group, near.row) * P.chord.cosine(t.anchor - c, t.offset)
         total = np.zeros((N, 2))

@@ -217,13 +217,6 @@ class GapPanels:
     def __getitem__(self, some: slice) -> GapPanels:
         return GapPanels(*(getattr(self, field.name)[some] for field in fields(self)))
 
-    def parameter(self, panel: Index, distance: Array) -> Array:
-        """The parameter at a distance from the edge."""
-        width = self.width[panel]
-        with np.errstate(invalid="ignore"):
-            inner = 2.0 * np.arcsin(np.sqrt(np.minimum(distance / width, 1.0)))
-        return np.where(np.isinf(width), np.sqrt(distance), inner)
-
 
 def distance_of(parameter: Array, width: Array) -> tuple[Array, Array, Array]:
     """(distance from the edge, root, derivative of the distance) at a parameter of a gap.
@@ -236,6 +229,13 @@ def distance_of(parameter: Array, width: Array) -> tuple[Array, Array, Array]:
     distance = np.where(inner, w * np.sin(0.5 * angle) ** 2, parameter * parameter)
     root = np.where(inner, np.sin(angle), parameter)
     return distance, root, np.where(inner, 0.5 * w * root, 2.0 * parameter)
+
+
+def parameter_of(distance: Array, width: Array) -> Array:
+    """The parameter at a distance from the edge, of which `distance_of` gives the distance."""
+    inner = np.isfinite(width)
+    angle = 2.0 * np.arcsin(np.sqrt(np.minimum(distance / np.where(inner, width, 1.0), 1.0)))
+    return np.where(inner, angle, np.sqrt(distance))
 
 
 def _sides(
@@ -276,19 +276,14 @@ def gap_panels(
     far = np.sqrt(np.minimum(np.maximum(stop, 0.0), farthest * patches.hull))
     nearest = np.where(inner, 2.0 * np.arcsinh(np.sqrt(size / width)), np.sqrt(size))
     end = np.where(inner, 0.5 * np.pi, far)
-
-    def as_parameter(distance: Array) -> Array:
-        inwards = np.sqrt(np.minimum(distance / np.where(inner, width, 1.0), 1.0))
-        return np.where(inner, 2.0 * np.arcsin(inwards), np.sqrt(distance))
-
-    limit = as_parameter(followed)
+    limit = parameter_of(followed, width)
     # waves of the pressure show beside an edge, and so does a kink of H close to it
     inward = edge - pieces.breaks[piece + at_right]
     # its integral asks for that of H' only, its values between the nodes for that of H'' as well
     bent = (outside | pieces.bends(piece, at_right)) & (np.abs(inward) < size)
     near = np.sqrt(np.abs(inward) / np.where(inner, width, 1.0))
     kink = np.where(bent, np.where(inner, 2.0 * np.arcsinh(near), near), np.inf)
-    wave = as_parameter(pieces.plain[piece]) / rule.first
+    wave = parameter_of(pieces.plain[piece], width) / rule.first
     nearest = np.minimum(np.minimum(nearest, kink), wave)
     first = np.where(rule.first * nearest < end / SLACK, rule.first * nearest, end)
     shorter = np.flatnonzero(limit < first)

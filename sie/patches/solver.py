@@ -21,12 +21,11 @@ from sie.progress_bar import reported
 
 from . import newton
 from .gap import overlaps
-from .newton import FINAL, MOST_STEPS
 from .of_scene import Problem
 from .operator import Found, Operator, operator_of
 from .panels import Patches
 from .repairs import after, apart, bounded, mended, one_period
-from .start import Grid, cells_of, grid_pressure
+from .start import Grid, cells_of
 from .state import SAME, Event, Findings, Given, State, balances
 from .tension import tensions
 from .unknown import refuse_unknown_depths, refuse_unknown_ends, unsettled
@@ -35,14 +34,11 @@ from .window import COARSE, WIDENED, fitted_window, levels, whole_window, widene
 Array = NDArray[np.float64]
 
 ROUNDS, STALLS = 30, 1  # the most rounds, and those that end without edges or an event
-SEVERAL = 12  # patches: of more than these, cuts and births are sought ...
-EARLY, EARLY_STEPS, ROUGHLY = 4, 3, 0.1  # ... in so many rounds of so many steps, or of such a size
-DEEP = 2.0  # times what a gap misses to close: such an overlap is not of the edges' errors
 # of the largest D: tension that is accepted beside a merger, where no arithmetic tells more
 NEARLY = 1e-7
-FEWEST_CELLS, MOST_CELLS = 2048, 1 << 18
+CELLS = 6.0  # for each break in the window
+FEWEST_CELLS, MOST_CELLS = 2048, 1 << 18  # of a period, and of all
 FINER = 8  # a second grid, if the first as a start leads nowhere
-CELLS = 1.5  # for each break in the window
 BEYOND = 0.9  # of a cell: an edge is no farther from the middle of the outer cell
 
 
@@ -55,9 +51,7 @@ def contact(problem: Problem) -> Found:
         beyond = widened(found, problem, window)
         if beyond == window:
             found = _in_one_period(_with_far_valleys(found, problem), problem)
-            linear = newton.conditions_of(found)
-            moved = linear.rounded_moves(found.state)
-            refuse_unknown_depths(found, problem, linear.rounding, moved)
+            refuse_unknown_depths(found, problem)
             return found
         window = beyond
     raise LoadError(
@@ -94,14 +88,9 @@ def _in_one_period(found: Found, problem: Problem) -> Found:
 def _within(problem: Problem, window: tuple[float, float]) -> Found:
     given, chord, pieces = problem.given, problem.chord, problem.pieces(window)
     tilts = (given.tilt,) * 2 if given.moment is None else levels(problem, window)
-    breaks = np.asarray(problem.profile.breaks)
-    inside = np.count_nonzero((breaks > window[0]) & (breaks < window[1]))
-    cells = cells_of(min(max(CELLS * inside, FEWEST_CELLS), MOST_CELLS))
 
     def of_grid(tilt: float, cells: int) -> State:
-        height = problem.tilted(tilt, window)
-        grid = grid_pressure(height, window, cells, given.load, chord.periodic)
-        return touched(grid, pieces, chord, tilt)
+        return touched(problem.grid(tilt, window, cells), pieces, chord, tilt)
 
     def start(cells: int) -> State:
         state = of_grid(0.5 * (tilts[0] + tilts[1]), cells)
@@ -112,12 +101,27 @@ def _within(problem: Problem, window: tuple[float, float]) -> Found:
         a, b = apart([e for P in both for e in P.zones])
         return bounded(a, b, pieces, chord, state.tilt)
 
+    cells = _cells(problem, 0.5 * (tilts[0] + tilts[1]), window)
     for number in (cells, min(FINER * cells, MOST_CELLS)):
         found = attempted(lambda cells=number: start(cells), pieces, problem)  # type: ignore[misc]
         if found is not None:
             refuse_unknown_ends(found.state, problem)
             return found
     raise unsettled(problem, 0)
+
+
+def _cells(problem: Problem, tilt: float, window: tuple[float, float]) -> int:
+    """The cells of the grid for a first guess: few where a coarse one shows one patch.
+
+    Patches that it does not show are added.
+    """
+    breaks, fewest = np.asarray(problem.profile.breaks), FEWEST_CELLS
+    inside = np.count_nonzero((breaks > window[0]) & (breaks < window[1]))
+    if not problem.chord.periodic:
+        coarse, fewest = problem.grid(tilt, window, COARSE), COARSE
+        if np.count_nonzero(np.diff(coarse.p > 0.0, prepend=False, append=False)) == 2:
+            return COARSE
+    return cells_of(min(max(CELLS * inside, fewest), MOST_CELLS))
 
 
 def touched(grid: Grid, pieces: Pieces, chord: Chord, tilt: float) -> State:
@@ -191,39 +195,24 @@ def _with_far_valleys(found: Found, problem: Problem) -> Found:
 def settled(state: State, pieces: Pieces, problem: Problem) -> Found:
     """The certified answer near a start."""
     steps, stalls, nearly = 0, 0, None
-    # before the edges of many patches are exact, most that have to be cut or added show it
-    early = EARLY if state.patches.number > SEVERAL else 0
     seen: set[tuple[object, ...]] = set()
-    for round_ in range(ROUNDS):
-        if not (state.patches.gaps > 0.0).all():
-            break
-        if round_ >= early:
-            start = state.rounded
-            # the same start ends the same again
-            if start in seen:
-                break
-            seen.add(start)
-        accuracy = (ROUGHLY, EARLY_STEPS) if round_ < early else (FINAL, MOST_STEPS)
-        number = state.patches.number
+    for _ in range(ROUNDS):
+        start, number = state.rounded, state.patches.number
         longest = problem.effort.steps(number)
-        if longest < 1:
+        # the same start ends the same again
+        if start in seen or longest < 1 or not (state.patches.gaps > 0.0).all():
             break
-        state, event, count = newton.solve(state, pieces, problem.given, accuracy, longest)
+        seen.add(start)
+        state, event, count = newton.solve(state, pieces, problem.given, longest)
         problem.effort.spend(count, number)
         steps += count
-        stalls += event is not None and event.kind == "stall" and round_ >= early
-        if stalls > STALLS:
-            break
-        if event is not None and (round_ >= early or event.kind != "stall"):
+        if event is not None:
+            stalls += event.kind == "stall"
+            if stalls > STALLS:
+                break
             state = _after(event, state, pieces, problem.given)
-            if round_ >= early:
-                continue
-        o = operator_of(state, pieces)
-        if round_ < early:
-            rough = roughly(o, state.tilt, problem.given.load, gaps=round_ > 0)
-            early = early if event is not None or not rough.ok else 0
-            state = state if rough.ok else mended(state, rough, pieces)
             continue
+        o = operator_of(state, pieces)
         found = Found(state, o, problem.given, findings(o, state.tilt, problem.given.load), steps)
         if found.findings.ok:
             return found
@@ -239,19 +228,6 @@ def findings(o: Operator, tilt: float, load: float) -> Findings:
     """What the bounds of pressure and gap find."""
     tension, lowest = tensions(o)
     return replace(overlaps(o, tilt, load), tension=tension, lowest=lowest)
-
-
-def roughly(o: Operator, tilt: float, load: float, gaps: bool) -> Findings:
-    """What has to be mended before the edges are exact; `gaps`: in the gaps as well.
-
-    Only overlaps count that are deeper than what the gap misses to close.
-    """
-    tension, lowest = tensions(o)
-    if not gaps:
-        return Findings(tension, (), lowest)
-    missed = np.abs(newton.closed(o))
-    inner = (v for v in overlaps(o, tilt, load).overlap if 0 <= v.gap < len(missed))
-    return Findings(tension, tuple(v for v in inner if v.depth > DEEP * missed[v.gap]), lowest)
 
 
 def _after(event: Event, state: State, pieces: Pieces, given: Given) -> State:

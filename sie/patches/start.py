@@ -23,7 +23,8 @@ ITERATIONS, PRECONDITIONED = 400, 200  # on one grid
 # Steps from one look for overlaps to the next: new contact ends the conjugate directions, and in
 # noise some comes with every step
 SELDOM = 5
-LAST = 5e-5  # relative change of the pressure in a step, below which a grid is done
+# relative changes of the pressure in a step: below them a grid is done, and may be used
+STILL, LAST = 1e-5, 5e-5
 
 
 class Grid(NamedTuple):
@@ -100,9 +101,12 @@ def _relaxed(h: Array, p: Array, dx: float, load: float, periodic: bool) -> Arra
     K = _influence(n, dx, periodic)
     k = np.asarray(2.0 * np.pi * np.arange(size // 2 + 1) / (size * dx), dtype=float)
     system = System(h, dx, load, K)
-    found, done = _gradients(system, p, k)
-    # noise from cell to cell lets preconditioned steps go to and fro
-    return found if done else _gradients(system, p, None)[0]
+    found, done = _gradients(system, p, k, PRECONDITIONED)
+    if not done:  # noise from cell to cell lets preconditioned steps go to and fro
+        found, _ = _gradients(system, p, np.ones_like(k), ITERATIONS)
+    if not (found > 0.0).any() or not np.isfinite(found).all():
+        raise FloatingPointError("no pressure on the grid")
+    return found
 
 
 class System(NamedTuple):
@@ -121,51 +125,50 @@ class System(NamedTuple):
     def displaced(self, q: Array) -> Array:
         return self.transformed(q, self.influence)
 
+    def pressed_apart(self, p: Array, deep: Array) -> Array:
+        """The pressure with more where the bodies overlap by -deep."""
+        step = float(deep @ deep) / float(deep @ self.displaced(deep))
+        return np.asarray(np.maximum(p - step * deep, 0.0))
 
-def _gradients(system: System, p: Array, stiffness: Array | None) -> tuple[Array, bool]:
+
+def _gradients(system: System, p: Array, stiffness: Array, most: int) -> tuple[Array, bool]:
     """The pressure after steps of conjugate gradients, and whether the last ones were small.
 
-    `stiffness` of the harmonics preconditions them (Vollebregt 2014): |k| nearly inverts 1/|k|.
+    `stiffness` of the harmonics preconditions them (Vollebregt 2014): |k| nearly inverts 1/|k|, and
+    1 leaves them plain. Directions are those of Polak & Ribiere, as the contact changes.
     """
     solid = np.isfinite(system.h)
     h = np.where(solid, system.h, 0.0)
-    enough = LAST if stiffness is None else 0.2 * LAST
     t, last, before, conjugate = np.zeros(len(h)), np.zeros(len(h)), 1.0, 0.0
-    still, change = False, 1.0
-    for number in range(ITERATIONS if stiffness is None else PRECONDITIONED):
+    change = 1.0
+    for number in range(most):
         contact = p > 0.0
         if not contact.any() or not np.isfinite(p).all():
-            if stiffness is not None:
-                return p, False
-            raise FloatingPointError("no pressure on the grid")
+            return p, False
         gap = _levelled(system.displaced(p) + h, contact)
         r = np.where(contact, gap, 0.0)
-        z = r if stiffness is None else system.transformed(r, stiffness)
+        z = system.transformed(r, stiffness)
         now = float(r @ z)
         if now <= 0.0:
             return p, now == 0.0
-        # Fletcher & Reeves; Polak & Ribiere where the preconditioner leaves the contact
-        turn = now if stiffness is None else max(float((r - last) @ z), 0.0)
+        turn = max(float((r - last) @ z), 0.0)
         t = np.where(contact, z + conjugate * (turn / before) * t, 0.0)
         before, last = now, r
-        if stiffness is not None:
-            t[contact] -= t[contact].mean()
-        opened = _levelled(system.displaced(t), contact)
-        along = float(opened[contact] @ t[contact])
+        t[contact] -= t[contact].mean()
+        along = float(t @ system.displaced(t))
         if along == 0.0:  # the load is lost in the rounding of h
             return p, True
         step = float(r @ t) / along
         old = p
         p = np.maximum(p - step * t, 0.0)
-        looks = still or number % SELDOM == 0
+        looks = change <= STILL or number % SELDOM == 0
         overlap = (p == 0.0) & (gap < 0.0) & solid & looks
         conjugate = 0.0 if overlap.any() else 1.0
         if overlap.any():
-            p = _pressed_apart(system, p, np.where(overlap, gap, 0.0), step, stiffness is None)
+            p = system.pressed_apart(p, np.where(overlap, gap, 0.0))
         p *= system.load / (p.sum() * system.dx)
         change = float(np.abs(p - old).sum() / p.sum())
-        still = change <= enough
-        if still and looks and not overlap.any():
+        if change <= STILL and looks and not overlap.any():
             return p, True
     return p, change <= LAST
 
@@ -173,10 +176,3 @@ def _gradients(system: System, p: Array, stiffness: Array | None) -> tuple[Array
 def _levelled(u: Array, contact: NDArray[np.bool_]) -> Array:
     """The displacement u less its mean in contact."""
     return np.asarray(u - u[contact].mean())
-
-
-def _pressed_apart(system: System, p: Array, deep: Array, step: float, plain: bool) -> Array:
-    """The pressure with more where the bodies overlap by -deep; preconditioned, by its own step."""
-    if not plain:
-        step = float(deep @ deep) / float(deep @ system.displaced(deep))
-    return np.asarray(np.maximum(p - step * deep, 0.0))

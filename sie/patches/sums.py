@@ -112,17 +112,18 @@ def ranges(first: Index, count: Index) -> Index:
 
 def add(total: Any, row: Index, value: Any) -> None:
     """total[row] += value, rows in runs."""
-    if not row.size:
-        return
-    first = np.flatnonzero(np.diff(row, prepend=-1))
-    total[row[first]] += np.add.reduceat(value, first)
+    _gathered(np.add, total, row, value)
 
 
 def multiply(total: Any, row: Index, value: Any) -> None:
-    if not row.size:
-        return
-    first = np.flatnonzero(np.diff(row, prepend=-1))
-    total[row[first]] *= np.multiply.reduceat(value, first)
+    """total[row] *= value, rows in runs."""
+    _gathered(np.multiply, total, row, value)
+
+
+def _gathered(operation: np.ufunc, total: Any, row: Index, value: Any) -> None:
+    if row.size:
+        first = np.flatnonzero(np.diff(row, prepend=-1))
+        total[row[first]] = operation(total[row[first]], operation.reduceat(value, first))
 
 
 def parts(rows: int, columns: int) -> Iterator[slice]:

@@ -9,6 +9,7 @@ they are.
 
 from __future__ import annotations
 
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
@@ -23,7 +24,8 @@ Index = NDArray[np.int64]
 FAR = 3.0  # half-lengths of a node from its middle: its charges serve from here on
 CHARGES = 20  # of a node: (FAR + sqrt(FAR² - 1))**-CHARGES is rounding
 LEAF = 4  # rows in a leaf
-FEWEST = 48  # rows: fewer are summed as they are
+FEWEST = 48  # rows: fewer are summed as they are ...
+FEW = 1 << 14  # ... and rows times places: a tree takes longer
 SHORTEST = 64.0  # ulp: the half-length of a node that is no longer than the spacing of doubles
 
 
@@ -59,12 +61,15 @@ class Tree:
     """The tree of rows [lo, hi] (K,) with owners, sources (K, n) and charges (sets, K, n)."""
 
     def __init__(self, ends: tuple[Array, Array], owner: Index, sources: Points, charges: Array):
-        lo, hi = ends
-        self.order = np.argsort(lo + hi, kind="stable")
-        self.rows = len(lo)
-        self.levels: list[Level] = []
-        if self.rows < FEWEST:
-            return
+        self.ends, self.owner, self.sources, self.charges = ends, owner, sources, charges
+        self.order = np.argsort(ends[0] + ends[1], kind="stable")
+        self.rows = len(owner)
+
+    @cached_property
+    def levels(self) -> list[Level]:
+        """The levels, from the leaves to the root."""
+        (lo, hi), owner, sources, charges = self.ends, self.owner, self.sources, self.charges
+        levels: list[Level] = []
         spare = -self.rows % LEAF
         kept = np.append(self.order, np.repeat(self.order[-1:], spare))
         charges = charges[:, kept]
@@ -83,9 +88,9 @@ class Tree:
             anchor, offset = points.anchor.reshape(shape), points.offset.reshape(shape)
             u = ((anchor - middle[:, None]) + offset) / half[:, None]
             charges = gathered(u, charges.reshape(len(charges), *shape))
-            self.levels.append(Level(middle, half, first, last, charges))
+            levels.append(Level(middle, half, first, last, charges))
             if len(middle) == 1:
-                return
+                return levels
             if len(middle) % 2:  # an empty sibling for the last node
                 middle, start, end = (np.append(v, end[-1]) for v in (middle, start, end))
                 half, first, last = np.append(half, 0.0), _again(first), _again(last)
@@ -95,14 +100,19 @@ class Tree:
             points = Points(np.repeat(middle[:, None], CHARGES, axis=1), half[:, None] * POINTS)
 
     def separated(
-        self, chord: Chord, owner: Index, narrow: tuple[Array, Array], wide: tuple[Array, Array]
+        self,
+        chord: Chord,
+        owner: Index,
+        narrow: tuple[Array, Array],
+        wide: tuple[Array, Array],
+        places: int,
     ) -> Separation:
-        """The nodes far from groups in the intervals `wide`.
+        """The nodes far from groups in the intervals `wide`; none for few rows, or few places.
 
         Those whose rows all are a group's own have to be far from its interval `narrow` only.
         """
         groups = len(owner)
-        if not self.levels:
+        if self.rows < FEWEST or self.rows * places <= FEW:
             row = np.tile(self.order, groups)
             return Separation([], row, np.repeat(np.arange(groups), self.rows))
         node, group, far = np.zeros(groups, dtype=np.int64), np.arange(groups), []

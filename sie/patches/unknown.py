@@ -9,15 +9,13 @@ search for them does not come to rest.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from sie.errors import LoadError
 
+from .newton import conditions_of
 from .of_scene import Problem
 from .operator import Found
 from .state import State
-
-Array = NDArray[np.float64]
 
 UNKNOWN = 0.01  # part by which the rounding of h may change the load of a patch
 
@@ -48,11 +46,8 @@ def refuse_unknown_ends(state: State, problem: Problem) -> None:
             )
 
 
-def refuse_unknown_depths(found: Found, problem: Problem, rounding: Array, moved: Array) -> None:
-    """Raises LoadError where the rounding of h decides which valleys touch, or how they share.
-
-    `rounding` (N - 1,) is that from patch to patch, and `moved` (2N,) how far it moves the edges.
-    """
+def refuse_unknown_depths(found: Found, problem: Problem) -> None:
+    """Raises LoadError where the rounding of h decides which valleys touch, or how they share."""
     P, seen, load = found.state.patches, found.findings, found.given.load
 
     def refuse(k: int, place: float, known: float, least: float) -> None:
@@ -63,9 +58,13 @@ def refuse_unknown_depths(found: Found, problem: Problem, rounding: Array, moved
 
     if seen.doubt:
         refuse(int(np.argmin(np.abs(P.c - seen.place))), seen.place, seen.doubt, UNKNOWN)
-    if P.number > 1 and 2.0 * float(np.abs(moved / np.repeat(P.r, 2)).max()) > UNKNOWN:
-        k = int(np.argmax(rounding))
-        refuse(k, float(P.c[k + 1]), rounding[k], 0.0)
+    if P.number == 1:
+        return
+    linear = conditions_of(found)
+    moved = linear.rounded_moves(found.state)  # by the rounding from patch to patch
+    if 2.0 * float(np.abs(moved / np.repeat(P.r, 2)).max()) > UNKNOWN:
+        k = int(np.argmax(linear.rounding))
+        refuse(k, float(P.c[k + 1]), linear.rounding[k], 0.0)
 
 
 def _unknown_depth(

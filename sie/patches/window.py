@@ -11,7 +11,6 @@ from sie.profiles.look import falls as look_falls
 
 from .of_scene import Problem
 from .operator import Found
-from .start import grid_pressure
 
 Array = NDArray[np.float64]
 
@@ -45,8 +44,7 @@ def fitted_window(problem: Problem) -> tuple[float, float]:
     fitted = problem.by_slope and centre is None
     widened, narrowest = 0, FITTED if fitted else NARROWEST
     for _ in range(WINDOWS):
-        height = problem.tilted(problem.given.tilt, (lo, hi))
-        grid = grid_pressure(height, (lo, hi), COARSE, problem.given.load, False)
+        grid = problem.grid(problem.given.tilt, (lo, hi), COARSE)
         x = grid.x[grid.p > 0.0]
         a, b = x[0] - 0.5 * grid.dx, x[-1] + 0.5 * grid.dx
         left, right = (
@@ -143,7 +141,7 @@ def levels(problem: Problem, window: tuple[float, float]) -> tuple[float, float]
     nearly = NEARLY * load * (hi - lo)
 
     def excess(tilt: float) -> float:
-        grid = grid_pressure(problem.tilted(tilt, window), window, COARSE, load, False)
+        grid = problem.grid(tilt, window, COARSE)
         return float((grid.p * grid.x).sum() * grid.dx) - wanted
 
     now = excess(0.0)

@@ -28,7 +28,7 @@ steps are marched, and why. A path may begin unloaded, at (0, 0, 0).
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterator, Sequence
+from collections.abc import Callable, Collection, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from functools import cached_property
@@ -178,9 +178,6 @@ class History(PathContacts, Sequence[Solution]):
             self._points[k] = (self._kind if touching else PathSolution)(self, k)
         return self._points[k]
 
-    def __iter__(self) -> Iterator[Solution]:
-        return (self[k] for k in range(len(self)))
-
     @property
     def plan(self) -> Plan:
         """For each step whether layers answer it or it is followed part by part, and why.
@@ -248,10 +245,6 @@ class History(PathContacts, Sequence[Solution]):
         return history_html(self)
 
     # -- for steps and states ----------------------------------------------------------------------
-
-    def solution(self, scene: Scene) -> Solution:
-        """The solution of a scene, as of `solve`."""
-        return Solution(scene, self.tol, self.economy)
 
     def in_parts(self, before: TurningPoint, loads: Loads) -> TurningPoint:
         """The turning point after a step, followed part by part."""
@@ -333,8 +326,7 @@ class PathSolution(Solution):
 
     @property
     def _plain(self) -> Solution:
-        plain: Solution = self.history.plain(*self.history.turning_points[self.index].loads.normal)
-        return plain
+        return self.history.plain(*self.history.turning_points[self.index].loads.normal)
 
     @cached_property
     def normal(self) -> Normal | SeveralPatches | FullContact:

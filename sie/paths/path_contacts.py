@@ -7,7 +7,6 @@ other loads: those of the path itself, those of the layers in its memory, and th
 from __future__ import annotations
 
 import math
-from abc import ABC, abstractmethod
 from collections.abc import Collection
 from dataclasses import replace
 from functools import cached_property
@@ -33,6 +32,7 @@ from sie.patches.step_zones import PatchZones
 from sie.problem.load_path import Path
 from sie.problem.path_scene import unsheared
 from sie.problem.scene import Scene
+from sie.solution import Solution
 
 FEW = 8  # breaks of a profile: of more, a trace, each one is faint
 
@@ -40,7 +40,7 @@ FEW = 8  # breaks of a profile: of more, a trace, each one is faint
 Under = tuple[float, float]
 
 
-class PathContacts(ABC):
+class PathContacts:
     """The contacts that the points of a load path share.
 
     scene      the scene of the path without shear
@@ -55,16 +55,16 @@ class PathContacts(ABC):
         self.tol, self.economy = tol, frozenset(economy)
         self.largest = max(P for P, _, _ in path.points)
         self._first = path.first_contact
-        self._plain: dict[Under, Any] = {}
+        self._plain: dict[Under, Solution] = {}
         self._first_loadings: dict[tuple[Under, complex], Slip] = {}
         self._known: dict[Under, KnownZones] = {}
         self._in_patches: dict[tuple[float, float], SeveralPatches | FullContact] = {}
         self._dissipation: dict[float, Dissipation] = {}
         self._work_in_patches: dict[float, PatchDissipation] = {}
 
-    @abstractmethod
-    def solution(self, scene: Scene) -> Any:
+    def solution(self, scene: Scene) -> Solution:
         """The solution of a scene, as of `solve`."""
+        return Solution(scene, self.tol, self.economy)
 
     @cached_property
     def _tau(self) -> float:
@@ -98,8 +98,7 @@ class PathContacts(ABC):
     def contact_at(self, P: float, tilt: float) -> Interval:
         """The contact under P at a tilt, in one patch."""
         scene = replace(self.scene, normal_load=P, tilt=tilt, moment=None)
-        contact: Interval = self.solution(scene).as_one_patch.edges.contact
-        return contact
+        return self.solution(scene).as_one_patch.edges.contact
 
     @property
     def by_moment(self) -> bool:
@@ -141,7 +140,7 @@ class PathContacts(ABC):
         assert not isinstance(contact, FullContact)  # which is periodic
         return PatchZones(contact, self.arm)
 
-    def plain(self, P: float, turn: float = 0.0) -> Any:
+    def plain(self, P: float, turn: float = 0.0) -> Solution:
         """The contact under P and what is added to the scene's tilt or moment, without shear."""
         if (P, turn) not in self._plain:
             self._plain[P, turn] = self._frictionless(P, turn)
@@ -165,7 +164,7 @@ class PathContacts(ABC):
         """Q and τ of loads."""
         return loads.Q, loads.sigma * self._tau
 
-    def _frictionless(self, P: float, turn: float) -> Any:
+    def _frictionless(self, P: float, turn: float) -> Solution:
         if P == 0.0:
             raise LoadError("the path is at P = 0 here: nothing touches; ask for a later point")
         scene = replace(self.scene, normal_load=P)
@@ -200,7 +199,7 @@ class PathContacts(ABC):
         return self._loaded(plain, depth, turned)
 
     def _loaded(
-        self, plain: Any, depth: complex, turned: bool, near: Interval | None = None
+        self, plain: Solution, depth: complex, turned: bool, near: Interval | None = None
     ) -> Slip:
         f, P, Q = self.scene.friction, plain.normal_load, depth.real
         if abs(Q) >= f * P * (1.0 - 4.0 * EPS):
@@ -223,7 +222,7 @@ class PathContacts(ABC):
     @cached_property
     def in_one_patch(self) -> bool:
         """Whether the contact is one patch under every load of the path, by a slope that rises."""
-        return bool(self.plain(self.largest, self._first[1]).convex)
+        return self.plain(self.largest, self._first[1]).convex
 
     def patches(self, P: float, turn: float) -> tuple[tuple[float, float], ...]:
         """The patches of contact under P."""

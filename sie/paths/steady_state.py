@@ -15,7 +15,7 @@ opposite directions: then, at constant P and tilt, twice the first loading by ha
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, overload
@@ -70,9 +70,6 @@ class SteadyCycle(Sequence["SteadyState"]):
     def __getitem__(self, index: slice) -> Sequence[SteadyState]: ...
     def __getitem__(self, index: int | slice) -> SteadyState | Sequence[SteadyState]:
         return self._states[index]
-
-    def __iter__(self) -> Iterator[SteadyState]:
-        return iter(self._states)
 
     @property
     def _slipping(self) -> bool:

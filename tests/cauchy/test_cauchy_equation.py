@@ -156,16 +156,16 @@ SMOOTH_KERNELS = [
 
 @pytest.mark.parametrize("k", range(len(SMOOTH_KERNELS)))
 @pytest.mark.parametrize("g", [1.0, lambda x: 1.0 / (x - 1.2)], ids=["short", "long"])
-def test_a_smooth_kernel_is_called_once_for_any_g(k, g):
-    assert counted(SMOOTH_KERNELS[k], g=g)[0] == 1
+def test_all_calls_of_a_kernel_ask_for_about_twice_the_values_of_the_last(k, g):
+    asked, _ = counted(SMOOTH_KERNELS[k], g=g)
+    assert sum(asked) < 2.5 * asked[-1]
 
 
 @pytest.mark.parametrize("height", [0.3, 0.1])
-def test_a_narrow_kernel_is_called_twice(height):
-    """The first grid's coefficients determine how fine the second must be."""
-    count, density = counted(lambda x, t: height / ((t - x) ** 2 + height**2) / np.pi)
-    assert count == 2
+def test_a_narrow_kernel_takes_as_many_nodes_as_its_width_asks_for(height):
+    asked, density = counted(lambda x, t: height / ((t - x) ** 2 + height**2) / np.pi)
     assert density.n[0] < 25 / height
+    assert sum(asked) < 2.5 * asked[-1]
 
 
 @pytest.mark.parametrize("a", [0.0, 0.2j])

@@ -172,10 +172,10 @@ ROUGH = {
 def test_a_kernel_with_a_kink_or_a_weak_singularity_is_refused_before_large_systems(k, monkeypatch):
     largest, system_of = 0, solver.System
 
-    def counted(problem, sizes, series=None):
+    def counted(problem, sizes):
         nonlocal largest
         largest = max(largest, *sizes)
-        return system_of(problem, sizes, series)
+        return system_of(problem, sizes)
 
     monkeypatch.setattr(solver, "System", counted)
     equation = sie.CauchyEquation((-1.0, 1.0), 1.0, k=k, total=0.0)

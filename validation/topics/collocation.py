@@ -148,7 +148,7 @@ def growth(sizes: tuple[int, ...]) -> Iterator[Row]:
             iterated = system.by_gmres()
         found.append((n, _seconds(system.by_lapack), _seconds(system.by_gmres)))
         apart = float(np.abs(direct - iterated).max() / np.abs(direct).max())
-        condition = float(np.linalg.cond(system.matrix())) if n <= LARGEST_CONDITION else None
+        condition = float(np.linalg.cond(system.matrix)) if n <= LARGEST_CONDITION else None
         yield Row("thin layer, LAPACK - GMRES", str(n), apart, None, condition, *found[-1][1:],
                   applied.call_count)  # fmt: skip
     measured = np.log([row for row in found if FITTED * row[0] >= sizes[-1]])
