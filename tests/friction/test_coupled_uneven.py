@@ -70,6 +70,7 @@ def test_under_a_symmetric_profile_nothing_but_the_method_differs(profile, as_un
     assert other.gap(beside, profile) == pytest.approx(solution.gap(beside), rel=1e-9)
 
 
+@pytest.mark.slow(but=1)
 @pytest.mark.parametrize(
     ("profile", "beta", "friction"),
     [
@@ -285,18 +286,19 @@ def test_a_smooth_profile_takes_one_panel_and_few_searches(monkeypatch):
 # -- refusals --------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow(but=7)
 @pytest.mark.parametrize(
     ("profile", "changes", "words"),
     [
-        (sie.Wedge(0.3), {"tilt": 0.25}, "would not grow steadily"),
         (SKEW, {"friction": 0.1}, "from P = 0.0139"),
-        (sie.RoundedFlat(0.5, 1.0), {"tilt": 0.05}, "to the right 0.646 times as fast"),
         (sie.Flat(1.0), {"tilt": 0.05}, "touches first at x = -1"),
         (sie.Flat(0.5) + SKEW, {}, "reaches a corner of the indenter at x = -0.5"),
         (JUMPS, {}, "reaches a corner of the indenter at x = 0.4"),
         (SKEW, {"moment": 0.1}, "give a tilt in its place"),
         (SKEW, {"moment": 0.0}, "give a tilt in its place"),
         (sie.Parabola(1.0).shifted(0.5), {"moment": 0.0}, "give a tilt"),
+        (sie.RoundedFlat(0.5, 1.0), {"tilt": 0.05}, "to the right 0.646 times as fast"),
+        (sie.Wedge(0.3), {"tilt": 0.25}, "would not grow steadily"),
     ],
 )
 def test_what_is_not_solved_is_refused_with_the_reason(profile, changes, words):
