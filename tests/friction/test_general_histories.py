@@ -21,7 +21,6 @@ from history_cases import (
 
 import sie
 from sie.contact import edges
-from sie.io import scene_file
 
 # -- state functions -------------------------------------------------------------------------------
 
@@ -74,61 +73,24 @@ def test_opposite_slip_under_a_falling_load_is_that_of_the_end_loads():
 @pytest.mark.parametrize(
     ("points", "said"),
     [
-        ([(1, 0.3, 0), (1, 0.3, np.nan)], "σ of point 1 is nan"),
-        ([(1, 0.3, 0), (0.2, 0.3, 0.1)], "step 1 .*exceeds f P"),
-    ],
-)
-def test_a_step_that_is_not_covered_is_named(points, said):
-    with pytest.raises((sie.ContactError, ValueError), match=said):
-        followed(HERTZ, points)
-
-
-def by_rows(points, folder):
-    rows = ", ".join(str(list(row)) for row in points)
-    return in_a_scene_file(f"path = [{rows}]", folder)
-
-
-def by_columns(points, folder):
-    lines = "".join(",".join(map(str, row)) + "\n" for row in points)
-    (folder / "loads.csv").write_text("P,Q,sigma\n" + lines)
-    return in_a_scene_file('path = "loads.csv"', folder)
-
-
-def in_a_scene_file(loads, folder):
-    body = "[body]\nyoung = 2.0\npoisson = 0.0\n"
-    profile = '[profile]\nkind = "parabola"\nradius = 1.0\n'
-    file = scene_file.parse(f"{profile}{body}[load]\nfriction = {f}\n{loads}\n", folder=folder)
-    return sie.follow(file.scene, file.load_path)
-
-
-def in_python(points, folder):
-    return sie.follow(HERTZ, sie.Path(points))
-
-
-@pytest.mark.parametrize("door", [in_python, by_rows, by_columns])
-@pytest.mark.parametrize(
-    ("points", "said"),
-    [
         ([(P0, 0.1, 0.0), (0.0, 0.0, 0.0)], "P of point 1 = 0 .*must touch"),
         ([(P0, 0.1, 0.0), (P0, 0.0, 0.0), (-P0, 0.0, 0.0)], "P of point 2 = -0.78.*must touch"),
         ([(P0, 0.1, 0.0), (P0, 0.3, 0.0)], "step 1 .*exceeds f P"),
         ([(P0, 0.1, 0.1), (1.1 * P0, 0.1, 0.0), (0.3 * P0, -0.1, 0.0)], "step 2 .*exceeds f P"),
         ([(P0, 0.3, 0.0), (P0, 0.1, 0.0)], "step 0 .*exceeds f P"),
-        ([(P0, 0.1, 0.0), (P0, np.nan, 0.0)], "Q of point 1 is nan|lacks a value in line 3"),
-        ([(P0, 0.1, 0.0), (P0, 0.1, np.inf)], "σ of point 1 = inf|lacks a value in line 3"),
+        ([(P0, 0.1, 0.0), (P0, np.nan, 0.0)], "Q of point 1 is nan"),
+        ([(P0, 0.1, 0.0), (P0, 0.1, np.inf)], "σ of point 1 = inf"),
         ([(P0, 0.1, 0.0), (1e300, 0.1, 0.0)], "P of point 1 = 1e.300"),
         ([(P0, 0.1, 0.0), (1e-300, 0.0, 0.0)], "P of point 1 = 1e-300"),
     ],
 )
-def test_a_path_that_cannot_be_is_refused_with_its_step_before_any_work(
-    points, said, door, tmp_path, monkeypatch
-):
+def test_a_path_that_cannot_be_is_refused_with_its_step_before_any_work(points, said, monkeypatch):
     def worked(*_):
         raise AssertionError("a contact was solved")
 
     monkeypatch.setattr(edges, "edge_integrals", worked)
     with pytest.raises((ValueError, sie.ContactError), match=said):
-        door(points, tmp_path)
+        sie.follow(HERTZ, sie.Path(points))
 
 
 @pytest.mark.parametrize(

@@ -1,6 +1,5 @@
 """Load paths along which P and Q change together."""
 
-import mpmath
 import numpy as np
 import pytest
 from hypothesis import given
@@ -138,35 +137,6 @@ def test_slip_while_the_normal_load_falls_accounts_for_the_tangential_load(layer
         for o in slip.layers:
             assert o.lower >= o.upper and 0.0 < o.jump <= 2.0
             assert o.surface[0] <= o.upper + 1e-13 and o.surface[1] <= o.lower + 1e-13
-
-
-def test_energy_of_a_lopsided_profile_depends_on_its_half_width_alone():
-    """h' = sinh x + x²/10 - t: ∫h'/w = π [sinh m I0(r) + (m² + r²/2)/10 - t], P = π G r [cosh m
-    I1(r) + m r/10], for each half-width r.
-    """
-    G, load, Q, f = mpmath.mpf("0.5"), mpmath.mpf(0.3), mpmath.mpf(0.1), mpmath.mpf(0.5)
-
-    def under(r):
-        m = mpmath.findroot(
-            lambda m: mpmath.sinh(m) * mpmath.besseli(0, r) + (m * m + r * r / 2) / 10, -r * r / 20
-        )
-        return mpmath.pi * G * r * (mpmath.cosh(m) * mpmath.besseli(1, r) + m * r / 10)
-
-    b, c = (
-        mpmath.findroot(lambda r, y=y: under(r) - y, (0.3, 0.7), solver="anderson", tol=1e-24)
-        for y in (load, load - Q / f)
-    )
-    by_hand = (
-        f
-        * f
-        / (mpmath.pi * G)
-        * mpmath.quad(lambda r: (load - under(r)) * (under(r) - load + Q / f) / r, [c, b])
-    )
-    profile = sie.FromFunction(lambda x: np.sinh(x) + 0.1 * x * x, domain=(-3.0, 3.0))
-    scene = sie.Scene(
-        profile=profile, modulus=1.0, normal_load=0.3, friction=0.5, tangential_load=0.1
-    )
-    assert sie.solve(scene).energy_lost == pytest.approx(float(by_hand), rel=1e-12)
 
 
 def test_energy_while_an_edge_passes_a_jump_is_that_of_the_mirrored_path():
