@@ -12,14 +12,6 @@ from analytic import cattaneo, cattaneo_rounded, rounded_flat
 
 HERTZ = {"half_width": 1.0, "normal_load": 2.0, "friction": 0.3}
 ROUNDED = {"normal_load": 0.3, "half_flat": 0.5, "radius": 2.0, "modulus": 3.0, "friction": 0.3}
-# The contact is [-1, 1].
-PARABOLA = {
-    "normal_load": np.pi / 2,
-    "half_flat": 0.0,
-    "radius": 1.0,
-    "modulus": 2.0,
-    "friction": 0.3,
-}
 PARTS = [1e-14, 1e-5, 0.3, 0.5, 0.9, 1 - 1e-9, 1 - 1e-14]
 deep = mp.clone()  # references that cancel
 deep.dps = 90
@@ -202,34 +194,6 @@ def test_energy_of_a_cycle_is_the_work_of_friction_on_the_slip(part: float) -> N
         * 4
     )
     assert cattaneo_rounded.dissipation(**given) == pytest.approx(work, rel=1e-9)
-
-
-def test_without_a_flat_the_rounded_flat_is_cattaneo() -> None:
-    x = np.linspace(-1.1, 1.1, 44)
-    for part in (0.01, 0.6, 0.99):
-        there, here = (
-            with_load(PARABOLA, part),
-            with_load({"half_width": 1.0, "normal_load": np.pi / 2, "friction": 0.3}, part),
-        )
-        assert cattaneo_rounded.stick_rim(**there) == pytest.approx(
-            cattaneo.stick_half_width(**here), rel=8 * EPS
-        )
-        assert cattaneo_rounded.slip_width(**there) == pytest.approx(
-            cattaneo.slip_width(**here), rel=8 * EPS
-        )
-        np.testing.assert_allclose(
-            cattaneo_rounded.shear(x, **there), cattaneo.shear(x, **here), rtol=1e-13, atol=1e-16
-        )
-        np.testing.assert_allclose(
-            cattaneo_rounded.slip(x, **there),
-            cattaneo.slip(x, **here, modulus=2.0),
-            rtol=1e-12,
-            atol=1e-16,
-        )
-        loads = {name: here[name] for name in ("normal_load", "friction", "tangential_load")}
-        assert cattaneo_rounded.dissipation(**there) == pytest.approx(
-            cattaneo.dissipation(**loads, modulus=2.0), rel=1e-13
-        )
 
 
 # --- cycles

@@ -8,9 +8,6 @@ from closed_forms import EPS, call, coarse, mp, of_every_call, resultant, short
 
 from analytic import (
     bonded_flat,
-    flat,
-    hertz,
-    rounded_flat,
     sliding_flat,
     sliding_hertz,
     sliding_rounded_flat,
@@ -107,31 +104,6 @@ def test_potentials_are_cauchy_integrals(z: complex) -> None:
 
 # --- limits and symmetry
 # ------------------------------------------------------------------------------------------
-
-
-def test_similar_bodies_slide_as_they_stand() -> None:
-    x = np.linspace(-1.1, 1.1, 23)
-    near = {"rtol": 16 * EPS, "atol": 0}
-    np.testing.assert_allclose(
-        sliding_hertz.pressure(x, **HERTZ, coupling=0.0), hertz.pressure(x, **HERTZ), **near
-    )
-    np.testing.assert_allclose(
-        sliding_flat.pressure(x, **FLAT, coupling=0.0, moment=0.3),
-        flat.pressure(x, **FLAT, moment=0.3),
-        **near,
-    )
-    np.testing.assert_allclose(
-        bonded_flat.pressure(x, **FLAT, dundurs=0.0, moment=0.3),
-        flat.pressure(x, **FLAT, moment=0.3),
-        **near,
-    )
-    rim = rounded_flat.rim(**ROUNDED)
-    inside = x * (0.5 + rim) * 0.9
-    shape = {"half_flat": 0.5, "radius": 2.0, "modulus": 3.0}
-    found = sliding_rounded_flat.pressure(inside, **ROUNDED, coupling=0.0)
-    np.testing.assert_allclose(
-        found, rounded_flat.pressure(inside, **shape, rim=rim), rtol=64 * EPS, atol=0
-    )
 
 
 @either_way

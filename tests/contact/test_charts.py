@@ -25,15 +25,6 @@ def test_the_yield_parameter_is_that_of_the_closed_form():
         )
 
 
-def test_the_chart_of_elastic_limits_is_made_of_single_solutions():
-    chart = charts.elastic_limits((0.0, 0.5), (0.0, 0.1, 0.4))
-    assert chart.limit.shape == chart.x.shape == (2, 3)
-    for i, ratio in enumerate(chart.ratios):
-        for j, f in enumerate(chart.frictions):
-            assert chart.limit[i, j] == pytest.approx(limit(ratio, f), rel=1e-14)
-    assert chart.x[1, 0] > 0.0 and chart.y[1, 2] == 0.0
-
-
 def test_the_punch_is_as_strong_as_hertz_at_054_and_strongest_at_027():
     """The paper says 0.55; 0.540206764905 and 0.268697910258, +9.17 %, are those of the closed form
     in 30 digits.

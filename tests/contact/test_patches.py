@@ -120,23 +120,6 @@ def test_a_row_of_one_convex_profile_is_that_profile():
     assert row.stress(x, 0.3).mises == pytest.approx(one.stress(x, 0.3).mises, rel=1e-11)
 
 
-def test_two_patches_solve_their_integral_equation_by_a_quadrature_of_its_own():
-    solution = solved(profile=TWO, normal_load=0.4)
-    (a, b), other = solution.patches
-    x = a + 0.3 * (b - a)
-    p, px = solution.pressure, float(solution.pressure(x))
-    g, w = np.polynomial.legendre.leggauss(61)  # an odd rule, in the angle
-
-    def over(lo, hi, f):
-        s = 0.5 * np.pi * (1.0 + g)
-        t = 0.5 * (lo + hi) - 0.5 * (hi - lo) * np.cos(s)
-        return float((f(t) * np.sin(s)) @ w) * 0.25 * np.pi * (hi - lo)
-
-    own = over(a, b, lambda t: (p(t) - px) / (x - t)) + px * np.log((x - a) / (b - x))
-    total = own + over(*other, lambda t: p(t) / (x - t))
-    assert abs(total / np.pi - 0.5 * float(TWO.slope(x))) < 1e-12
-
-
 # -- laws ------------------------------------------------------------------------------------------
 
 SCENES = {

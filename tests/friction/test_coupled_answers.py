@@ -40,30 +40,7 @@ def test_certificate_holds_for_large_exponents(exponent):
     assert max(certificate.residual, certificate.shear.residual) < 5e-12
 
 
-def test_slip_of_a_power_law_scales_with_the_half_width():
-    one, other = (solved(sie.Power(2.5, 0.4), half_width=b) for b in (1.0, 2.0))
-    x = np.array([0.1, 0.5, 0.7, 0.95])
-    assert other.slip(2.0 * x) == pytest.approx(2.0**2.5 * one.slip(x), rel=1e-11)
-
-
-def test_energy_is_the_work_of_friction_on_the_slip_of_small_steps():
-    loads = np.linspace(0.0, 1.0, 81)[1:]
-    x = np.linspace(0.0, 1.0, 4001)[1:]
-    slips, tractions = [np.zeros(len(x))], [np.zeros(len(x))]
-    for P in loads:
-        solution = solved(normal_load=P)
-        inside = x <= solution.half_width
-        g, q = np.zeros(len(x)), np.zeros(len(x))
-        g[inside], q[inside] = solution.slip(x[inside]), solution.shear(x[inside])
-        slips.append(g)
-        tractions.append(q)
-    work = sum(
-        ((q0 + q1) * 0.5 * (g1 - g0)).sum()
-        for g0, g1, q0, q1 in zip(slips, slips[1:], tractions, tractions[1:], strict=False)
-    )
-    assert solved().energy_lost == pytest.approx(2.0 * work * (x[1] - x[0]), rel=5e-3)
-
-
+@pytest.mark.slow(but=1)
 @pytest.mark.parametrize("name", ["rounded flat", "kinked"])
 def test_energy_grows_with_the_load_by_friction_on_the_slip_of_the_flat(name):
     x, w = gauss_jacobi(24, 0.0, 0.0)[::2]
@@ -110,6 +87,7 @@ def test_the_other_sign_of_beta_turns_shear_and_slip_alone():
     assert one.energy_lost == other.energy_lost
 
 
+@pytest.mark.slow(but=1)
 @pytest.mark.parametrize(("length", "stress"), [(1e-6, 1e12), (1e3, 1e-9)])
 def test_answer_is_free_of_units(length, stress):
     one = solved(sie.RoundedFlat(0.5, 1.0), normal_load=0.6)
@@ -237,35 +215,24 @@ def test_the_pressure_under_a_wedge_is_infinite_on_its_axis():
     assert float(solved(sie.Wedge(0.1)).pressure(0.0)) == math.inf
 
 
-def test_the_plan_is_the_footprint():
-    solution = solved()
-    _ = solution.shear(0.1), solution.check()
-    expected = sie.plan(solution.scene, want=("shear", "check")).stages
-    stages = {"coupled", "normal", "pressure", "certificate", "tangential", "tractions"}
-    assert set(vars(solution)) & stages == expected
-
-
-def test_a_scene_of_dissimilar_bodies_survives_a_pickle():
-    assert pickle.loads(pickle.dumps(scene())) == scene()
-
-
-@pytest.mark.parametrize("changes", [{}, {"coupling": "goodman"}, {"tilt": 0.01}])
-def test_a_solution_of_dissimilar_bodies_survives_a_pickle(changes):
-    solution = solved(normal_load=1.0, **changes)
-    stress = solution.stress(0.1, 0.2).xx
-    again = pickle.loads(pickle.dumps(solution))
-    assert again.edges == solution.edges and again.stress(0.1, 0.2).xx == stress
-
-
-def test_a_point_of_a_path_of_dissimilar_bodies_survives_a_pickle():
-    path = sie.Path(((1.0, 0.0), (1.0, 0.05)))
-    solution = sie.follow(scene(half_width=None, normal_load=1.0), path)[-1]
-    stress = solution.stress(0.1, 0.2).xx
-    again = pickle.loads(pickle.dumps(solution))
-    assert again.edges == solution.edges and again.stress(0.1, 0.2).xx == stress
-
-
 def test_surface_stress_where_a_parabola_touched_first_is_that_beside_it():
     solution = solved()
     beside = solution.stress(1e-9, 0.0).xx
     assert solution.stress(0.0, 0.0).xx == pytest.approx(float(beside), rel=1e-7)
+
+
+SURVIVING = {
+    "pressed": {},
+    "Goodman's": {"coupling": "goodman"},
+    "tilted": {"tilt": 0.01},
+    "sheared": {"tangential_load": 0.05},
+}
+
+
+@pytest.mark.parametrize("changes", SURVIVING.values(), ids=SURVIVING)
+def test_a_solution_of_dissimilar_bodies_survives_a_pickle(changes):
+    solution = solved(normal_load=1.0, **changes)
+    stress = solution.stress(0.1, 0.2).xx
+    again = pickle.loads(pickle.dumps(solution))
+    assert again.scene == solution.scene
+    assert again.edges == solution.edges and again.stress(0.1, 0.2).xx == stress

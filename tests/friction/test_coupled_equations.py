@@ -5,59 +5,15 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 
-import mpmath
 import numpy as np
 import pytest
 from pressed_cases import PROFILES, solved
 
 import sie
 from sie.certificate.coupled_check import coupled_certificate
-from sie.friction.coupled.flat import flat_punch
 from sie.friction.coupled.half_potential import DEGREE, HalfPotential, Panels
 
 # -- the two equations -----------------------------------------------------------------------------
-
-
-def tractions_of_a_flat(beta, friction):
-    """p and q as functions of x and 1 - x."""
-    state, flat = solved(sie.Flat(1.0), beta, friction).coupled[1], flat_punch(beta, friction)
-
-    def values(x, rest):
-        return state.rows(np.array([float(x)]), np.array([float(rest)]))[:, 0]
-
-    return (
-        lambda x, rest: float(values(x, rest)[0]),
-        lambda x, rest: float(values(x, rest)[1]),
-        flat.c,
-        flat.exponent,
-    )
-
-
-@pytest.mark.parametrize(("beta", "friction"), [(0.3, 0.3), (0.5, 0.2)])
-@pytest.mark.parametrize("part", [0.3, 0.8])
-def test_both_equations_hold_in_stick_by_mpmaths_quadrature(beta, friction, part):
-    context = mpmath.MPContext()
-    context.dps = 15
-    p, q, c, h = tractions_of_a_flat(beta, friction)
-    x, start, power = part * c, 0.5 * (1.0 + c), 1.0 / (1.0 - h)
-
-    def principal(f, parity):
-        at_x = f(x, 1.0 - x)
-
-        def integrand(t, rest):
-            return (f(t, rest) - at_x) / (x - t) + parity * f(t, rest) / (x + t)
-
-        def next_to_edge(u):  # smooth in u, as f ~ (1 - t)^-h
-            rest = (1.0 - start) * u**power
-            return integrand(1.0 - rest, rest) * power * (1.0 - start) * u ** (power - 1.0)
-
-        total = context.quad(next_to_edge, [0, 1])
-        for a, b in ((0, x), (x, c), (c, start)):
-            total += context.quad(lambda t: integrand(t, 1.0 - t), [a, b])
-        return (total + at_x * context.log(x / (1.0 - x))) / context.pi
-
-    assert abs(principal(p, 1.0) - beta * q(x, 1.0 - x)) < 1e-8 * p(x, 1.0 - x)
-    assert abs(principal(q, -1.0) + beta * p(x, 1.0 - x)) < 1e-8 * p(x, 1.0 - x)
 
 
 @pytest.mark.slow(but=12)
@@ -85,17 +41,6 @@ def test_certificate_is_as_strict_in_a_narrow_strip_beside_a_flat_base(narrow, b
     assert certificate.ok and certificate.residual < 1e-11 and certificate.abscissae < 1e-13
     other = replace(right.scene, dundurs=beta * (1.0 + 1e-7))
     assert not coupled_certificate(right.coupled[1], other, 1e-13).ok
-
-
-@pytest.mark.parametrize("name", PROFILES)
-def test_shear_is_friction_times_pressure_in_slip_and_less_in_stick(name):
-    solution = solved(PROFILES[name])
-    hi, m = solution.stick[0][1], solution.centre
-    slip = m + np.linspace(1.0001 * (hi - m), 0.999 * solution.half_width, 20)
-    stick = m + np.linspace(0.001, 0.999, 30) * (hi - m)
-    assert solution.shear(slip) == pytest.approx(0.3 * solution.pressure(slip), rel=1e-12)
-    ratio = solution.shear(stick) / (0.3 * solution.pressure(stick))
-    assert (ratio < 1.0).all() and (np.diff(ratio) > 0.0).all()
 
 
 @pytest.mark.parametrize("name", ["flat", "wedge", "parabola", "rounded flat"])
@@ -204,43 +149,3 @@ def test_surface_stress_is_in_balance_with_the_tractions():
     assert surface.yy == pytest.approx(-solution.pressure(x), abs=1e-12)
     assert surface.xy == pytest.approx(-solution.shear(x), abs=1e-12)
     assert below.xx == pytest.approx(surface.xx, abs=1e-6)
-
-
-# -- an independent program ------------------------------------------------------------------------
-
-
-def flat_on_a_grid(beta, friction, n=120):
-    """The printed equations (1) and (12) on n equal cells by an active set: stick half-width and
-    pressures.
-    """
-    edges = np.linspace(-1.0, 1.0, n + 1)
-    x = 0.5 * (edges[1:] + edges[:-1])
-    # ∫ ln|x - t| dt over the cells: both equations integrated once are displacements
-    d = x[:, None] - edges
-    primitive = d * np.log(np.abs(d)) - d
-    log = (primitive[:, :-1] - primitive[:, 1:]) / math.pi
-    step = np.where(x[:, None] > x, 1.0, 0.0) + 0.5 * np.eye(n)
-    step = step * (edges[1] - edges[0])
-    half, width = n // 2, edges[1] - edges[0]
-    for stuck in range(half, 0, -1):
-        A, rhs = np.zeros((2 * n + 1, 2 * n + 1)), np.zeros(2 * n + 1)
-        A[:n, :n], A[:n, n : 2 * n], A[:n, -1] = log, -beta * step, 1.0
-        for k in range(n):
-            if abs(k - (n - 1) / 2) < stuck:
-                A[n + k, n : 2 * n], A[n + k, :n] = log[k], beta * (step[k] - 0.5 * width)
-            else:
-                A[n + k, n + k], A[n + k, k] = 1.0, -friction * np.sign(x[k])
-        A[-1, :n], rhs[-1] = width, 1.0
-        p, q = np.split(np.linalg.solve(A, rhs)[: 2 * n], 2)
-        if (np.abs(q) <= friction * p * (1.0 + 1e-9)).all():
-            break
-    return stuck * width, x, p, q
-
-
-def test_flat_agrees_with_an_active_set_on_a_grid():
-    c, x, p, q = flat_on_a_grid(0.3, 0.3)
-    solution = solved(sie.Flat(1.0))
-    assert c == pytest.approx(solution.stick[0][1], abs=2.0 * 2.0 / 120)
-    inner, cell = np.abs(x) < 0.5, 2.0 / 120  # a scheme of the first order
-    assert p[inner] == pytest.approx(solution.pressure(x[inner]), rel=cell)
-    assert q[inner] == pytest.approx(solution.shear(x[inner]), abs=cell * float(p.min()))

@@ -9,9 +9,7 @@ import pytest
 from history_cases import (
     FALLING,
     HERTZ,
-    IN_PHASE,
     LOPSIDED,
-    OUT_OF_PHASE,
     P0,
     S,
     f,
@@ -20,14 +18,9 @@ from history_cases import (
     inside,
     scaled,
 )
-from hypothesis import assume, example, given, settings
-from hypothesis import strategies as st
 
 import sie
-from oracles.kalker import Mesh
-from oracles.load_history import history as on_a_mesh
 from sie.contact import edges
-from sie.io import scene_file
 
 # -- state functions -------------------------------------------------------------------------------
 
@@ -74,66 +67,9 @@ def test_opposite_slip_under_a_falling_load_is_that_of_the_end_loads():
     assert path.energy_lost == pytest.approx(4.183032e-4, abs=5e-11)
 
 
-@pytest.mark.slow
-@settings(max_examples=4)
-@given(
-    st.tuples(st.floats(0.6, 1.0), st.floats(0.1, 0.5), st.floats(-0.2, 0.2), st.floats(-0.1, 0.1)),
-    st.sampled_from([HERTZ, LOPSIDED]),
-)
-# The left edge passes a zone of slip on the way, and slip turns there.
-@example((0.975, 0.19, -0.2, 0.0), HERTZ)
-def test_a_step_in_parts_ends_in_the_same_state(end, scene):
-    points = [(1, 0, 0, 0), end]
-    try:
-        whole = followed(scene, points)[-1]
-        parts = followed(scene, points, 2)[-1]
-    except sie.ContactError:
-        assume(False)
-    x, (x1, x2) = inside(whole, 23), whole.history[0].edges
-    assert parts.shear(x) == pytest.approx(whole.shear(x), abs=1e-13)
-    x = x[(x > x1) & (x < x2)]  # a marched step tells no slip of points that came into contact
-    assert parts.slip(x) == pytest.approx(whole.slip(x), abs=1e-12)
-    assert parts.energy_lost == pytest.approx(whole.energy_lost, rel=1e-8, abs=1e-15)
-
-
 # -- refusals --------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(
-    ("points", "said"),
-    [
-        ([(1, 0.3, 0), (1, 0.3, np.nan)], "σ of point 1 is nan"),
-        ([(1, 0.3, 0), (0.2, 0.3, 0.1)], "step 1 .*exceeds f P"),
-    ],
-)
-def test_a_step_that_is_not_covered_is_named(points, said):
-    with pytest.raises((sie.ContactError, ValueError), match=said):
-        followed(HERTZ, points)
-
-
-def by_rows(points, folder):
-    rows = ", ".join(str(list(row)) for row in points)
-    return in_a_scene_file(f"path = [{rows}]", folder)
-
-
-def by_columns(points, folder):
-    lines = "".join(",".join(map(str, row)) + "\n" for row in points)
-    (folder / "loads.csv").write_text("P,Q,sigma\n" + lines)
-    return in_a_scene_file('path = "loads.csv"', folder)
-
-
-def in_a_scene_file(loads, folder):
-    body = "[body]\nyoung = 2.0\npoisson = 0.0\n"
-    profile = '[profile]\nkind = "parabola"\nradius = 1.0\n'
-    file = scene_file.parse(f"{profile}{body}[load]\nfriction = {f}\n{loads}\n", folder=folder)
-    return sie.follow(file.scene, file.load_path)
-
-
-def in_python(points, folder):
-    return sie.follow(HERTZ, sie.Path(points))
-
-
-@pytest.mark.parametrize("door", [in_python, by_rows, by_columns])
 @pytest.mark.parametrize(
     ("points", "said"),
     [
@@ -142,21 +78,19 @@ def in_python(points, folder):
         ([(P0, 0.1, 0.0), (P0, 0.3, 0.0)], "step 1 .*exceeds f P"),
         ([(P0, 0.1, 0.1), (1.1 * P0, 0.1, 0.0), (0.3 * P0, -0.1, 0.0)], "step 2 .*exceeds f P"),
         ([(P0, 0.3, 0.0), (P0, 0.1, 0.0)], "step 0 .*exceeds f P"),
-        ([(P0, 0.1, 0.0), (P0, np.nan, 0.0)], "Q of point 1 is nan|lacks a value in line 3"),
-        ([(P0, 0.1, 0.0), (P0, 0.1, np.inf)], "σ of point 1 = inf|lacks a value in line 3"),
+        ([(P0, 0.1, 0.0), (P0, np.nan, 0.0)], "Q of point 1 is nan"),
+        ([(P0, 0.1, 0.0), (P0, 0.1, np.inf)], "σ of point 1 = inf"),
         ([(P0, 0.1, 0.0), (1e300, 0.1, 0.0)], "P of point 1 = 1e.300"),
         ([(P0, 0.1, 0.0), (1e-300, 0.0, 0.0)], "P of point 1 = 1e-300"),
     ],
 )
-def test_a_path_that_cannot_be_is_refused_with_its_step_before_any_work(
-    points, said, door, tmp_path, monkeypatch
-):
+def test_a_path_that_cannot_be_is_refused_with_its_step_before_any_work(points, said, monkeypatch):
     def worked(*_):
         raise AssertionError("a contact was solved")
 
     monkeypatch.setattr(edges, "edge_integrals", worked)
     with pytest.raises((ValueError, sie.ContactError), match=said):
-        door(points, tmp_path)
+        sie.follow(HERTZ, sie.Path(points))
 
 
 @pytest.mark.parametrize(
@@ -224,30 +158,6 @@ def test_the_shift_is_the_mean_slip_under_a_flat_punch_on_the_contact_of_the_tim
     assert followed(HERTZ, GROWING)[1].shift == pytest.approx(total, rel=1e-9)
 
 
-@pytest.mark.slow(but=1)
-@pytest.mark.parametrize("scene", [HERTZ, LOPSIDED], ids=["hertz", "lopsided"])
-def test_the_loop_of_shear_over_shift_encloses_the_energy_while_the_normal_load_changes(scene):
-    """∮Q dδ with dδ = dshift - 2/(π E*) ln r dQ, which the elastic compliance adds; by Simpson."""
-    n = 41
-    angle = np.linspace(0.0, np.pi, n)
-    weight = np.where(np.arange(n) % 2, 4.0, 2.0) * 0.5 * np.sin(angle) * np.pi / (n - 1) / 3.0
-    A, B = scaled([(1.2, 0.55, 0.0), (0.9, -0.3, 0.0)])
-    corners, area = [A, B, A, B, A], 0.0
-    for k in (2, 3):
-        a, b = corners[k : k + 2]
-        branch = [tuple(np.add(a, t * np.subtract(b, a))) for t in 0.5 * (1.0 - np.cos(angle))]
-        states = sie.follow(scene, sie.Path([*corners[:k], *branch]))[k:]
-        Q, shift, r = (
-            np.array([getattr(s, name) for s in states])
-            for name in ("tangential_load", "shift", "half_width")
-        )
-        elastic = -2.0 / np.pi * Q * np.log(r)
-        area += Q[-1] * shift[-1] - Q[0] * shift[0]
-        area += (b[1] - a[1]) * float(weight @ (elastic - shift))
-    history = sie.follow(scene, sie.Path(corners))
-    assert area == pytest.approx(history[4].energy_lost - history[2].energy_lost, rel=1e-5)
-
-
 def test_the_slip_range_of_a_steady_cycle_holds_for_points_that_leave_the_contact():
     A, B = scaled([(1.2, 0.55, 0.0), (0.9, -0.3, 0.0)])
     steady = sie.steady_cycle(HERTZ, A, B)
@@ -257,13 +167,6 @@ def test_the_slip_range_of_a_steady_cycle_holds_for_points_that_leave_the_contac
     assert steady.slip_range(x) == pytest.approx(slip.max(axis=0) - slip.min(axis=0), abs=1e-12)
     work = sie.Cycle(steady).friction_work(x)
     assert (work[1:] > 0.0).all() and steady.slip_range(1.2) == 0.0
-
-
-def test_the_shift_while_a_front_passes_an_earlier_one_is_that_of_the_step_in_parts():
-    shares = (0.0, 1.0, -1.0, 0.02, -0.25, 1.0)
-    points = [(1.0 - 0.037 * t, 0.465 * t, -0.05 * t, 0.007 * t) for t in shares]
-    whole, parts = followed(LOPSIDED, points), followed(LOPSIDED, points, 3)
-    assert whole[-1].shift == pytest.approx(parts[-1].shift, rel=1e-10)
 
 
 @pytest.mark.slow
@@ -282,72 +185,3 @@ def test_energy_and_shift_at_a_given_moment_are_those_of_the_tilts_that_carry_it
     (coarse, fine), last = np.array(found), whole[-1]
     expected = (4.0 * fine - coarse) / 3.0
     assert (last.energy_lost, last.shift) == pytest.approx(tuple(expected), rel=1e-6)
-
-
-def test_slip_does_not_depend_on_how_a_path_is_cut():
-    scene, points = LOPSIDED, [(1, 0, 0, 0), (1.2, 0.6, 0.1, 0.01)]
-    whole, parts = (followed(scene, points, n)[-1] for n in (1, 4))
-    x = np.linspace(*whole.edges, 41)
-    assert parts.slip(x) == pytest.approx(whole.slip(x), abs=1e-13)
-    assert parts.shift == pytest.approx(whole.shift, abs=1e-13)
-
-
-# -- a mesh ----------------------------------------------------------------------------------------
-
-
-GENERAL = {
-    "falling": (HERTZ, FALLING),
-    "opposite": (HERTZ, [(1, 0, 0), (0.8, 0.05, 0.5)]),
-    "in phase": (HERTZ, IN_PHASE + IN_PHASE[1:]),
-    "held up": (HERTZ, [(1, 0, 0), (1.3, 0.55, 0.2), (0.8, -0.3, -0.15), (1.3, 0.55, 0.2)]),
-    "out of phase": (LOPSIDED, OUT_OF_PHASE),
-    "tilt": (LOPSIDED, [(1, 0.5, 0.05, 0.02), (0.9, -0.3, 0, -0.03), (1, 0.4, 0.1, 0.02)]),
-}
-
-
-@pytest.mark.slow(but=3)
-@pytest.mark.parametrize("case", GENERAL)
-def test_a_history_agrees_with_a_mesh_to_its_error(case):
-    """Mean error of q over f p0 on two meshes: half the element and increment, half the error."""
-    scene, points = GENERAL[case]
-    points = [(*point, 0.0)[:4] for point in points]
-    history, errors = followed(scene, points), []
-    for n, increments in ((100, 12), (200, 24)):
-        mesh = Mesh((-1.4, 1.4), n, 1.0)
-        found = on_a_mesh(mesh, scene.profile.height, f, scaled(points), increments)
-        worst = 0.0
-        for solution, state in zip(history, found, strict=True):
-            worst = max(worst, float(np.abs(solution.shear(mesh.x) - state.shear).mean()))
-        errors.append(worst / (0.5 * f))
-    assert errors[1] < 0.75 * errors[0] < 3e-3
-
-
-@pytest.mark.slow(but=2)
-@pytest.mark.parametrize("case", ["falling", "opposite", "tilt"])
-def test_the_energy_of_a_history_agrees_with_a_mesh_to_its_error(case):
-    scene, points = GENERAL[case]
-    points = [(*point, 0.0)[:4] for point in points]
-    lost = followed(scene, points)[-1].energy_lost
-    found = [
-        on_a_mesh(Mesh((-1.4, 1.4), n, 1.0), scene.profile.height, f, scaled(points), steps)[-1]
-        for n, steps in ((100, 12), (200, 24))
-    ]
-    errors = [abs(state.energy / lost - 1.0) for state in found]
-    assert errors[1] < 0.75 * errors[0] < 1.5e-2
-
-
-@pytest.mark.parametrize("case", ["growing", "reversed while it grows", "tilt"])
-def test_the_slip_of_a_history_agrees_with_a_mesh_to_its_error(case):
-    """Away from the edges of all turning points, where one element decides."""
-    cases = {"growing": GROWING, "reversed while it grows": [(0.8, 0.55, 0), (1.3, -0.9, 0)]}
-    scene, points = GENERAL[case] if case == "tilt" else (HERTZ, cases[case])
-    points = [(*point, 0.0)[:4] for point in points]
-    history, errors = followed(scene, points), []
-    for n, increments in ((80, 10), (160, 40)):
-        mesh = Mesh((-1.5, 1.5), n, 1.0)
-        last = on_a_mesh(mesh, scene.profile.height, f, scaled(points), increments)[-1]
-        away = [np.abs(mesh.x - edge) > 0.05 for state in history for edge in state.edges]
-        x = mesh.x[np.all(away, axis=0)]
-        exact, found = history[-1].slip(x), last.slip[np.all(away, axis=0)]
-        errors.append(float(np.abs(found - exact).mean() / np.abs(exact).mean()))
-    assert errors[1] < 0.75 * errors[0] and errors[1] < 0.03

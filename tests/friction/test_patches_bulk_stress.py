@@ -48,12 +48,6 @@ def test_a_row_of_one_has_the_stick_zone_and_the_shear_of_its_profile(points, ti
     assert row.shear(x) == pytest.approx(one.shear(x), abs=1e-12)
 
 
-def test_a_row_of_one_dissipates_the_energy_of_its_profile():
-    points = [(1.0, 0.0, 0.0), (1.3, 0.25, 0.02)]
-    one, row = both(lambda profile: followed(profile, points)[-1].energy_lost)
-    assert row == pytest.approx(one, rel=1e-10)
-
-
 @pytest.mark.parametrize(
     ("A", "B"),
     [

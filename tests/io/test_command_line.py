@@ -108,6 +108,7 @@ tangential_load = 0.15
 """
 
 
+@pytest.mark.slow(but=1)
 @pytest.mark.parametrize("more", [[], ["--want", "shear", "energy"]], ids=["not asked", "asked"])
 def test_the_energy_of_dissimilar_bodies_under_q_is_answered_only_if_asked_for(
     more, tmp_path, capsys

@@ -20,9 +20,7 @@ from mesh_cases import (
 )
 
 import sie
-from sie.io.mesh_comparison import compare
 from sie.io.mesh_files.names import meaning
-from sie.io.mesh_result import Mesh, Points
 
 # -- names -----------------------------------------------------------------------------------------
 
@@ -188,24 +186,6 @@ def test_what_needs_an_unknown_poisson_ratio_is_passed_over_with_a_note(tmp_path
     comparison = compared(table("x,y,S11,S33", x, y, s.xx, s.zz), tmp_path, solution=solution)
     assert set(comparison.differences) == {"sxx"}
     assert any("szz is not compared" in note for note in comparison.mesh.notes)
-
-
-@pytest.mark.parametrize("quantities", [("p",), ("p", "q"), ("p", "sxx", "mises")])
-def test_a_picture_shows_every_point_near_the_contact_and_nothing_far_from_it(quantities):
-    pytest.importorskip("matplotlib", reason="Matplotlib is not installed")
-    from sie.plots.comparison_plot import overlay  # noqa: PLC0415 -- needs Matplotlib
-
-    x = np.concatenate((X, [50.0]))
-    deep = Points(*(a.ravel() for a in np.meshgrid(x, [0.0, 0.3, 30.0])), np.ones(3 * len(x)))
-    line = Points(x, 0.0 * x, np.append(-SOLUTION.pressure(X), 0.0))
-    fields = {name: line if name in "pq" else deep for name in quantities}
-    mesh = Mesh("a.csv", fields)
-    figure = overlay(SOLUTION, compare(SOLUTION, mesh, 1e-2))
-    assert max(figure.get_size_inches()) < 8.0
-    panel = figure.axes[0]
-    assert panel.get_ylim()[0] < -P.max()
-    assert panel.get_xlim()[1] < 2.0
-    assert len(panel.lines[1].get_xdata()) == len(X)
 
 
 # -- what is refused -------------------------------------------------------------------------------

@@ -137,14 +137,6 @@ def test_units_that_are_not_mm_keep_their_name_behind_a_power_of_ten():
     assert lower.get_xlabel() == "$x$ ($10^{-6}$ m)"
 
 
-@pytest.mark.slow(but=1)
-@pytest.mark.parametrize("suffix", ["png", "pdf", "svg"])
-def test_the_same_picture_is_the_same_file(suffix):
-    solution = solved("wedge")
-    one, other = (style.picture_bytes(plot.picture(solution), suffix) for _ in range(2))
-    assert one == other
-
-
 # -- shear ----------------------------------------------------------------------------------------
 
 FRETTING = parse(example("fretting-cycle"))
@@ -195,14 +187,6 @@ def repeated(load):
     return sie.solve(sie.Scene(profile=WAVE, body=STEEL, normal_load=load))
 
 
-def edge_lines(axes):
-    return sorted(
-        line.get_xdata()[0]
-        for line in axes.lines
-        if len(line.get_xdata()) == 2 and len(set(line.get_xdata())) == 1
-    )
-
-
 def test_the_pressure_of_several_patches_is_interrupted_between_them():
     solution = SOLVED_ROW
     x, p = lines(plot.picture(solution).axes[0])["pressure"].get_data()
@@ -223,14 +207,6 @@ def test_the_slip_is_drawn_below_the_shear(scene):
     exact = solution.slip(x[there])
     assert slip[there] == pytest.approx(exact * (np.abs(slip[there]).max() / np.abs(exact).max()))
     assert len(axes.patches) == len(solution.stick)
-
-
-def test_a_contact_without_edges_has_none_in_its_picture():
-    solution = repeated(4e3)
-    assert solution.contact_length == WAVE.period
-    upper, lower = plot.picture(solution).axes
-    assert not edge_lines(upper) and not edge_lines(lower)
-    assert not any(word.startswith("$x_") for word in words(upper))
 
 
 @pytest.mark.slow(but=1)

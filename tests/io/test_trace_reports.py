@@ -112,23 +112,6 @@ def test_a_trace_without_noise_is_distinguished_from_a_noisy_one(smoothing):
     assert reported(sie.Sampled(X, 0.25 * np.cosh(2.0 * X), smoothing)).pressure_error <= 1e-3
 
 
-@pytest.mark.parametrize(
-    "made",
-    [
-        lambda p: p.mirrored(),
-        lambda p: p.shifted(3.0).mirrored(),
-        lambda p: p + sie.Piecewise((-9.0, 9.0), ((0.0,),)),
-    ],
-    ids=["mirrored", "shifted and mirrored", "sum"],
-)
-def test_a_trace_in_another_profile_has_the_error_that_it_has_alone(made):
-    trace = sie.Sampled(X, 0.5 * (X**2 + 1e-4 * white(3)) + 0.01 * X**3, "gcv")
-    alone, within = reported(trace), reported(made(trace))
-    assert within.pressure_error == pytest.approx(alone.pressure_error, rel=1e-6)
-    assert sorted(within.edge_errors) == pytest.approx(sorted(alone.edge_errors), rel=1e-6)
-    assert abs(within.tilt) == pytest.approx(abs(alone.tilt), rel=1e-9)
-
-
 def test_a_profile_that_is_no_trace_has_no_report():
     assert solved(sie.Parabola(1.0)).trace_reports() == ()
     assert solved(sie.Flat(1.0), friction=float("inf")).trace_reports() == ()

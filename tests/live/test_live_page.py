@@ -324,19 +324,6 @@ def axes(page):
 
 
 @pytest.mark.slow
-def test_a_scene_without_poissons_ratio_says_why_there_is_no_picture_of_the_stress(browser):
-    scene = sie.Scene(profile=sie.Wedge(0.05), modulus=8.0, half_width=1.0)
-    with LiveServer(scene) as running:
-        threading.Thread(target=running.serve_forever, args=(0.02,), daemon=True).start()
-        page = opened(browser, running.address, 1280)
-        assert "give poisson beside modulus" in page.inner_text("#status")
-        assert "the sentence above says why" in page.inner_text("#about-stress")
-        assert all(abs(end) < 10.0 for end in axes(page))
-        assert not page.mistakes
-        running.shutdown()
-
-
-@pytest.mark.slow
 @pytest.mark.parametrize(("width", "scheme"), [(390, "dark"), (1280, "light")])
 def test_every_slider_moves_the_answer_by_the_keyboard(server, browser, width, scheme):
     page = opened(browser, server.address, width, scheme)

@@ -79,17 +79,6 @@ def test_cross_validation_finds_the_smallest_score():
     assert score(found) <= min(score(found * factor) for factor in (0.5, 0.8, 1.25, 2.0))
 
 
-def test_a_noisy_trace_presses_as_the_smooth_one_within_a_percent():
-    x, rng = np.linspace(-2.0, 2.0, 20_001), np.random.default_rng(7)
-    smooth = np.cosh(x) - 1.0
-    noisy = sie.Sampled(x, smooth + 0.01 * smooth.max() * rng.standard_normal(len(x)), "gcv")
-    exact = sie.FromFunction(np.sinh, domain=(-2.0, 2.0))
-    for load in (0.3, 1.0):
-        assert pressed(noisy, load).half_width == pytest.approx(
-            pressed(exact, load).half_width, rel=1e-2
-        )
-
-
 # -- what is not a trace ---------------------------------------------------------------------------
 
 

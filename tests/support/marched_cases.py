@@ -13,15 +13,8 @@ from sie.problem.request import ECONOMY
 
 # Points are (P/P0, Q/F, σ/S, tilt).
 MEAN_STRESS = [(1, 0, 0.3), (1, 0.5, 0.3), (1, -0.5, 0.3), (1, 0.5, 0.3)]
-TURNED = [(1, 0.4, 0), (1, 0.4, 0.25), (1, 0.4, -0.25)]
 TRAVELLING = [(1, 0, 0), (1, 0.5, 3)]
-TO_THE_EDGE = [(1, 0, 0), (1, 0.67, 0.9)]
-# An edge of contact grows and sticks: slip begins at the other one, or after both have stuck.
-ONE_STICKS = [(1, 0, 0), (1.3, 0.5, 0.6)]
 BOTH_STICK = [(1, 0, 0), (1.6, 0.2, 0.2), (1.9, 0.7, 0.5)]
-# An end advances while the pressure changes.
-ADVANCES = [(1, 0, 0), (1.17, 0.25, -0.485)]
-TOGETHER = [(1, 0, 0, 0), (1.2, 0.55, 0.1, -0.02), (0.9, -0.3, -0.1, 0.02), (1.2, 0.55, 0.1, -0.02)]
 
 
 def followed(scene: sie.Scene, points: Points, parts: int = 1) -> History:
@@ -55,7 +48,3 @@ def inside(solution: sie.Solution, n: int = 41) -> Any:
     """Points of the contact away from its edges, where q falls like a square root."""
     x1, x2 = solution.edges
     return 0.5 * (x1 + x2) + 0.49 * (x2 - x1) * np.linspace(-1.0, 1.0, n)
-
-
-GROWING = [ONE_STICKS, BOTH_STICK]
-ALL = [MEAN_STRESS, TURNED, TRAVELLING, TO_THE_EDGE, *GROWING, ADVANCES]
