@@ -30,7 +30,7 @@ punch = sie.Scene(
 )
 solution = sie.solve(punch)
 box = solution.boundary_data(box=(-4.0, 4.0, 0.0, 4.0), spacing=0.25)
-moved = 2000.0  # times the displacement less that of the middle of the lower end
+moved = 1e4  # times the displacement less that of the middle of the lower end
 held = solution.displacement(0.0, 4.0)
 fig, axes = plt.subplots(figsize=(5.6, 3.4), layout="constrained")
 axes.plot(box.x, box.y, ".", color="0.6", label="nodes of the ends")
@@ -45,7 +45,7 @@ axes.quiver(
 axes.plot([-1, 1], [0, 0], color="C3", linewidth=3, label="contact")
 axes.set(xlabel="x, mm", ylabel="depth y, mm", aspect="equal")
 axes.invert_yaxis()
-axes.legend(loc="outside upper center", ncols=2)
+fig.legend(loc="outside upper center", ncols=2)
 plt.show()
 
 # %%
