@@ -134,5 +134,5 @@ def test_a_mesh_tends_to_the_slip_of_new_points_and_the_shift():
 def test_certificate_and_plan_say_which_steps_are_followed_part_by_part():
     history = followed(HERTZ, TURNED[:2])
     layers, parts = str(history.plan).splitlines()[:2]
-    assert "layers" in layers and "part by part: slip turns at one edge" in parts
-    assert "followed part by part, as slip turns at one edge" in str(history[1].check())
+    assert "layers" in layers and "part by part: Q and bulk stress change in" in parts
+    assert "followed part by part, as Q and bulk stress change in" in str(history[1].check())
