@@ -31,7 +31,8 @@ from sie.errors import ContactError
 from sie.numerics.graded_panels import OF_SERIES, Rule
 from sie.numerics.root_finding import false_position
 
-from .equations import Equations
+from .equations import Equations, Zones
+from .finite_step import balanced
 from .gained_slip import GainedSlip
 from .loading import LoadStep
 from .part import Part
@@ -43,6 +44,7 @@ from .zones_between import ZonesBetween, rates_of
 
 Array = NDArray[np.float64]
 
+STUCK = 1e-11  # of the loads: by so much equations may be missed where all sticks
 INTERVALS = 16  # of the rule of Clenshaw and Curtis on a piece of time
 LOOKED = np.array([1e-4, 0.01, 0.05, 0.15, 0.3, 0.5, 0.7, 0.9])  # shares where marks are passed
 CUT = 3e-5  # of a part: so well a time is known at which the integrand has a kink
@@ -58,7 +60,7 @@ MOST_PIECES, MOST_MISSED = 40, 60
 
 def work(part: Part | StripPart, step: LoadStep) -> float:
     """The energy of a part. Raises ContactError where it is not known to `REFUSED`."""
-    if not part.state.slip:
+    if not part.state.slip and (step.constant or not _leaves(part, step)):
         return 0.0
     sticking = [_sticking(state) for state in (part.before, part.state)]
     if not step.constant and sticking[0] != sticking[1]:
@@ -82,6 +84,14 @@ def work(part: Part | StripPart, step: LoadStep) -> float:
             "the way: put a point of the path in between; the state is not concerned"
         )
     return whole * 2.0 / step.contacts.scene.Estar
+
+
+def _leaves(part: Part | StripPart, step: LoadStep) -> bool:
+    """Whether slip zones have left the contact before the end of a part."""
+    if isinstance(part, StripPart) or part.state.contact.width >= part.before.contact.width:
+        return False
+    after = step.at(part.begun + 0.5 * (part.until - part.begun))
+    return not balanced(Equations(part.before, after, Zones(after.patches, ())), STUCK)
 
 
 def _turned(part: Part, step: LoadStep) -> float:

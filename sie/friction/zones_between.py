@@ -149,6 +149,8 @@ def _zones_at(
     ends, signs, patches = coordinates.copy(), list(like.zones.signs), like.after.patches
     for j, e in enumerate(like.stick.ravel()):
         zones = [k for k, zone in enumerate(like.slip) if zone[j % 2 == 0] == e]
+        if not zones:  # slip has left the contact there
+            return None
         outer = like.slip[zones[0]][j % 2]
         for k in retreating:
             if outer == np.ravel(patches)[k]:

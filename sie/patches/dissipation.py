@@ -1,41 +1,25 @@
-"""The energy that slip fronts dissipate on several patches and per period.
+"""The energy that slip dissipates on several patches and per period at constant load.
 
-A front of slip in the layers of a contact (`sie.friction.memory`) runs from the level Y down to L
-while the load goes from P to P'. With
-
-    E(a, b) = ∫ p_b gap_a dx = -E(b, a)           a <= b, p_b the pressure under b, gap_a under a
-
-it dissipates, for a jump of κ by f,
-
-    W = f²/2 [E(L, P) + E(L, P') - E(Y, P) - E(Y, P')
-              + (P' - P)/(Y - L) E(L, Y) - (Y - L)/(P' - P) E(P, P')]
-
-whatever patches appear, merge or vanish between these levels, because E is the difference of two
-potentials of the load (docs/derivations/layered-memory.md). At constant load and from its surface
-this is f² E(L, P), the work of f p on the slip f gap_L. All that is integrated is positive.
+It is f² E, E = ∫ p_b gap_a dx for two loads a <= b, p_b the pressure under b and gap_a under a: the
+work of f p on the slip f gap_a. All that is integrated is positive.
 """
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable, Sequence
 from itertools import pairwise
 from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
-from sie.friction.memory import SlippedLayer
 from sie.numerics.chord import Points
 from sie.numerics.graded_rule import graded, on_panels
-from sie.numerics.interval import EPS
 from sie.numerics.zones import Zones, left_over
 from sie.profiles.base import Profile
 from sie.traction.base import ZERO, Density
 
 Array = NDArray[np.float64]
 
-SAME = 64.0 * EPS  # of the largest load: levels that differ by rounding
 LEVELS = ((32, 10), (200, 4), (2000, 1))  # of a graded rule where there are no more parts than ...
 SHRUNK = 14  # times an interval about a minimum: to the root of rounding, which is enough
 SAMPLES, LOWEST = 65, 8  # heights on a patch, and how many of their minima are refined
@@ -121,56 +105,3 @@ def slip_rule(upper: Level, stick: Zones, period: float) -> tuple[Points, Array]
     anchor = np.where(left, a[:, None], b[:, None])
     places = Points(anchor.ravel(), np.where(left, offset, -offset).ravel())
     return places, (half * np.sin(angle) * step).ravel()
-
-
-class PatchDissipation:
-    """The energy of fronts in the contacts of one profile at one tilt.
-
-    under   the contact under a load
-    top     the largest load
-    """
-
-    def __init__(
-        self, under: Callable[[float], Level], top: float, period: float = math.inf
-    ) -> None:
-        self.under, self.top, self.period = under, top, period
-        self._levels: list[float] = []
-        self._work: dict[tuple[float, float], float] = {}
-
-    def of_fronts(
-        self, loads: Sequence[float], fronts: Sequence[SlippedLayer], friction: float
-    ) -> Array:
-        """The energy that each front dissipated, for a jump of 1; depths are counted in Q."""
-        found = []
-        for P, o in zip(loads, fronts, strict=True):
-            L, Y, low, high = (
-                self._level(P - d.real / friction) for d in (o.lower, o.upper, *o.surface[::-1])
-            )
-            found.append(friction * friction * self._front(L, Y, high, low))
-        return np.array(found)
-
-    def _front(self, L: float, Y: float, before: float, after: float) -> float:
-        E = self._between
-        total = E(L, before) + E(L, after) - E(Y, before) - E(Y, after)
-        if before != after and L != Y:
-            rise = (after - before) / (Y - L)
-            total += rise * E(L, Y) - E(before, after) / rise
-        return 0.5 * total
-
-    def _level(self, y: float) -> float:
-        """The same level as one that is known but for rounding."""
-        y = max(y, 0.0)
-        for known in self._levels:
-            if abs(known - y) <= SAME * self.top:
-                return known
-        self._levels.append(y)
-        return y
-
-    def _between(self, a: float, b: float) -> float:
-        if a == b:
-            return 0.0
-        if a > b:
-            return -self._between(b, a)
-        if (a, b) not in self._work:
-            self._work[a, b] = work(self.under(a), self.under(b), self.period)
-        return self._work[a, b]

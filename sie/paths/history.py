@@ -3,27 +3,17 @@
 On the way to the first point P and the tilt change alone, then Q and σ in proportion. From each
 point to the next all loads change in proportion to time. What is exact, and covered:
 
-    constant P and tilt, Q alone       every unloading, reloading and nested loop
-    P and Q in any way, σ constant     Mindlin & Deresiewicz (1953) and Jäger (1998): P grows with
-                                       |dQ/dP| on either side of f, or falls
-    P, Q, σ and tilt together          the same superposition of tilted profiles, where both ends of
-                                       the stick zone recede along the step and pass earlier ones
-                                       together (`friction.load_step`)
-    slip of opposite signs             at constant P with σ in proportion to Q; a first loading with
-                                       P changing
-    one end alone passes an earlier    step by step, by the shear at the start of each
-    one, or slip turns at one edge     (`load_history.marching`); at constant P also a stick zone
-                                       that travels; several stick zones, all of which recede
-    from P = 0, P, Q, σ and    the same, from soon after the first contact on
-    tilt in proportion
+    constant P and tilt, Q and σ in    layers: every unloading, reloading and nested loop (Mindlin &
+    one proportion                     Deresiewicz 1953; Jäger 1998)
+    P, Q, σ, tilt or moment in any     part by part, by the shear at the start of each
+    way, also from P = 0
     dissimilar bodies                  P that grows alone, then Q and σ at constant P
 
-`path_contacts` has the contacts under the loads of the path. `friction.memory` computes the layers
-that a step changes, `friction.partial_slip` the slip of a single step, `load_history.path_slip` the
-state at one point, and `patches.path_energy` the energy.
+`path_contacts` has the contacts under the loads of the path, `friction.memory` the layers,
+`friction.course` the parts of a step, and `load_history.path_slip` the state at one point.
 
 Everything else raises ContactError, which names the step and the reason. `History.plan` says which
-steps are marched, and why. A path may begin unloaded, at (0, 0, 0).
+steps are followed part by part, and why. A path may begin unloaded, at (0, 0, 0).
 """
 
 from __future__ import annotations
@@ -31,7 +21,7 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Sequence
 from contextlib import suppress
 from dataclasses import replace
-from functools import cached_property
+from functools import cached_property, partial
 from typing import Any, overload
 
 import numpy as np
@@ -42,16 +32,23 @@ from sie.certificate.shear_check import certificate_of_parts
 from sie.contact.known_contact import Normal
 from sie.errors import ContactError
 from sie.friction.course import course
-from sie.friction.load_history.load_steps import Followable, points_of_loads, turning_points
-from sie.friction.load_history.path_slip import CourseSlip, PathSlip, state_of, step_shift, touched
+from sie.friction.load_history.load_steps import Followable, named, points_of_loads, turning_points
+from sie.friction.load_history.path_slip import (
+    CourseSlip,
+    PathSlip,
+    state_of,
+    step_energy,
+    step_shift,
+    touched,
+)
 from sie.friction.load_history.turning_point import TurningPoint
 from sie.friction.loading import LoadStep
 from sie.friction.loads import Loads
-from sie.friction.memory import LoadMemory
 from sie.friction.slip_state import Slip
+from sie.friction.state import State
 from sie.patches.answer import SeveralPatches
+from sie.patches.friction import refuse_stretch
 from sie.patches.full import FullContact
-from sie.patches.path_energy import PathEnergy
 from sie.patches.result import PatchCertificate
 from sie.planning import Plan, Step
 from sie.problem.load_path import Path
@@ -152,9 +149,8 @@ class History(PathContacts, Sequence[Solution]):
         solve(unsheared(scene, path), tol, economy)  # refuses what is not covered
         super().__init__(scene, path, tol, economy)
         self._points: dict[int, PathSolution] = {}
-        self._energy = PathEnergy(self)
+        self._energies: list[float] = []
         self._shifts: dict[int, float] = {}
-        self._by_parts: dict[int, TurningPoint] = {}
         self._kind, self.scene_states = PathSolution, list[Solution]()
         if steps is turning_points and pressed_first(scene, path):
             self._kind, self.scene_states = SceneSolution, self._solved_by_scenes()
@@ -249,37 +245,55 @@ class History(PathContacts, Sequence[Solution]):
     def in_parts(self, before: TurningPoint, loads: Loads) -> TurningPoint:
         """The turning point after a step, followed part by part."""
         first = before.loads.touching(loads)
-        if any(any(self.plain(*at.normal).sharp) for at in (first, loads)):
-            raise ContactError(
-                "no layers of the contact answer this step, and a contact with sharp edges is not "
-                "followed part by part: the shear is infinite there; round its corners "
-                "(sie.RoundedFlat)"
-            )
-        rise, pull = (of(loads) - of(first) for of in (self.level, self.shear))
-        change, all_of_them = max(abs(rise), abs(pull)), UNSEEN if rise else UNTOLD
-        if not rise:
-            change = max(change, abs(loads.sigma - first.sigma) / self.scene.Estar * first.P)
-        if change <= all_of_them * abs(self.level(loads)):
-            raise ContactError(
-                f"all loads change by less than {all_of_them:g} of f P, which rounding hides: drop "
-                "this point of the path" + (", or keep P and the tilt in it" if rise else "")
-            )
+        self._refuse_unseen(first, loads)
         start = state_of(self, before) if first is before.loads else touched(self, first)
-        step = LoadStep(self, first, loads, {0.0: start.contact})
-        parts, level = course(start, step), LoadMemory(self.level(loads))
-        return TurningPoint(loads, level, straight=False, parts=parts, step=step)
+        return self.followed(start, first, loads)
 
-    def by_parts(self, index: int) -> TurningPoint:
-        """A turning point with the parts of the step to it, also where layers answer it."""
-        point = self.turning_points[index]
-        if not point.parts and index not in self._by_parts:
-            before = self.turning_points[max(index - 1, 0)]
-            self._by_parts[index] = self.in_parts(before, point.loads)
-        return self._by_parts.get(index, point)
+    def followed(self, start: State, first: Loads, loads: Loads) -> TurningPoint:
+        """The turning point after a step from a state, part by part."""
+        if first.sigma != loads.sigma:
+            refuse_stretch(self.period)
+        for at in (first, loads):
+            found = self.plain(*at.normal)
+            if any(found.sharp):
+                raise ContactError(
+                    "P, the tilt or the proportion of Q and σ changes in this step, and a contact "
+                    "with sharp edges is not followed through it: the shear is infinite there; "
+                    "round its corners (sie.RoundedFlat)"
+                )
+            if isinstance(found.normal, FullContact):
+                raise ContactError(
+                    "P, the tilt or the proportion of Q and σ changes in this step, and full "
+                    "contact is not followed through it; change Q at constant P"
+                )
+        step = LoadStep(self, first, loads, {0.0: start.contact})
+        return TurningPoint(loads, parts=course(start, step), step=step)
+
+    def _refuse_unseen(self, first: Loads, loads: Loads) -> None:
+        """Refuse a step that rounding hides."""
+        f, arm = self.scene.friction, self.scene.Estar * self.arm
+        same, limit = first.normal == loads.normal, UNTOLD
+        change = max(abs(self.shear(loads) - self.shear(first)), f * abs(loads.P - first.P))
+        if same:
+            change = max(change, abs(loads.sigma - first.sigma) / self.scene.Estar * first.P)
+        else:
+            tilts = (self.plain(*at.normal).tilt for at in (first, loads))
+            change, limit = max(change, f * arm * abs(np.subtract(*tilts))), UNSEEN
+        if change <= limit * f * loads.P:
+            raise ContactError(
+                f"all loads change by less than {limit:g} of f P, which rounding hides: drop "
+                "this point of the path" + ("" if same else ", or keep P and the tilt in it")
+            )
 
     def energy(self, index: int) -> float:
         """The energy lost from the beginning of the path to a turning point."""
-        return self._energy.until(index)
+        known = self._energies
+        for k in counted("dissipated energy, step", range(len(known), index + 1), index + 1):
+            loads = self.turning_points[k].loads
+            place = "step {} of the path, to"
+            lost = named(k, loads, partial(step_energy, self, k), place)
+            known.append(lost + (known[-1] if known else 0.0))
+        return known[index]
 
     def _solved_by_scenes(self) -> list[Solution]:
         """The points as scenes, which share the contact under P; refused if they are not covered.

@@ -15,20 +15,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from sie.contact.known_contact import Normal
 from sie.errors import LoadError
-from sie.friction.dissipation import Dissipation
 from sie.friction.load_history.known_zones import KnownZones
 from sie.friction.loads import Loads
-from sie.friction.slip_state import NoSlip, Slip
+from sie.friction.slip_state import Slip
 from sie.friction.states import OneSignedSlip
-from sie.friction.step_conditions import OneZone, Zones
 from sie.numerics.interval import EPS, Interval
 from sie.patches.answer import SeveralPatches
-from sie.patches.dissipation import PatchDissipation, Untouched
-from sie.patches.friction import PatchSlip, refuse_stretch
 from sie.patches.full import FullContact
-from sie.patches.step_zones import PatchZones
 from sie.problem.load_path import Path
 from sie.problem.path_scene import unsheared
 from sie.problem.scene import Scene
@@ -59,8 +53,6 @@ class PathContacts:
         self._first_loadings: dict[tuple[Under, complex], Slip] = {}
         self._known: dict[Under, KnownZones] = {}
         self._in_patches: dict[tuple[float, float], SeveralPatches | FullContact] = {}
-        self._dissipation: dict[float, Dissipation] = {}
-        self._work_in_patches: dict[float, PatchDissipation] = {}
 
     def solution(self, scene: Scene) -> Solution:
         """The solution of a scene, as of `solve`."""
@@ -79,26 +71,6 @@ class PathContacts:
         round.
         """
         return 2.0 ** round(math.log2(math.pi * self.plain(*self._first).half_width))
-
-    def level(self, loads: Loads) -> complex:
-        """f P, with the tilt beyond that of the first contact as imaginary part."""
-        f, turn = self.scene.friction, loads.turn - self._first[1]
-        if self.curved:
-            normals = self._first, loads.normal
-            first, now = (self.plain(*at).tilt if at[0] else 0.0 for at in normals)
-            turn = now - first if loads.P else 0.0
-        level = f * loads.P
-        return complex(level, f * 0.5 * self.scene.Estar * turn * self.arm) if turn else level
-
-    def tilt_of(self, level: complex) -> float:
-        """The tilt of the contact of a level."""
-        lever = self.scene.friction * 0.5 * self.scene.Estar * self.arm
-        return self.plain(*self._first).tilt + level.imag / lever
-
-    def contact_at(self, P: float, tilt: float) -> Interval:
-        """The contact under P at a tilt, in one patch."""
-        scene = replace(self.scene, normal_load=P, tilt=tilt, moment=None)
-        return self.solution(scene).as_one_patch.edges.contact
 
     @property
     def by_moment(self) -> bool:
@@ -121,24 +93,6 @@ class PathContacts:
     def contact(self, loads: Loads) -> Interval:
         """The contact under these loads, which is one patch."""
         return self.plain(*loads.normal).as_one_patch.edges.contact
-
-    def zones(self, loads: Loads) -> Zones:
-        """The zones of contact under these loads, for changes of bulk stress and tilt."""
-        return self._zones(self.plain(*loads.normal).normal)
-
-    def sticking(self, normal: Under, depth: complex) -> Zones:
-        """The stick zones of a contact that was never sheared after S has risen to a depth."""
-        state = self.first_loading(normal, depth, False)
-        if isinstance(state, PatchSlip):
-            return self._zones(state.corrective)
-        return OneZone(state.stick_zone, self.arm)
-
-    def _zones(self, contact: Normal | SeveralPatches | FullContact | Untouched) -> Zones:
-        if isinstance(contact, Normal):
-            return OneZone(contact.edges.contact, self.arm)
-        refuse_stretch(self.period)
-        assert not isinstance(contact, FullContact)  # which is periodic
-        return PatchZones(contact, self.arm)
 
     def plain(self, P: float, turn: float = 0.0) -> Solution:
         """The contact under P and what is added to the scene's tilt or moment, without shear."""
@@ -191,13 +145,6 @@ class PathContacts:
             self._first_loadings[key] = found
         return self._first_loadings[key]
 
-    def on_the_way(self, normal: Under, depth: complex, turned: bool) -> Slip:
-        """The same between two turning points; it is not kept."""
-        plain = self._plain.get(normal) or self._frictionless(*normal)
-        if not depth:
-            return NoSlip(plain.normal.edges.contact, self.scene.friction)
-        return self._loaded(plain, depth, turned)
-
     def _loaded(
         self, plain: Solution, depth: complex, turned: bool, near: Interval | None = None
     ) -> Slip:
@@ -223,35 +170,3 @@ class PathContacts:
     def in_one_patch(self) -> bool:
         """Whether the contact is one patch under every load of the path, by a slope that rises."""
         return self.plain(self.largest, self._first[1]).convex
-
-    def patches(self, P: float, turn: float) -> tuple[tuple[float, float], ...]:
-        """The patches of contact under P."""
-        if not self.in_one_patch:
-            return self.under(P, self.plain(self.largest, turn).tilt).patches
-        contact = self.upright_contact(P, turn)
-        return ((contact.x1, contact.x2),)
-
-    def upright_contact(self, P: float, turn: float) -> Interval:
-        """The contact under P, in one patch, beside others at the same tilt."""
-        return self.dissipation(turn).contacts.contact(P).interval
-
-    def dissipation(self, turn: float) -> Dissipation:
-        """The dissipated energy, and the contacts under all loads of the path, at one tilt."""
-        if turn not in self._dissipation:
-            normal = self.plain(self.largest, turn).as_one_patch
-            self._dissipation[turn] = Dissipation(self.scene, normal, self.tol, self.economy)
-        return self._dissipation[turn]
-
-    def work_in_patches(self, turn: float) -> PatchDissipation:
-        """The dissipated energy where the contact is not one patch under every load."""
-        if turn not in self._work_in_patches:
-            widest = self.plain(self.largest, turn).in_patches
-
-            def under(P: float) -> SeveralPatches | FullContact | Untouched:
-                tilt = widest.edges.tilt
-                if P > 0.0:
-                    return self.under(P, tilt)
-                return Untouched(self.scene.profile, tilt, widest.patches)
-
-            self._work_in_patches[turn] = PatchDissipation(under, self.largest, self.period)
-        return self._work_in_patches[turn]

@@ -2,19 +2,13 @@
 
 In a state that repeats, a point that slips one way on the way to A slips back on the way to B.
 Where it slips, q_A - q_B = s f (p_A + p_B); in the permanent stick zone the strain of q_A - q_B is
-that of the bulk stresses. Subtracting leaves a normal problem once more,
-
-    q_A - q_B = s f (p_A + p_B - 2 p^),      s the sign of Q_A - Q_B,
-
-p^ the pressure of the same profile under P^ = [P_A + P_B - |Q_A - Q_B|/f]/2 at the tilt
-(θ_A + θ_B)/2 - s (τ_A - τ_B)/(f E*), and its contact is the permanent stick zone. Neither the means
-of Q and σ nor the way to the steady state matter. A large bulk stress makes the edges slip in
-opposite directions: then, at constant P and tilt, twice the first loading by half of the change.
+that of the bulk stresses. Neither the means of Q and σ, nor what is locked in, nor the way to the
+steady state matter. At constant P and tilt q_A - q_B is twice the first loading by half of the
+change; otherwise each way is followed from q = ± f p all over (`load_history.load_steps`).
 """
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -23,12 +17,9 @@ from typing import Any, overload
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from sie.errors import ContactError
-from sie.friction.load_history.changing_contact import ChangingContact
 from sie.friction.load_history.path_slip import CourseSlip, step_slip
 from sie.friction.load_history.turning_point import TurningPoint
 from sie.friction.loads import Loads
-from sie.friction.memory import LoadMemory
 from sie.friction.slip_state import Slip
 from sie.numerics.zones import within
 from sie.solution import Solution
@@ -72,22 +63,23 @@ class SteadyCycle(Sequence["SteadyState"]):
         return self._states[index]
 
     @property
-    def _slipping(self) -> bool:
-        return self.history.turning_points[0].memory.top is not None
-
-    def _reduced(self, index: int) -> Slip:
-        """The first loading of A or B to the depth of slip."""
-        point = self.history.turning_points[index]
-        assert point.memory.top is not None
-        depth = point.memory.top.thickness
-        return self.history.first_loading(point.loads.normal, depth, point.turned)
+    def _reduced(self) -> Slip | None:
+        """The first loading of A to the depth of slip, at constant P and tilt."""
+        point = self.history.turning_points[0]
+        top = point.memory.top
+        if top is None:
+            return None
+        return self.history.first_loading(point.loads.normal, top.thickness, point.turned)
 
     @property
     def stick(self) -> tuple[tuple[float, float], ...]:
         """The permanent stick zone, ((lo, hi),) in lengths, or one for each of several patches."""
-        if self._slipping:
-            return self._reduced(1).stick
-        first, second = (self.history.plain(*p.loads.normal) for p in self._ends)
+        if self._reduced is not None:
+            return self._reduced.stick
+        A, B = self._ends
+        if B.parts:
+            return B.state.stick
+        first, second = (self.history.plain(*p.loads.normal) for p in (A, B))
         if max(len(first.patches), len(second.patches)) > 1:
             return min(first, second, key=lambda contact: contact.normal_load).patches
         (a, b), (c, d) = first.edges, second.edges
@@ -126,25 +118,15 @@ class SteadyCycle(Sequence["SteadyState"]):
     def _slip(self, x: Array) -> Array:
         """The slip at B, counted from A; the range where x leaves the contact."""
         out = step_slip(self.history, 1, x)
-        if not self._slipping:
-            return out
-        at_A, at_B = (
-            within(x, self.history.plain(*p.loads.normal).patches, self.history.period)
-            for p in self._ends
-        )
-        for wider, coming in ((at_A & ~at_B, 2), (at_B & ~at_A, 1)):
-            if wider.any():
-                comes, leaves = (ChangingContact(self.history, k) for k in (coming, 3 - coming))
-                slip = np.abs(comes.slip_of_new(x[wider]))
-                back = np.abs(leaves.slip_of_left(x[wider]))
-                out[wider] = -self._sign * np.maximum(slip, back)
+        A, B = self._ends
+        if B.parts:
+            at_A, at_B = (
+                within(x, self.history.plain(*p.loads.normal).patches, self.history.period)
+                for p in (A, B)
+            )
+            leaves = at_A & ~at_B
+            out[leaves] = -step_slip(self.history, 2, x[leaves])
         return out
-
-    @property
-    def _sign(self) -> float:
-        """The direction of slip on the way to A."""
-        top = self.history.turning_points[0].memory.top
-        return math.copysign(1.0, top.k) if top else 0.0
 
     def shear_range(self, x: ArrayLike) -> Array:
         """|q_A - q_B|, the range of the shear traction in a cycle, as stress, at positions x.
@@ -164,25 +146,28 @@ class SteadyCycle(Sequence["SteadyState"]):
     @cached_property
     def shear_change(self) -> Density:
         """q_A - q_B, a `Density` in units of stress."""
-        top = self.history.turning_points[0].memory.top
-        if top is None:
-            return self._locked
-        return superposed(*((top.k, self._reduced(index).shear) for index in (0, 1)))
+        A, B = self._ends
+        top, reduced = A.memory.top, self._reduced
+        if top is not None and reduced is not None:
+            return superposed((2.0 * top.k, reduced.shear))
+        if B.parts:
+            assert B.step is not None
+            s = -B.state.slip[0][2]
+            full = self.history.plain(*A.loads.normal).slope_density
+            at_B = CourseSlip(self.history, 1).shear
+            return superposed((s * self.history.scene.friction, full), (-1.0, at_B))
+        return self._locked
 
     @property
     def _locked(self) -> Density:
-        """q_A - q_B where nothing slips: the layers that come and go carry a multiple of p."""
-        first, second = self._ends
-        rise, pull = (
-            end(first.loads) - end(second.loads) for end in (self.history.level, self.history.shear)
-        )
-        if not (rise or pull):
-            return superposed()
-        if pull and (abs((pull / rise).imag) > 1e-12 * abs(pull / rise)):
-            return self._grown
-        k = self.history.scene.friction * (pull / rise).real
-        on = [self.history.plain(*p.loads.normal).slope_density for p in self._ends]
-        return superposed((k, on[0]), (-k, on[1]))
+        """q_A - q_B where nothing slips: in proportion to Δp where the loads are."""
+        first, second = (end.loads for end in self._ends)
+        (P, Q, *more), (P_B, Q_B, *more_B) = first, second
+        if more == more_B and P != P_B:
+            k = (Q - Q_B) / (P - P_B)
+            on = [self.history.plain(*at.normal).slope_density for at in (first, second)]
+            return superposed((k, on[0]), (-k, on[1]))
+        return self._grown if first != second else superposed()
 
     @property
     def _grown(self) -> Density:
@@ -191,17 +176,10 @@ class SteadyCycle(Sequence["SteadyState"]):
         What it was sheared by before does not matter: the rates of q follow from those of the loads
         alone where all of the contact sticks.
         """
-        if not self.history.in_one_patch:
-            raise ContactError(
-                "nothing slips in this cycle, while Q, bulk stress and tilt do not change in "
-                "proportion to P: the shear that comes and goes is solved in a contact that is one "
-                "patch under every load; change them in proportion"
-            )
         small, large = sorted((end.loads for end in self._ends), key=lambda loads: loads.P)
         start = small._replace(Q=0.0, sigma=0.0)
         end = large._replace(Q=large.Q - small.Q, sigma=large.sigma - small.sigma)
-        level = self.history.level(start)
-        point = self.history.in_parts(TurningPoint(start, LoadMemory(level)), end)
+        point = self.history.in_parts(TurningPoint(start), end)
         grown = CourseSlip(self.history, state=point).shear
         return superposed((1.0 if large is self._ends[0].loads else -1.0, grown))
 

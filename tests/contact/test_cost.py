@@ -11,7 +11,6 @@ import pytest
 import sie
 from sie import frictionless
 from sie.contact import normal, pressure
-from sie.friction import growth_panels
 from sie.numerics import chebyshev
 from sie.patches import answer
 from sie.profiles import resolution
@@ -146,16 +145,6 @@ def places_for_a_certificate(turns):
 
 def test_the_certificate_of_a_long_path_is_linear_in_its_turning_points():
     assert places_for_a_certificate(80) <= 3 * places_for_a_certificate(40)
-
-
-def test_small_steps_of_an_oblique_path_share_their_panels():
-    steps = np.arange(1, 201) / 200
-    loads = np.stack((0.4 * steps, 0.05 * steps * (-1.0) ** np.arange(200)), axis=1)
-    path = sie.Path(loads.tolist())
-    history = sie.follow(scene(PUNCH, friction=0.5), path)
-    with counted(growth_panels.GrowthPanels, "_resolved") as panels:
-        assert history[-1].energy_lost > 0.0
-    assert len(panels) <= 20
 
 
 def calls_for(jumps):

@@ -61,16 +61,14 @@ def test_a_closed_loop_closes_after_the_first_cycle_and_leaves_no_memory():
 
 @given(st.lists(st.floats(-1.0, 1.0), min_size=1, max_size=12))
 def test_the_layers_carry_the_load_within_their_limits(targets):
-    memory = LoadMemory(1.0)
+    memory = LoadMemory()
     for target in targets:
-        before, (memory, done) = (
-            memory,
-            memory.changed(0.0, target - memory.total) if target != memory.total else (memory, ()),
-        )
+        before, pull = memory, target - memory.total
+        memory, done = memory.changed(abs(pull), np.sign(pull)) if pull else (memory, ())
         assert memory.total == pytest.approx(target, abs=1e-14)
         assert all(thickness > 0.0 and abs(k) <= 1.0 for thickness, k in memory.layers)
         assert sum(thickness for thickness, _ in memory.layers) <= 1.0 + 1e-15
-        pulled = sum(o.jump * (o.lower - o.upper) for slip in done for o in slip.layers)
+        pulled = sum(o.jump * (o.lower - o.upper) for o in done)
         assert pulled == pytest.approx(abs(target - before.total), abs=1e-14)
 
 
@@ -91,15 +89,11 @@ def test_a_thousand_steps_cost_less_than_a_thousand_solves():
     assert not any("corrective" in vars(state) for state in history._first_loadings.values())
 
 
-def test_energy_of_ten_thousand_turning_points_takes_no_contact_for_each(monkeypatch):
-    """The next, smaller one overwrites a part of each: every layer stays. One series for the growth
-    of the contact serves all.
-    """
-    k = np.arange(10_000)
-    history = at_constant_load(PUNCH, *(0.95 * (1.0 - k / 10_000) * (-1.0) ** k))
-    assert len(history.turning_points[-1].memory.layers) == 10_000
-    assert history.energy(9_999) > history.energy(9_998) > 0.0
-    assert history.dissipation(0.0).evaluations < 500 and not history._first_loadings
+def test_the_energy_of_a_path_takes_one_first_loading_for_each_depth():
+    k = np.arange(50)
+    history = at_constant_load(PUNCH, *(0.95 * (1.0 - k / 50) * (-1.0) ** k), 0.5, -0.5, 0.5)
+    assert history.energy(52) > history.energy(51) > history.energy(50) > 0.0
+    assert len(history._first_loadings) <= 53
 
 
 def test_the_shear_of_many_turning_points_takes_the_pressure_of_the_contact_once():
@@ -157,7 +151,7 @@ def test_a_normal_load_that_grows_at_a_given_moment_locks_the_shear_in():
     first, second = sie.follow(tilted, sie.Path([(P, 0.05), (2 * P, 0.05)]))
     x = np.linspace(*second.edges, 21)
     assert second.stick == (second.edges,) and second.tilt != first.tilt
-    assert second.shear(x) == pytest.approx(first.shear(x), abs=1e-14)
+    assert second.shear(x) == pytest.approx(first.shear(x), abs=1e-13)
     assert second.energy_lost == first.energy_lost
 
 
@@ -175,22 +169,6 @@ def test_zones_that_retreat_on_the_way_to_the_first_point_are_followed():
     assert first.energy_lost == later.energy_lost and first.slip_notes == ()
     assert first.check().ok and then.check().ok
     assert first.stick != scene.stick and "retreat" in scene.notes[-1]
-
-
-def test_where_the_way_to_the_first_point_is_not_covered_it_is_answered_like_a_scene(monkeypatch):
-    """With the same remark, and no step from there; the reason is told."""
-
-    def refused(*_):
-        raise sie.ContactError("the stick zone would meet another one")
-
-    monkeypatch.setattr(sie.History, "in_parts", refused)
-    scene = sie.solve(replace(HERTZ, tangential_load=RETREAT[1], bulk_stress=RETREAT[2]))
-    (point,) = sie.follow(HERTZ, sie.Path([RETREAT]))
-    x = np.linspace(*scene.edges, 21)
-    assert (point.shear(x) == scene.shear(x)).all() and point.energy_lost == scene.energy_lost
-    assert point.notes == scene.notes and "retreat" in point.notes[-1]
-    with pytest.raises(sie.ContactError, match=r"step 1 .*retreat.*would meet another one"):
-        sie.follow(HERTZ, sie.Path([RETREAT, (P, 0.1 * FP, 0.5)]))
 
 
 @pytest.mark.parametrize(

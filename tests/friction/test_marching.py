@@ -19,14 +19,7 @@ from marched_cases import (
 
 LAYERED = {
     "Q falls and rises": [(1, 0, 0), (1, 0.5, 0), (1, -0.4, 0), (1, 0.2, 0)],
-    "all fall": [(1, 0.4, 0.1), (0.7, 0.3, 0.3)],
-    "in phase": [(1, 0, 0), (1.2, 0.55, 0.1), (0.9, -0.3, -0.1)],
     "both directions": [(1, 0, 0), (1, 0, 0.6), (1, 0, -0.3)],
-    "both directions, P falls": [(1, 0, 0), (0.8, 0.05, 0.5)],
-    "in turn": [(1, 0.4, 0), (1, 0, 0.2), (1, -0.4, 0)],
-    "all grow": [(1, 0, 0), (1.3, 0.7, 0.1)],
-    "grows and sticks": [(1, 0.4, 0), (1.4, 0.6, 0), (1.4, 0.2, 0)],
-    "held up": [(1, 0, 0), (1.3, 0.55, 0.2), (0.8, -0.3, -0.15)],
 }
 
 
@@ -44,7 +37,7 @@ def test_marching_gives_what_layers_give(case, scene):
 
 
 @pytest.mark.slow(but=1)
-@pytest.mark.parametrize("case", ["Q falls and rises", "all fall", "both directions", "in turn"])
+@pytest.mark.parametrize("case", LAYERED)
 def test_the_energy_of_a_march_is_that_of_layers(case):
     by_layers, marched = (run(HERTZ, LAYERED[case])[-1] for run in (followed, all_marched))
     assert marched.energy_lost == pytest.approx(by_layers.energy_lost, rel=1e-8)

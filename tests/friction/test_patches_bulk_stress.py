@@ -115,27 +115,16 @@ def test_the_shear_that_comes_and_goes_without_slip_is_that_of_flats_superposed(
 @pytest.mark.parametrize(
     ("ask", "words"),
     [
-        (lambda: followed(EVEN, [(1.0, 0.0, 0.0), (1.0, 0.0, 0.01)])[-1].stick, "to either side"),
-        (
-            lambda: followed(EVEN, [(1.0, 0.0, 0.0), (1.0, 0.01, 0.2)])[-1].stick,
-            "raise the tangential load",
-        ),
         (
             lambda: sie.steady_cycle(scene(WAVES), (1.0, 0.1, 0.1), (1.0, -0.1, -0.1)),
             "meet every 6.28319, .* no periodic answer",
         ),
         (
             lambda: sie.steady_cycle(scene(EVEN), (1.0, 0.1, 0.1), (1.0, 0.1, -0.1)),
-            "slip does not start at both edges in one direction",
-        ),
-        (
-            lambda: sie.steady_cycle(scene(EVEN), (1.5, 0.1, 0.0), (0.5, 0.0, 0.001)).shear_range(
-                0.0
-            ),
-            "nothing slips .* in proportion to P",
+            "the cycle on the way to B",
         ),
     ],
-    ids=["stress alone", "large stress", "period", "stress to and fro", "stuck"],
+    ids=["period", "stress to and fro"],
 )
 def test_what_is_not_solved_on_several_patches_is_refused_with_what_is_missing(ask, words):
     with pytest.raises(sie.ContactError, match=words):

@@ -27,7 +27,7 @@ from analytic import (
 )
 from sie.friction import memory, partial_slip
 from sie.numerics import cauchy_sums
-from sie.patches import path_energy
+from sie.paths import history
 from sie.profiles import sampled
 from sie.profiles.splines import Spline
 from sie.stress import half_plane
@@ -266,9 +266,9 @@ PARTS: tuple[tuple[str, str, Callable[[bool], float]], ...] = (
         partial(
             number,
             _instead(
-                path_energy.PathEnergy,
-                "_in_steps",
-                lambda right, self, k: [W / (2 if j else 1) for j, W in zip(k, right(self, k))],
+                history,
+                "step_energy",
+                lambda right, followed, k: right(followed, k) / (2 if k else 1),
             ),
             _cycle,
             _true_cycle,

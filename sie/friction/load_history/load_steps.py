@@ -1,4 +1,8 @@
-"""The steps of a load path one after the other, and those of a steady cycle."""
+"""The steps of a load path one after the other, and those of a steady cycle.
+
+At constant P and tilt, with Q and σ in one proportion since nothing was sheared, layers answer
+(`friction.memory`). All other steps are followed part by part (`friction.course`).
+"""
 
 from __future__ import annotations
 
@@ -9,13 +13,14 @@ from functools import partial
 from typing import Protocol, TypeVar
 
 from sie.errors import ContactError
-from sie.friction import loading
-from sie.friction.load_step import Contacts, NotLayered, Step
-from sie.friction.loading import LoadStep
+from sie.friction.loading import Contacts, LoadStep, contact_under
 from sie.friction.loads import Loads
-from sie.friction.memory import Layer, LoadMemory, in_proportion, simple
-from sie.friction.rates import Rates
-from sie.numerics.interval import EPS
+from sie.friction.memory import LoadMemory, in_proportion, simple
+from sie.friction.onset import Motion, onset
+from sie.friction.slip_state import Slip
+from sie.friction.state import State
+from sie.numerics.graded_panels import Pieces
+from sie.numerics.interval import EPS, Interval
 from sie.problem.load_limit import refuse_sliding
 from sie.problem.load_path import Path
 from sie.problem.scene import Scene
@@ -25,21 +30,40 @@ from .turning_point import TurningPoint
 
 Result = TypeVar("Result")
 
+ROUNDED = 4.0 * EPS  # of S: less is no change of it
+SHARES = (0.0, 0.05, 0.25, 0.5, 0.75, 1.0)  # of a step at which it is tested that all sticks
+SAME = 1e-7  # of a contact: so much alike are the stick zones at both turning points of a cycle
+UNSTEADY = (
+    "the steady state is not that of one permanent stick zone which both ends of the slip reach at "
+    "once, which is all that is covered; change P, Q, σ and tilt in other proportions"
+)
 
-class Followable(Contacts, loading.Contacts, Protocol):
+
+class Followable(Contacts, Protocol):
     """The contacts of a path that is followed.
 
+    shear           S
+    arm             the length by which a bulk stress is made a force
     in_one_patch    whether the contact is one patch under every load
+    contact         the contact under loads, in one patch
+    first_loading   the state of a contact that was never sheared before S rose to a depth
     in_parts        the turning point after a step that no layers answer
+    followed        the same from any state
     """
 
+    def shear(self, loads: Loads) -> complex: ...
+    @property
+    def arm(self) -> float: ...
     @property
     def in_one_patch(self) -> bool: ...
+    def contact(self, loads: Loads) -> Interval: ...
+    def first_loading(self, normal: tuple[float, float], depth: complex, turned: bool) -> Slip: ...
     def in_parts(self, before: TurningPoint, loads: Loads) -> TurningPoint: ...
+    def followed(self, start: State, first: Loads, loads: Loads) -> TurningPoint: ...
 
 
 def turning_points(scene: Scene, path: Path, contacts: Followable) -> tuple[TurningPoint, ...]:
-    """The layers after each step of a path.
+    """The points of a path that is followed from P and the tilt alone.
 
     Raises ContactError, with the step, where one is not covered.
     """
@@ -53,24 +77,11 @@ def turning_points(scene: Scene, path: Path, contacts: Followable) -> tuple[Turn
             )
         if abs(loads.Q) > f * loads.P:
             named(k, loads, partial(refuse_sliding, f, loads.P, loads.Q))
-    start = points[0]._replace(Q=0.0, sigma=0.0)
-    state = TurningPoint(start, LoadMemory(contacts.level(start)))
+    state = TurningPoint(points[0]._replace(Q=0.0, sigma=0.0))
     for k, loads in counted("load path", enumerate(points), len(points)):
-        state = named(k, loads, partial(stepped if k else _first, contacts, state, loads))
+        state = named(k, loads, partial(stepped, contacts, state, loads))
         found.append(state)
     return tuple(found)
-
-
-def _first(contacts: Followable, unsheared: TurningPoint, loads: Loads) -> TurningPoint:
-    """The first turning point: P and the tilt, then Q and σ in proportion.
-
-    Where zones of slip retreat on the way, and that is not covered, it is the state of a scene, in
-    total displacements.
-    """
-    try:
-        return stepped(contacts, unsheared, loads)
-    except ContactError as problem:
-        return replace(_layered(contacts, unsheared, loads), why=str(problem))
 
 
 def loads_of(path: Path) -> list[Loads]:
@@ -79,7 +90,7 @@ def loads_of(path: Path) -> list[Loads]:
 
 def points_of_loads(path: Path) -> tuple[TurningPoint, ...]:
     """The points of a path at which nothing has to be remembered."""
-    return tuple(TurningPoint(loads, LoadMemory(loads.P)) for loads in loads_of(path))
+    return tuple(TurningPoint(loads) for loads in loads_of(path))
 
 
 def named(
@@ -93,110 +104,135 @@ def named(
         ) from None
 
 
-def steady_points(scene: Scene, path: Path, contacts: Followable) -> tuple[TurningPoint, ...]:
-    """The turning points A, B, A of a steady cycle.
-
-    The layers are those of the change from one to the other alone.
-
-    What slips in one direction on the way to B slips back on the way to A. Hence q_A - q_B =
-    s f (p_A + p_B) there, and in the stick zone, where that is 2 s f p^ less,
-
-        Λ^ = [Λ_A + Λ_B - s (S_A - S_B)]/2,      s the sign of slip before A:
-
-    below Λ^ nothing slips, whatever is locked in there.
-    """
-    first, second, last = loads_of(path)
-    for k, loads in enumerate((first, second)):
-        slides = partial(refuse_sliding, scene.friction, loads.P, loads.Q)
-        named(k, loads, slides, f"the cycle at {'AB'[k]},")
-    rise = simple(contacts.level(second) - contacts.level(first))
-    pull = simple(contacts.shear(second) - contacts.shear(first))
-    start = TurningPoint(first, LoadMemory(contacts.level(first)))
-    there = Step(contacts, start, second, rise, pull)
-    back = Step(contacts, replace(start, loads=second), first, -rise, -pull)
-    upright = not (rise.imag or pull.imag)  # contacts are nested by their loads, in any patches
-    sticks = abs(pull) <= abs(rise) if upright else there.sticks or back.sticks
-    if not (rise or pull) or sticks:
-        return start, TurningPoint(second, LoadMemory(contacts.level(second))), start
-    turned = not rise and there.opposite
-    s = -math.copysign(1.0, pull.imag if turned else pull.real)
-    slipped = -0.5 * (rise + s * pull)
-    memory = LoadMemory(start.memory.level, Layer(slipped, s, None, s * slipped, slipped))
-    found = [replace(start, memory=memory, turned=turned)]
-    for k, loads in ((1, second), (2, last)):
-        sign, before = s if k == 2 else -s, found[-1]
-        step = Step(contacts, before, loads, *((rise, pull) if k == 1 else (-rise, -pull)))
-        turned_back = step.upright if upright else partial(step.reversed, sign)
-        found.append(named(k, loads, turned_back, f"the cycle on the way to {'ABA'[k]},"))
-    return tuple(found)
-
-
 def stepped(contacts: Followable, before: TurningPoint, loads: Loads) -> TurningPoint:
     """The turning point after a step: by layers, and where these do not answer part by part.
 
     Raises ContactError where the step is not covered.
     """
+    same, memory = before.loads.normal == loads.normal, before.memory
     if before.parts:
         last = before.state.contact
-        if before.loads.normal == loads.normal and contacts.sheared_by(loads) == (last.Q, last.tau):
+        if same and contacts.sheared_by(loads) == (last.Q, last.tau):
             return replace(before, loads=loads)
         return replace(contacts.in_parts(before, loads), why="a step before was")
-    try:
-        found = _layered(contacts, before, loads)
-    except NotLayered as problem:
-        return replace(contacts.in_parts(before, loads), why=str(problem))
-    if found.turned and found.straight and contacts.in_one_patch:
-        known = before.memory.top is None or _advancing(contacts, before)
-        if known and not _advancing(contacts, found):
-            return replace(contacts.in_parts(before, loads), why="zones of slip retreat on the way")
-    if found.turned and contacts.in_one_patch and _stops(contacts, before, found):
-        return replace(contacts.in_parts(before, loads), why="a zone of slip retreats on the way")
-    return found
-
-
-def _stops(contacts: Followable, before: TurningPoint, point: TurningPoint) -> bool:
-    """Whether an end of the stick zone has stopped on the way, while the pressure changed."""
-    last, top = point.last, point.memory.top
-    if last is None or top is None or before.loads.normal == point.loads.normal:
-        return False
-    state = contacts.first_loading(point.loads.normal, top.thickness, True)
-    zones = [(lo, hi, sign * last.sign) for lo, hi, sign in state.slipped]
-    if len(zones) != 2 or zones[0][2] == zones[1][2]:
-        return False
-    step, f = LoadStep(contacts, before.loads, point.loads), contacts.scene.friction
-    rates = Rates.solved((state.contact[:2],), state.stick, zones, step.rates, friction=f)
-    return bool((rates.signed_K < 0.0).any())
-
-
-def _advancing(contacts: Followable, point: TurningPoint) -> bool:
-    """Whether the zones of slip in two directions have only grown on the way to a point."""
-    depth, _ = point.memory.deepest
-    return contacts.first_loading(point.loads.normal, depth, True).advancing
-
-
-def _layered(contacts: Followable, before: TurningPoint, loads: Loads) -> TurningPoint:
-    """The turning point after a step that layers answer. Raises NotLayered where they do not."""
-    memory = before.memory
-    level, shear = contacts.level(loads), contacts.shear(loads)
-    rise, pull = simple(level - memory.level), simple(shear - memory.total)
-    if abs(pull) <= 4.0 * EPS * max(abs(shear), abs(memory.total)):
+    shear = contacts.shear(loads)
+    pull = simple(shear - memory.total)
+    if abs(pull) <= ROUNDED * max(abs(shear), abs(memory.total)):
         pull = 0.0
-    if not pull and memory.top is None:
-        return TurningPoint(loads, LoadMemory(level))  # nothing was ever sheared
-    if not (rise or pull):
-        return replace(before, loads=loads, slips=())
-    step = Step(contacts, before, loads, rise, pull)
-    top = memory.top
-    if not rise and (top is None or (before.straight and in_proportion(pull, top.depth))):
-        return step.in_proportion()
-    if before.turned and before.straight:
-        step.refuse_retreat()
-    tilted = rise.imag or pull.imag or (rise.real < 0.0 and isinstance(memory.total, complex))
-    if not (before.turned or tilted):
-        return step.upright()
-    if before.loads.P == 0.0:
-        raise NotLayered("the contact grows from nothing while bulk stress or tilt changes")
-    if step.bared < 1.0:
-        between = TurningPoint(before.loads.towards(loads, step.bared), step.without_top())
-        return stepped(contacts, replace(between, turned=before.turned, straight=False), loads)
-    return step.general()
+    if not pull and (same or memory.top is None):
+        return replace(before, loads=loads, slipped=())
+    why = "P or the tilt changes"
+    if same:
+        why = "Q and bulk stress change in another proportion"
+        if memory.top is None or in_proportion(pull, memory.top.depth):
+            point = layered(contacts, before, loads, pull)
+            if point:
+                return point
+            why = "a zone of slip retreats on the way"
+    return replace(contacts.in_parts(before, loads), why=why)
+
+
+def layered(
+    contacts: Followable, before: TurningPoint, loads: Loads, pull: complex
+) -> TurningPoint | None:
+    """The point after S has changed by `pull`, in proportion; None if slip zones retreat.
+
+    Where the bulk stress pulls the edges in opposite directions, that is seen by first loadings.
+    """
+    if pull.imag and not contacts.in_one_patch:
+        return None
+    turned = bool(pull.imag) and (
+        math.pi * contacts.contact(loads).r * abs(pull.imag) > contacts.arm * abs(pull.real)
+    )
+    sign = math.copysign(1.0, pull.imag if turned else pull.real)
+    memory, slipped = before.memory.changed(sign * pull, sign)
+    depths = [depth for depth, _ in memory.corners] if turned else []
+    if not all(contacts.first_loading(loads.normal, d, True).advancing for d in depths):
+        return None
+    return TurningPoint(loads, memory, sign, slipped, turned)
+
+
+# -- steady cycles ---------------------------------------------------------------------------------
+
+
+def steady_points(scene: Scene, path: Path, contacts: Followable) -> tuple[TurningPoint, ...]:
+    """The turning points A, B, A of a steady cycle.
+
+    What slips in one direction on the way to B slips back on the way to A. Hence q_A - q_B =
+    s f (p_A + p_B) there, s the sign of slip before A, and what is locked in where nothing slips
+    does not matter. At constant P and tilt that is slip to a depth of (S_A - S_B)/2. Otherwise the
+    cycle is followed from q = s f p all over to B, and from q = -s f p to A; the stick zones are
+    the same if the state is steady.
+    """
+    first, second, _ = loads_of(path)
+    for k, loads in enumerate((first, second)):
+        slides = partial(refuse_sliding, scene.friction, loads.P, loads.Q)
+        named(k, loads, slides, f"the cycle at {'AB'[k]},")
+    start, end = TurningPoint(first), TurningPoint(second)
+    pull = simple(contacts.shear(second) - contacts.shear(first))
+    found = _at_constant_pressure(contacts, start, second, pull) if pull else None
+    if found:
+        return found
+    if (first.normal == second.normal and not pull) or all_sticks(contacts, first, second):
+        return start, end, start
+    s = -math.copysign(1.0, pull.real)
+    points = [start]
+    for k, (begin, to, sign) in enumerate(((first, second, s), (second, first, -s)), 1):
+        slid = sheared_all_over(contacts, begin, sign * scene.friction * begin.P)
+        there = partial(contacts.followed, slid, begin, to)
+        points.append(named(k, to, there, f"the cycle on the way to {'ABA'[k]},"))
+    named(1, second, partial(_refuse_unsteady, points[1:], s), "the cycle on the way to B,")
+    return tuple(points)
+
+
+def _at_constant_pressure(
+    contacts: Followable, start: TurningPoint, second: Loads, pull: complex
+) -> tuple[TurningPoint, ...] | None:
+    """The points at constant P and tilt, if layers answer them."""
+    if start.loads.normal != second.normal:
+        return None
+    there = layered(contacts, start, second, pull)
+    half = layered(contacts, start, second, 0.5 * pull)
+    if there is None or half is None:
+        return None
+    s = -there.sign
+    memory, _ = LoadMemory().changed(-0.5 * s * pull, s)
+    found = [replace(start, memory=memory, turned=there.turned)]
+    for sign, loads in ((-s, second), (s, start.loads)):
+        memory, slipped = found[-1].memory.changed(-s * pull, sign)
+        found.append(TurningPoint(loads, memory, sign, slipped, there.turned))
+    return tuple(found)
+
+
+def all_sticks(contacts: Followable, first: Loads, second: Loads) -> bool:
+    """Whether nothing slips between two loads: the contact grows and sticks at all edges."""
+    small, large = sorted((first, second), key=lambda loads: loads.P)
+    step = LoadStep(contacts, small, large)
+    f = contacts.scene.friction
+    return all(
+        end.motion is Motion.GROWS
+        for share in SHARES
+        for end in onset(State.untouched(step.at(share)), step.rates, f).ends
+    )
+
+
+def sheared_all_over(contacts: Contacts, loads: Loads, Q: float) -> State:
+    """The state in which q is in proportion to p and carries Q, and all sticks."""
+    contact = contact_under(contacts, loads)
+    share = Q / (contacts.scene.friction * loads.P)
+    q = Pieces(contact.limit.ends, share * contact.limit.series)
+    return State(contact, contact.patches, (), q)
+
+
+def _refuse_unsteady(found: list[TurningPoint], s: float) -> None:
+    """Refuse stick zones that are not the same at both points, and slip in two directions."""
+    there, back = (point.state for point in found)
+    room = SAME * there.contact.width
+    ways = {sense for *_, sense in there.slip} == {-s} and {sense for *_, sense in back.slip} == {s}
+    alike = len(there.stick) == len(back.stick) and all(
+        abs(a - b) <= room
+        for one, other in zip(there.stick, back.stick)
+        for a, b in zip(one, other)
+    )
+    if not (ways and alike):
+        raise ContactError(UNSTEADY)

@@ -17,15 +17,15 @@ from sie.friction.panel_shear import PanelShear
 from sie.friction.part_answers import drag, slip
 from sie.friction.slip_state import Slip
 from sie.friction.state import SAME, State, between, intervals
+from sie.friction.step_energy import work
 from sie.numerics import chebyshev
 from sie.numerics.graded_panels import Pieces, Rule
 from sie.numerics.interval import Interval
-from sie.numerics.zones import left_over, within
+from sie.numerics.zones import within
 from sie.traction.base import ZERO, Density
 from sie.traction.combination import superposed
 
-from . import changing_contact
-from .changing_contact import ChangingContact
+from .load_steps import Followable, sheared_all_over
 from .turning_point import TurningPoint
 
 Array = NDArray[np.float64]
@@ -33,26 +33,21 @@ Array = NDArray[np.float64]
 NODES, EARLY = 24, 6  # of a step: nodes in a root of its share
 
 
-class Followed(changing_contact.Followed, Protocol):
+class Followed(Followable, Protocol):
     """A path that was followed, and its contacts.
 
+    turning_points   the layers after each step
     period           of the profile
-    first_loading    the state of a contact that was never sheared before S rose to a depth
     plain            the solution under P and a tilt, without shear
-    patches          the patches of contact under P and a tilt
     shift_of_step    the shift that slip adds in one step
-    contact          the contact under loads, in one patch
-    by_parts         a turning point, with the parts of the step to it
     """
+
+    turning_points: tuple[TurningPoint, ...]
 
     @property
     def period(self) -> float: ...
-    def first_loading(self, normal: tuple[float, float], depth: complex, turned: bool) -> Slip: ...
     def plain(self, P: float, turn: float) -> Any: ...
-    def patches(self, P: float, turn: float) -> tuple[tuple[float, float], ...]: ...
     def shift_of_step(self, index: int) -> float: ...
-    def contact(self, loads: Loads) -> Interval: ...
-    def by_parts(self, index: int) -> TurningPoint: ...
 
 
 class PathSlip(Slip):
@@ -70,31 +65,6 @@ class PathSlip(Slip):
         self.state = history.turning_points[index] if state is None else state
         self.normal = self.state.loads.normal
         self.friction = history.scene.friction
-        if self.state.straight and isinstance(self.state.memory.total, complex):
-            self._refuse_retreat()
-
-    def _refuse_retreat(self) -> None:
-        """Refuse a return from loads under which slip zones have retreated.
-
-        A scene means one monotonic loading and has an answer; after a return the state depends on
-        the path.
-        """
-        depth, returned = self.state.memory.deepest
-        if returned and depth.imag and not self._loading(depth).advancing:
-            Q, sigma = depth.real, depth.imag / self.history.shear(Loads(0.0, 0.0, 1.0)).imag
-            raise ContactError(
-                f"step {self.index} of the path: under the largest loads, Q = {Q:.6g} with σ = "
-                f"{sigma:.6g}, zones of slip have retreated on the way, and what they left "
-                "depends on that way; lower Q or σ",
-                step=self.index,
-            )
-
-    @property
-    def advancing(self) -> bool:  # type: ignore[override]
-        memory = self.state.memory
-        if not (self.state.straight and memory.total.imag):
-            return True
-        return all(loading.advancing for _, loading in self._terms)
 
     def _loading(self, depth: complex) -> Slip:
         return self.history.first_loading(self.normal, depth, self.state.turned)
@@ -116,11 +86,8 @@ class PathSlip(Slip):
     @property
     def _now(self) -> Slip | None:
         """The first loading whose depth is that of the last step's slip."""
-        return (
-            self._loading(self.state.memory.top.thickness)
-            if self.state.last and self.state.memory.top
-            else None
-        )
+        top = self.state.memory.top
+        return self._loading(top.thickness) if self.state.slipped and top else None
 
     @property
     def stick(self) -> tuple[tuple[float, float], ...]:  # type: ignore[override]
@@ -129,28 +96,10 @@ class PathSlip(Slip):
 
     @property
     def slipped(self) -> tuple[tuple[float, float, float], ...]:
-        now, last = self._now, self.state.last
-        zones = (
-            ()
-            if now is None or last is None
-            else tuple((lo, hi, sign * last.sign) for lo, hi, sign in now.slipped)
-        )
-        return *self._slipped_and_gone, *zones
-
-    @property
-    def _slipped_and_gone(self) -> tuple[tuple[float, float, float], ...]:
-        """Zones that slipped while P fell, and where slip reversed or stopped as they left."""
-        zones: list[tuple[float, float, float]] = []
-        for gone in self.state.slips:
-            if gone is not self.state.last:
-                start, end = (
-                    self.normal[0] - depth.real / self.friction
-                    for depth in (gone.layers[0].surface[0], gone.layers[-1].lower)
-                )
-                outer, inner = (self.history.patches(load, self.normal[1]) for load in (start, end))
-                left = left_over(outer, inner, self.history.period)
-                zones += [(lo, hi, gone.sign) for lo, hi in left]
-        return tuple(zones)
+        now = self._now
+        if now is None:
+            return ()
+        return tuple((lo, hi, sign * self.state.sign) for lo, hi, sign in now.slipped)
 
     @property
     def untouched(self) -> tuple[float, float]:
@@ -189,23 +138,14 @@ class PathSlip(Slip):
     def slip(self, x: Array) -> Array:
         """Relative slip since x came into contact."""
         past = self.history.turning_points[: self.index + 1]
-        if not self.state.parts and all(state.loads.normal == self.normal for state in past):
-            return sum(
-                (weight * loading.slip(x) for weight, loading in self._terms), np.zeros(x.shape)
-            )
         total = np.zeros(x.shape)
         for index, (before, state) in enumerate(pairwise((past[0], *past))):
             if state.loads.P == 0.0:
                 continue
             touches = self._touches(x, state.loads)
-            start = before.loads.touching(state.loads) if state.parts else before.loads
-            stayed = self._touches(x, start) & touches
-            total = np.where(stayed, total, 0.0) + step_slip(self.history, index, x)
-            new = touches & ~stayed
-            if state.parts:
-                total[new] = step_slip(self.history, index, x[new])
-            elif state.slips and index and new.any():
-                total[new] = ChangingContact(self.history, index).slip_of_new(x[new])
+            stayed = self._touches(x, before.loads.touching(state.loads)) & touches
+            total = np.where(stayed, total, 0.0)
+            total[touches] += step_slip(self.history, index, x[touches])
         return total
 
     def _touches(self, x: Array, loads: Loads) -> NDArray[np.bool_]:
@@ -218,10 +158,6 @@ class PathSlip(Slip):
 
     @cached_property
     def shift(self) -> float:
-        past = self.history.turning_points[: self.index + 1]
-        same = all(state.loads.normal == self.normal for state in past)
-        if same and not self.state.parts:
-            return sum(weight * loading.shift for weight, loading in self._terms)
         return sum(self.history.shift_of_step(index) for index in range(self.index + 1))
 
 
@@ -285,67 +221,65 @@ def state_of(history: Followed, point: TurningPoint) -> State:
 
 def touched(history: Followed, loads: Loads) -> State:
     """The same where the bodies have just come into contact: q is in proportion to p."""
-    contact = contact_under(history, loads)
-    share = loads.Q / (history.scene.friction * loads.P)
-    q = Pieces(contact.limit.ends, share * contact.limit.series)
-    return State(contact, contact.patches, (), q)
+    return sheared_all_over(history, loads, loads.Q)
+
+
+# -- what a step adds ------------------------------------------------------------------------------
+
+
+def step_energy(history: Followed, index: int) -> float:
+    """The energy that friction dissipates in one step."""
+    state = history.turning_points[index]
+    if state.step is not None:
+        with np.errstate(all="ignore"):  # what that leaves is not accurate, and refused
+            return sum(work(part, state.step) for part in state.parts)
+
+    def until(depth: complex) -> float:
+        loading = history.first_loading(state.loads.normal, depth, state.turned)
+        return loading.integrals.work if depth and loading.integrals else 0.0
+
+    return sum(o.jump * (until(o.lower) - until(o.upper)) for o in state.slipped)
+
+
+def step_slip(history: Followed, index: int, x: Array) -> Array:
+    """The slip in one step; where x came into contact in it, since then."""
+    state, out = history.turning_points[index], np.zeros(x.shape)
+    for part in state.parts:
+        assert state.step is not None
+        out += slip(part, state.step, x)
+    for o in state.slipped:
+        for depth, way in ((o.lower, state.sign), (o.upper, -state.sign)):
+            if depth:
+                loading = history.first_loading(state.loads.normal, depth, state.turned)
+                out += way * o.jump * loading.slip(x)
+    return out
 
 
 def step_shift(history: Followed, index: int) -> float:
     """The shift that slip adds in one step."""
     state = history.turning_points[index]
-    if any(any(o.surface) for event in state.slips for o in event.layers):
-        return _shift_of_change(history, index)
-    if state.parts:
-        return _shift_of_change(history, index)
+    if state.step is not None:
+        return _shift_of_parts(history, state)
 
     def until(depth: complex) -> float:
-        return (
-            history.first_loading(state.loads.normal, depth, state.turned).shift if depth else 0.0
-        )
+        loading = history.first_loading(state.loads.normal, depth, state.turned)
+        return loading.shift if depth else 0.0
 
-    return sum(
-        event.sign * o.jump * (until(o.lower) - until(o.upper))
-        for event in state.slips
-        for o in event.layers
-    )
+    return sum(state.sign * o.jump * (until(o.lower) - until(o.upper)) for o in state.slipped)
 
 
-def step_slip(history: Followed, index: int, x: Array) -> Array:
-    """The slip in one step, where x was in contact all along it."""
-    state = history.turning_points[index]
-    normal, out = state.loads.normal, np.zeros(x.shape)
-    for part in state.parts:
-        assert state.step is not None
-        out += slip(part, state.step, x)
-    if state.last is not None:  # zones that slipped before have left the contact
-        for o in state.last.layers:
-            for depth, sign in ((o.lower, 1.0), (o.upper, -1.0)):
-                if sign < 0.0 and depth == o.surface[0]:
-                    continue  # slip began at the edges
-                at, under = depth, normal
-                if state.turned and sign < 0.0 and any(o.surface):
-                    at = depth - o.surface[0]
-                    under = history.turning_points[index - 1].loads.normal
-                if at.real > 0.0 or at.imag:
-                    loading = history.first_loading(under, at, state.turned)
-                    out += sign * o.jump * state.last.sign * loading.slip(x)
-    return out
-
-
-# -- while the contact changes ---------------------------------------------------------------------
-
-
-def _shift_of_change(history: Followed, index: int) -> float:
+def _shift_of_parts(history: Followed, point: TurningPoint) -> float:
     """The shift that slip adds in a step: all of it, less that without slip.
 
     A contact [M - R, M + R] that does not slip shifts by -2 ln R/(π E*) dQ + 2/E* M dτ.
     """
-    if not history.in_one_patch:
-        ChangingContact(history, index).refuse("how far slip shifts the indenter is not covered")
-    point = history.by_parts(index)
     step = point.step
     assert step is not None
+    if not history.in_one_patch:
+        raise ContactError(
+            f"the step to {point.loads} is followed in several patches: how far slip shifts the "
+            "indenter in it is not covered; keep P, the tilt and the proportion of Q and σ"
+        )
     u, weight = chebyshev.gauss_legendre(NODES)
     shares = u**EARLY  # beside the place of first contact R is like a power of the share
     stuck_shift = 0.0
