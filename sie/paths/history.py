@@ -277,8 +277,8 @@ class History(PathContacts, Sequence[Solution]):
         if same:
             change = max(change, abs(loads.sigma - first.sigma) / self.scene.Estar * first.P)
         else:
-            tilts = (self.plain(*at.normal).tilt for at in (first, loads))
-            change, limit = max(change, f * arm * abs(np.subtract(*tilts))), UNSEEN
+            before, now = (self.plain(*at.normal).tilt for at in (first, loads))
+            change, limit = max(change, f * arm * abs(now - before)), UNSEEN
         if change <= limit * f * loads.P:
             raise ContactError(
                 f"all loads change by less than {limit:g} of f P, which rounding hides: drop "
