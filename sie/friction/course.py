@@ -333,7 +333,8 @@ def _end_of_part(state: State, step: LoadStep, good: Verdict, bad: Verdict) -> f
 def _stop(state: State, step: LoadStep, good: Verdict, bad: Verdict) -> float:
     """The share at which an end recedes no longer. Raises ContactError where that is not known."""
     alike = bad.equations is not None and bad.solution.zones.signs == good.solution.zones.signs
-    k = int(bad.margins.argmin()) if alike and len(bad.margins) == len(good.margins) else -1
+    alike = alike and len(bad.margins) == len(good.margins) > 0
+    k = int(bad.margins.argmin()) if alike else -1
     if k < 0 or not bad.margins[k] < 0.0 < good.margins[k]:
         raise ContactError("no end of a stick zone stops")
 

@@ -150,7 +150,7 @@ def _flat(now: Equations) -> NDArray[np.bool_]:
 
     Their charge is compared with what is released beside them; with all that is, where nothing is.
     """
-    rule, peak = now.rule, now.after.peak
+    rule, peak, width = now.rule, now.after.peak, now.after.width
     whole = float(np.abs(now.change).max(initial=0.0))
     found = np.zeros(now.stick.size, dtype=bool)
     for j, (e, kappa) in enumerate(zip(now.stick.ravel(), now.charge_of_ends, strict=True)):
@@ -159,9 +159,9 @@ def _flat(now: Equations) -> NDArray[np.bool_]:
             length = float((rule.hi - rule.lo)[beside][0])
             released = float(np.abs(now.change[beside]).max())
             if released > NOTHING * peak:
-                found[j] = abs(kappa) * length**0.5 <= FLAT * released
+                found[j] = abs(kappa) * (length * width) ** 0.5 <= FLAT * released
             else:
-                found[j] = abs(kappa) * now.after.width**0.5 <= FLAT_AMONG_ALL * whole
+                found[j] = abs(kappa) * width <= FLAT_AMONG_ALL * whole
     return found
 
 
@@ -245,8 +245,10 @@ def _with_ends(found: Equations, ends: Array) -> Equations:
 def balanced(found: Equations, missed: float) -> bool:
     """Whether zones solve the equations."""
     try:
-        size = np.abs(found.charges).sum(axis=1).max() + abs(found.after.Q) + found.after.peak
-        return bool(np.abs(found.residual).max() <= missed * size)
+        stress = np.abs(found.charges).sum(axis=1).max() + found.after.peak
+        size = np.full(found.residual.shape, stress * found.after.width + abs(found.after.Q))
+        size[: len(found.stick)] = stress
+        return bool((np.abs(found.residual) <= missed * size).all())
     except ContactError:  # a zone of slip that has vanished
         return False
 

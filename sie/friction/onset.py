@@ -27,7 +27,8 @@ Array = NDArray[np.float64]
 
 ROUNDS = 12
 SCANNED = np.sin(0.5 * np.pi * np.arange(1, 26) / 26.0) ** 2  # shares of a slip zone
-SETTLED = 1e-14  # of a slip zone
+SETTLED = 1e-14  # of a slip zone, and of f p
+ROUNDED = 1e-13  # of f K_p: |dQ| = f dP sticks
 NEAR = 1e-7  # of the contact: so near to an end f p - q goes like the root of the distance
 STILL = 1e-9  # of the largest K: less is zero
 
@@ -172,8 +173,8 @@ def set_out(state: State, now: Onset, loads: LoadRates, friction: float) -> Arra
         if end.motion is Motion.RECEDES:
             inward = -1.0 if j % 2 else 1.0
             x = np.array([end.place + inward * near])
-            room = float(state.contact.limit(x)[0] - end.sense * state.shear(x)[0])
-            C = max(room, SETTLED) / np.sqrt(near)
+            limit = float(state.contact.limit(x)[0])
+            C = max(limit - end.sense * float(state.shear(x)[0]), SETTLED * limit) / np.sqrt(near)
             speeds[j] = inward * 2.0 * max(end.sense * float(K[j]), 0.0) / C
     return speeds
 
@@ -215,7 +216,7 @@ def _edge(state: State, now: Onset, rates: Rates, j: int) -> End:
     end, K = now.ends[j], float(rates.K.ravel()[j])
     edges = np.array(now.patches).ravel()
     Kp = rates.friction * float(rates.Kp.ravel()[np.abs(edges - end.place).argmin()])
-    if Kp > 0.0 and abs(K) <= Kp:
+    if Kp > 0.0 and abs(K) <= (1.0 + ROUNDED) * Kp:
         return End(end.place, 0.0, Motion.GROWS)
     if Kp <= 0.0:
         K -= _share_of_limit(state, end.place) * Kp

@@ -20,7 +20,7 @@ from sie.errors import ContactError
 from .admissible import built
 from .cells import zones_on_cells
 from .loading import LoadStep
-from .onset import End, Motion, Onset, resting_place, set_out
+from .onset import ROUNDED, End, Motion, Onset, resting_place, set_out
 from .rates import Rates
 from .state import Ends, State, overlaps
 from .strips import MOMENTS, TAU, Panel, Span, StripEquations, solved_panel
@@ -301,7 +301,7 @@ def _of_edges(panel: Panel) -> Iterator[Event]:
     for j in panel.span.which(Motion.GROWS):
         k = int(np.abs(old - panel.span.start[j]).argmin())
         K = np.array([r.K.ravel()[j] for r in panel.rates])
-        Kp = np.array([r.friction * r.Kp.ravel()[k] for r in panel.rates])
+        Kp = np.array([(1.0 + ROUNDED) * r.friction * r.Kp.ravel()[k] for r in panel.rates])
         for sense in (1.0, -1.0):
             share = _root(_series(Kp - sense * K))
             if share is not None:

@@ -292,6 +292,8 @@ class History(PathContacts, Sequence[Solution]):
             loads = self.turning_points[k].loads
             place = "step {} of the path, to"
             lost = named(k, loads, partial(step_energy, self, k), place)
+            if not np.isfinite(lost):
+                raise ContactError("the energy lost is no double in these units: take larger ones")
             known.append(lost + (known[-1] if known else 0.0))
         return known[index]
 

@@ -287,15 +287,6 @@ def test_a_path_needs_friction_and_a_finite_one():
     solved(replace(bonded, normal_load=1.0, tangential_load=0.1))
 
 
-def test_slip_is_given_at_the_points_that_the_refusal_names_as_in_contact():
-    row = replace(SHEARED, profile=sie.Row([sie.Parabola(1.0), sie.Parabola(1.0).shifted(3.0)]))
-    last = sie.follow(row, sie.Path([(1.0, 0.1), (1.2, 0.35)]))[-1]
-    with pytest.raises(sie.ContactError, match="within the contact under P = 1") as refusal:
-        last.slip(last.edges[1])
-    within = sie.solve(replace(row, normal_load=number("under P = ", str(refusal.value)))).edges[1]
-    assert last.slip(within) != 0.0
-
-
 def half_width(solution):
     return solution.half_width
 
