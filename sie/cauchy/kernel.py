@@ -68,9 +68,10 @@ class Series(NamedTuple):
 def series(problem: Problem, tol: float) -> Series | None:
     """The kernel's series, by one call of k or two; None where it has none.
 
-    It is None also where k returns no finite values: direct sampling then raises the error.
+    It is None also where k returns no finite values: direct sampling then raises the error; and for
+    a kernel that is singular at an end, of which no difference from its largest value would show.
     """
-    if problem.k is None:
+    if problem.k is None or problem.generalised:
         return None
     n = max(min(FIRST, MOST // len(problem.maps)), FEWEST)
     for _ in range(2):
