@@ -35,12 +35,13 @@ LAYERS = (
     ("profiles",),
     ("problem", "traction"),
     ("contact", "stress", "cauchy"),
+    ("cracks",),
     ("friction",),
     ("patches",),
     ("certificate",),
     ("planning", "stages"),
     ("frictionless", "stress_answers", "solution"),
-    ("paths",),
+    ("paths", "wear"),
     ("sweeps",),
     ("later",),
     ("io",),
@@ -64,6 +65,8 @@ HANDED_UP = {
     ("sie.solution", "sie.plots.one_axes"),
     ("sie.paths.steady_state", "sie.io.html_report"),
     ("sie.stress.fretting", "sie.io.html_report"),
+    ("sie.stress.fretting", "sie.cracks.stress_intensity"),
+    ("sie.cracks.stress_intensity", "sie.plots.one_axes"),
 }
 
 
