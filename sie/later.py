@@ -5,6 +5,9 @@
 
 from .cauchy.equation import CauchyEquation
 from .certificate.trace_noise import TraceReport
+from .cracks.edge_crack import EdgeCrack
+from .cracks.edge_intensity import EdgeIntensity
+from .cracks.stress_intensity import StressIntensity
 from .paths.dissimilar_cycle import steady_cycle
 from .paths.history import History, follow
 from .paths.steady_state import SteadyCycle
@@ -16,23 +19,32 @@ from .stress.yield_limit import Peak, YieldPoint
 from .sweeps.smoothing_search import least_smoothing
 from .sweeps.sweep import Interrupted, sweep
 from .sweeps.work import QUANTITIES
+from .wear.limit import WearLimit, wear_limit
+from .wear.modes import WearModes, wear_modes
 
 __all__ = [
     "QUANTITIES",
     "CauchyEquation",
     "CriticalPlane",
     "Cycle",
+    "EdgeCrack",
+    "EdgeIntensity",
     "History",
     "Interrupted",
     "Peak",
     "Plan",
     "SteadyCycle",
     "Stress",
+    "StressIntensity",
     "TraceReport",
+    "WearLimit",
+    "WearModes",
     "YieldPoint",
     "follow",
     "least_smoothing",
     "plan",
     "steady_cycle",
     "sweep",
+    "wear_limit",
+    "wear_modes",
 ]

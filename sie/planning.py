@@ -13,7 +13,7 @@ from .problem.request import ECONOMY, sheared, wanted
 from .problem.scene import Scene, refuse_no_scene
 from .profiles.row import asks_for_patches
 
-BODY = ("stress", "yield", "tension", "cycle")  # what is asked of the stress in the body
+BODY = ("stress", "yield", "tension", "cycle", "crack")  # what is asked of the stress in the body
 # The stages of `Solution` that answer what is asked for, beside the contact itself: where the shear
 # follows from the pressure, and where one problem gives both.
 TWO_PROBLEMS: dict[str, tuple[str, ...]] = {
@@ -94,7 +94,8 @@ def plan(
         The question.
     want : str or iterable of str, optional
         What is asked for: "edges", "pressure", "gap", "shear", "check", "stress", "yield",
-        "tension", "cycle", or attributes of the solution such as "stick", "slip" and "half_width".
+        "tension", "cycle", "crack", or attributes of the solution such as "stick", "slip" and
+        "half_width".
     economy : collection of str, optional
         The savings that are allowed, as in `solve`.
 

@@ -37,6 +37,7 @@ if TYPE_CHECKING:  # what a stage needs is imported when it is computed
     from .cauchy.density import JacobiDensity
     from .certificate.result import Certificate, ShearCertificate
     from .certificate.trace_noise import TraceReport
+    from .cracks.edge_intensity import EdgeIntensity
     from .friction.coupled.answer import LoadedContact
     from .friction.coupled.pressed import Pressed
     from .friction.coupled.traction import OnHalves
@@ -526,6 +527,54 @@ class Solution(Frictionless, StressAnswers):
         if self.scene.coupled:
             return self.coupled[1].shift
         return self.tangential.shift if self.sheared else 0.0
+
+    def edge_intensity(self, side: str) -> EdgeIntensity:
+        """What the stress next to an edge depends on: its intensities, and how far they hold.
+
+        Parameters
+        ----------
+        side : {"left", "right"}
+            The edge.
+
+        Returns
+        -------
+        EdgeIntensity
+            `.normal` K_N, `.tangential` K_T in full stick, `.slip_length` and `.reach`.
+
+        Raises
+        ------
+        ValueError
+            For another side.
+        ContactError
+            For a contact in several patches, and for dissimilar bodies with friction, whose edges
+            have other powers.
+
+        Examples
+        --------
+        >>> import math, sie
+        >>> scene = sie.Scene(profile=sie.Parabola(1.0), modulus=1.0, normal_load=math.pi / 4)
+        >>> round(sie.solve(scene).edge_intensity("left").normal, 12)  # p0 sqrt(2/b) = sqrt(2)/2
+        0.707106781187
+        """
+        if side not in ("left", "right"):
+            raise ValueError(f'side = {side!r} is no edge: give "left" or "right"')
+        if self.scene.beta and self.scene.friction:
+            raise ContactError(
+                f"dissimilar bodies (β = {self.scene.beta:.4g}) with friction have other powers at "
+                "their edges than a root: give dundurs = 0 to neglect β"
+            )
+        if self._several is not None:
+            raise ContactError(
+                f"contact in {len(self.patches)} patches: what sticks at one edge depends on all; "
+                "give the profile of one patch and its load"
+            )
+        from .cracks.edge_intensity import edge_intensity
+
+        left = side == "left"
+        loads = self.tangential_load, self.scene.tau
+        return edge_intensity(
+            self.pressure, self.sharp[0 if left else 1], left, loads, self.scene.friction
+        )
 
     def _refuse_unknown_slip(self) -> None:
         if self.scene.slides and self.scene.beta:

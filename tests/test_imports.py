@@ -39,12 +39,13 @@ LAYERS = (
     ("profiles",),
     ("problem", "traction"),
     ("contact", "stress", "cauchy"),
+    ("cracks",),
     ("friction",),
     ("patches",),
     ("certificate",),
     ("planning", "stages"),
     ("frictionless", "stress_answers", "solution"),
-    ("paths",),
+    ("paths", "wear"),
     ("sweeps",),
     ("later",),
     ("io",),
@@ -68,6 +69,8 @@ HANDED_UP = {
     ("sie.stress_answers", "sie.io.boundary_data"),
     ("sie.solution", "sie.io.html_report"),
     ("sie.solution", "sie.plots.one_axes"),
+    ("sie.stress.fretting", "sie.cracks.stress_intensity"),
+    ("sie.cracks.stress_intensity", "sie.plots.one_axes"),
 }
 
 

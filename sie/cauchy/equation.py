@@ -28,6 +28,8 @@ from .system import System
 Array = NDArray[Any]
 Interval = tuple[float, float]
 
+MOUTH = 1e-14  # of the length: what is left out next to a finite end, where φ varies with ln x
+
 
 @dataclass(frozen=True)
 class CauchyEquation:
@@ -43,8 +45,9 @@ class CauchyEquation:
         Constants, b ≠ 0 and a² + b² ≠ 0.
     k : callable, optional
         Regular kernel k(x, t), called with arrays of one shape.
-    ends : {"singular", "bounded"}, pair of these, or a pair for each interval
-        Whether φ is infinite or zero at the left and at the right end.
+    ends : {"singular", "bounded", "finite"}, pair of these, or a pair for each interval
+        Whether φ is infinite or zero at the left and at the right end; "finite" at the end x = 0
+        where k is singular, as at the mouth of a crack.
     total : complex or sequence, optional
         Given ∫φ dx: of all intervals together, or one for each interval (None where not given).
     moment : complex or sequence, optional
@@ -69,9 +72,15 @@ class CauchyEquation:
     singular ends), plus one for each free function. Without free functions and with the index -1
     the right-hand side must be consistent, which is checked.
 
+    A generalised kernel is singular where x and t both reach an end, like 1/(x + t) at the mouth of
+    a crack. Such an end is x = 0 and "finite" (for the index it counts as bounded); the unknown is
+    a function of ln x there, and k is called with x and t down to 1e-14 of the length, where the
+    interval ends.
+
     References
     ----------
-    Muskhelishvili, Singular Integral Equations (1953), §§ 107-115; Erdogan, Gupta & Cook (1973).
+    Muskhelishvili, Singular Integral Equations (1953), §§ 107-115; Erdogan, Gupta & Cook (1973), on
+    generalised kernels § 7.5.
 
     Examples
     --------
@@ -122,6 +131,7 @@ class CauchyEquation:
             )
         self._refuse_degenerate()
         object.__setattr__(self, "ends", self._ends())
+        self._refuse_finite_ends()
         for name in ("total", "moment"):
             object.__setattr__(self, name, self._given(name))
         self._refuse_miscounted()
@@ -206,18 +216,43 @@ class CauchyEquation:
                 else f"{ends!r}"
             )
             raise ValueError(
-                f"ends are {given}: give 'singular' or 'bounded', or a pair of them, or such a "
-                "pair for each interval"
+                f"ends are {given}: give 'singular', 'bounded' or 'finite', or a pair of them, or "
+                "such a pair for each interval"
             )
         pairs = tuple((pair, pair) if isinstance(pair, str) else pair for pair in ends)
         for pair in pairs:
             if (
                 not isinstance(pair, Sequence)
                 or len(pair) != 2
-                or any(end not in ("singular", "bounded") for end in pair)
+                or any(end not in ("singular", "bounded", "finite") for end in pair)
             ):
-                raise ValueError(f"ends = {pair!r}: each end is 'singular' or 'bounded'")
+                raise ValueError(f"ends = {pair!r}: each end is 'singular', 'bounded' or 'finite'")
         return tuple((left, right) for left, right in pairs)
+
+    def _refuse_finite_ends(self) -> None:
+        places = [
+            x
+            for interval, pair in zip(self.interval, self.ends, strict=True)
+            for x, end in zip(interval, pair, strict=True)
+            if end == "finite"
+        ]
+        if places not in ([], [0.0]):
+            raise ValueError(
+                f"a finite end at x = {places[-1]:g}: there is one at most, and it is x = 0, so "
+                "that k has all digits next to it; measure x from there"
+            )
+        if places and self.k is None:
+            raise ValueError(
+                "a finite end without k: φ is finite at an end only where k is singular; give k, "
+                "or make the end singular or bounded"
+            )
+
+    @property
+    def _mouths(self) -> tuple[float, float]:
+        """What is left out at a finite first and last end; infinite at the others."""
+        first, last = self.ends[0][0] == "finite", self.ends[-1][1] == "finite"
+        (x1, x2), (x3, x4) = self.interval[0], self.interval[-1]
+        return (MOUTH * (x2 - x1) if first else np.inf, MOUTH * (x4 - x3) if last else np.inf)
 
     def _given(self, name: str) -> tuple[Any, ...] | complex | None:
         value = getattr(self, name)
@@ -246,7 +281,7 @@ class CauchyEquation:
     def weights(self) -> tuple[Weight, ...]:
         """The weight (1-s)^alpha (1+s)^beta of each interval, with its index."""
         found = [
-            weight_of(complex(self.a), complex(self.b), (e[0] == "bounded", e[1] == "bounded"))
+            weight_of(complex(self.a), complex(self.b), (e[0] != "singular", e[1] != "singular"))
             for e in self.ends
         ]
         for weight, pair in zip(found, self.ends, strict=True):
@@ -284,7 +319,7 @@ class CauchyEquation:
     def problem(self) -> Problem:
         """The equation on its maps, with weights and conditions, as the solver takes it."""
         return Problem(
-            maps(self.interval, self.weights),
+            maps(self.interval, self.weights, self._mouths),
             self.weights,
             self.a,
             self.b,
@@ -292,6 +327,7 @@ class CauchyEquation:
             self.k,
             self._conditions,
             tuple(self.free),
+            any("finite" in pair for pair in self.ends),
         )
 
     def solve(self, tol: float = 1e-13, n: int | None = None) -> JacobiDensity:

@@ -21,8 +21,9 @@ Array = NDArray[Any]
 Function = Callable[[Array], Any] | complex
 Kernel = Callable[[Array, Array], Any]
 
-# Nodes of the first attempt: on one interval, on each of several, and on graded ones.
-SMALLEST, SMALLEST_OF_SEVERAL, SMALLEST_GRADED = 4, 8, 32
+# Nodes of the first attempt: on one interval, on each of several, on graded ones, and next to an
+# end where k is singular.
+SMALLEST, SMALLEST_OF_SEVERAL, SMALLEST_GRADED, SMALLEST_GENERALISED = 4, 8, 32, 112
 # Points on no grid, where the equation's residual is measured.
 PROBES = np.array([-0.967, -0.871, -0.537, 0.071, 0.467, 0.859, 0.973])
 # A solution so many times larger than its right-hand side belongs to a matrix that is singular to
@@ -50,6 +51,7 @@ class Problem:
     k: Kernel | None
     conditions: tuple[Condition, ...]
     free: tuple[Function, ...]
+    generalised: bool = False  # whether k is singular at an end
 
     @property
     def is_transform(self) -> bool:
@@ -59,7 +61,8 @@ class Problem:
     def first_sizes(self) -> tuple[int, ...]:
         """The numbers of coefficients to begin with, one for each interval."""
         on_affine = SMALLEST if len(self.maps) == 1 else SMALLEST_OF_SEVERAL
-        return tuple(on_affine if isinstance(m, Affine) else SMALLEST_GRADED for m in self.maps)
+        on_graded = SMALLEST_GENERALISED if self.generalised else SMALLEST_GRADED
+        return tuple(on_affine if isinstance(m, Affine) else on_graded for m in self.maps)
 
     @property
     def functions(self) -> list[tuple[str, Function]]:

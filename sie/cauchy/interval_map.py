@@ -188,11 +188,24 @@ def smooth_coth(y: Array) -> Array:
 
 
 def maps(
-    intervals: tuple[tuple[float, float], ...], weights: tuple[Weight, ...]
+    intervals: tuple[tuple[float, float], ...],
+    weights: tuple[Weight, ...],
+    mouths: tuple[float, float] = (np.inf, np.inf),
 ) -> tuple[Map, ...]:
-    """One map for each of the intervals, which ascend, and their densities' weights."""
-    infinite = float("inf")
-    gaps = [infinite, *(after[0] - before[1] for before, after in pairwise(intervals)), infinite]
+    """One map for each of the intervals, which ascend, and their densities' weights.
+
+    `mouths` are left out at the first and the last end, as gaps to the mirror image of a crack.
+    """
+    first, last = (mouth if np.isfinite(mouth) else 0.0 for mouth in mouths)
+    ends = [list(of) for of in intervals]
+    ends[0][0] += first
+    ends[-1][1] -= last
+    intervals = tuple((x1, x2) for x1, x2 in ends)
+    gaps = [
+        mouths[0],
+        *(after[0] - before[1] for before, after in pairwise(intervals)),
+        mouths[1],
+    ]
     powers = [
         0,
         *(int(before.alpha.real < 0.0 > after.beta.real) for before, after in pairwise(weights)),

@@ -204,6 +204,18 @@ class System:
             [b.quadrature @ c[at] for b, at in zip(self.blocks, self._column_slices, strict=True)]
         )
 
+    def of_values(self) -> tuple[Array, Array]:
+        """(x, R): the unknowns are R times the values of g at x, where all conditions are 0."""
+        (block,) = self.blocks
+        rows = slice(0, len(block.x) - len(PROBES))
+        right = np.concatenate(
+            (
+                np.zeros((len(self.values), rows.stop)),
+                block.analysis.T * block.rows[2][rows],
+            )
+        )
+        return block.x[rows], solved(self._matrix, right[self.order])
+
     def solution(self) -> Array:
         """The unknowns, by LAPACK if they are few and otherwise by GMRES."""
         return self.by_lapack() if len(self.rhs) <= DENSE else self.by_gmres()

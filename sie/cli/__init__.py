@@ -110,22 +110,18 @@ def _solve(arguments: argparse.Namespace) -> int:
         )
     file = scene_of(arguments)
     refuse_overwriting(arguments, outputs, file)
-    _refuse_open_path(file)
+    _refuse_lacking(file)
     if "yield" in file.want or "field" in outputs:
         refuse_unknown_poisson(file.scene)
     with _progress(arguments):
         solution = _solution(file, arguments.tol)
-        cycle = None
-        if "cycle" in file.want:
-            from sie.io.cycle_answer import cycle_of
-
-            cycle = cycle_of(solution, file)
+        more = _more(solution, file)
         contents = {
-            path: _content(kind, path, solution, file, arguments, cycle=cycle)
+            path: _content(kind, path, solution, file, arguments, more=more)
             for kind, path in outputs.items()
         }
         shown = contents.pop(pathlib.Path(STANDARD), None)
-        text = shown.decode() if shown is not None else _report(solution, file, contents, cycle)
+        text = shown.decode() if shown is not None else _report(solution, file, contents, more)
         certified = "check" not in file.want or solution.check().ok
     _give(contents, "" if arguments.quiet and shown is None else text)
     if not certified:
@@ -143,6 +139,20 @@ def _solution(file: SceneFile, tol: float) -> Solution:
     from sie.paths.history import follow
 
     return follow(file.scene, file.load_path, tol=tol)[-1]
+
+
+def _more(solution: Solution, file: SceneFile) -> dict[str, Any]:
+    """The answers that belong to a path or to a crack, by name."""
+    out = {}
+    if "cycle" in file.want:
+        from sie.io.cycle_answer import cycle_of
+
+        out["cycle"] = cycle_of(solution, file)
+    if "crack" in file.want:
+        from sie.io.crack_answer import crack_answer
+
+        out["crack"] = crack_answer(solution, file)
+    return out
 
 
 def _progress(arguments: argparse.Namespace) -> Progress:
@@ -203,7 +213,7 @@ def _compared(
 
 def _plan(arguments: argparse.Namespace) -> int:
     file = scene_of(arguments)
-    _refuse_open_path(file)
+    _refuse_lacking(file)
     _solution(file, TOL)  # computes nothing, but refuses a scene that is not covered
     from sie.planning import plan
 
@@ -314,12 +324,17 @@ COMMANDS = {
 }
 
 
-def _refuse_open_path(file: SceneFile) -> None:
-    """ValueError if a cycle is wanted of a path that does not close."""
+def _refuse_lacking(file: SceneFile) -> None:
+    """ValueError if a cycle is wanted of a path that does not close, or a crack of no table."""
     if "cycle" in file.want:
         from sie.io.cycle_answer import start_of_cycle
 
         start_of_cycle(file.load_path)
+    if "crack" in file.want and file.crack is None:
+        raise ValueError(
+            "--want crack needs the table [crack], and the scene has none: give [crack] with at = "
+            '"trailing edge" and depths = [0.01, 0.1]'
+        )
 
 
 # -- output --------------------------------------------------------------------------------------
@@ -332,7 +347,7 @@ def _content(
     file: SceneFile,
     arguments: argparse.Namespace,
     *,
-    cycle: dict[str, Any] | None,
+    more: dict[str, Any],
 ) -> bytes:
     if kind == "field":
         from sie.io.stress_grid import Grid, file_bytes
@@ -350,7 +365,7 @@ def _content(
     if kind == "csv":
         return export.csv_text(solution, file, arguments.points).encode()
     if kind == "json":
-        return export.json_text(solution, file, arguments.points, cycle).encode()
+        return export.json_text(solution, file, arguments.points, more).encode()
     return _picture(solution, file, path.suffix[1:].lower())
 
 
@@ -369,12 +384,12 @@ def _report(
     solution: Solution,
     file: SceneFile,
     written: Iterable[pathlib.Path],
-    cycle: dict[str, Any] | None,
+    more: dict[str, Any],
 ) -> str:
     from sie.io.report import summary
 
     paragraphs = [
-        summary(solution, file, cycle, terminal_width()),
+        summary(solution, file, more, terminal_width()),
         "\n".join(f"wrote {path}" for path in written),
     ]
     return _fitted(paragraphs)

@@ -37,6 +37,8 @@ and, where they are wanted,
                  findley, fatemi_socie if [fatigue] has their constants: [{value, x, y, angle and
                  out_of_plane of the normal in degrees, amplitude, normal_stress}, ..]}, or {reason}
                  where one is infinite or not known
+    crack       with [crack]: {x, depth, mode_1 and mode_2 (state by depth), range_1, range_2,
+                 certificate, and with its constants threshold and arrest ("Infinity" for none)}
     path        of load paths: [{normal_load, tangential_load, bulk_stress, tilt or moment if the
                  path has them, stick, energy_lost if known}, ..]
     traces      with check, of measured traces: [{points, smoothing, averaged, separated, misfit,
@@ -53,7 +55,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -128,10 +130,10 @@ def _columns(solution: Solution, points: int) -> dict[str, Array]:
 
 
 def json_text(
-    solution: Solution, file: SceneFile, points: int = POINTS, cycle: dict[str, Any] | None = None
+    solution: Solution, file: SceneFile, points: int = POINTS, more: Mapping[str, Any] | None = None
 ) -> str:
     """All wanted quantities, as the module's docstring describes."""
-    return strict_json(as_dict(solution, file, points, cycle))
+    return strict_json(as_dict(solution, file, points, more))
 
 
 def strict_json(value: Any) -> str:
@@ -140,9 +142,9 @@ def strict_json(value: Any) -> str:
 
 
 def as_dict(
-    solution: Solution, file: SceneFile, points: int = POINTS, cycle: dict[str, Any] | None = None
+    solution: Solution, file: SceneFile, points: int = POINTS, more: Mapping[str, Any] | None = None
 ) -> dict[str, Any]:
-    """The content of `json_text`, with infinities as floats; `cycle` is that of `cycle_answer`."""
+    """The content of `json_text`, with infinities as floats; `more` as of `summary`."""
     units, scene = file.units, solution.scene
     out: dict[str, Any] = {
         "sie": __version__,
@@ -163,8 +165,7 @@ def as_dict(
     }
     if readings := readings_of(solution):
         out["readings"] = [reading._asdict() for reading in readings]
-    if cycle:
-        out["cycle"] = cycle
+    out |= more or {}
     if solution.history is not None:
         out["path"] = solution.history.rows()
     if "check" in wanted(file) and (reports := solution.trace_reports()):

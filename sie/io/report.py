@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import textwrap
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -20,6 +20,7 @@ from .scene_file import SceneFile, Units
 if TYPE_CHECKING:
     from sie.paths.history import History
 
+NONE: Mapping[str, Any] = {}
 SAME_PLACE = 1e-7  # of the half-width: rounding of p leaves a smooth peak uncertain by as much
 NOTHING = 1e-13  # of its scale: a smaller number is rounding, and is printed as 0
 MANY_ZONES = 8  # so many zones of stick or slip are listed
@@ -29,11 +30,11 @@ BETWEEN = "  "  # what stands between the columns of a table
 
 
 def summary(
-    solution: Solution, file: SceneFile, cycle: dict[str, Any] | None = None, width: int = WIDE
+    solution: Solution, file: SceneFile, more: Mapping[str, Any] = NONE, width: int = WIDE
 ) -> str:
     """All wanted quantities, section by section, with a picture of so many columns.
 
-    `cycle` is the answer of `cycle_answer`.
+    `more` has the answers of `cycle_answer` and `crack_answer` by name.
     """
     scene = f"{solution.scene.profile!r}, E* = {solution.scene.Estar:.6g} {file.units.stress}"
     scene = textwrap.fill(scene, WIDE, break_long_words=False, break_on_hyphens=False)
@@ -49,10 +50,14 @@ def summary(
             parts.append(_path_table(solution.history, file.units))
     if "check" in names:
         parts += map(str, (solution.check(), *solution.trace_reports()))
-    if cycle:
+    if "cycle" in more:
         from .cycle_report import cycle_summary  # noqa: PLC0415
 
-        parts.append(cycle_summary(cycle, file))
+        parts.append(cycle_summary(more["cycle"], file))
+    if "crack" in more:
+        from .crack_table import crack_summary  # noqa: PLC0415
+
+        parts.append(crack_summary(more["crack"], file.units))
     printed = solution.check().notes if "check" in wanted(file) else ()
     notes = "\n".join(note for note in notes_of(solution, file) if note not in printed)
     readings = [textwrap.fill(f"trace {reading}", WIDE) for reading in readings_of(solution)]

@@ -27,6 +27,8 @@
                         each row are (`path_table`); the scene is that of the last point
     [fatigue]           findley_k, shear_limit, fatemi_socie_k, yield_stress, depth, parts: for the
                         fatigue parameters of a path that closes (`fatigue_table`)
+    [crack]             at = "trailing edge" | "leading edge" | x, depths, threshold, fatigue_limit:
+                        cracks normal to the surface (`crack_table`)
 
 `sie example` lists commented files to start from. A mistake is refused in one sentence, a
 `SceneFileError`, that names the file, the table, the value and the remedy; a name that is not known
@@ -60,6 +62,7 @@ from sie.problem.request import WANTS
 from sie.problem.scene import Scene
 from sie.profiles.kinds import KINDS
 
+from .crack_table import Crack, crack_of
 from .fatigue_table import Fatigue, fatigue_of
 from .path_table import path_of
 from .profile_tables import Surroundings, profile_of
@@ -116,6 +119,7 @@ class SceneFile:
     want         the quantities to be answered, empty if the file names none
     load_path    the load path, None without one
     fatigue      constants of the material for fatigue parameters
+    crack        cracks normal to the surface, None without any
     reads        the files that it names
     """
 
@@ -125,6 +129,7 @@ class SceneFile:
     want: tuple[str, ...] = ()
     load_path: Path | None = None
     fatigue: Fatigue = field(default_factory=Fatigue)
+    crack: Crack | None = None
     reads: tuple[pathlib.Path, ...] = field(default=(), compare=False)
 
 
@@ -251,6 +256,9 @@ def from_tables(top: dict[str, Any], folder: pathlib.Path = HERE) -> SceneFile:
     profile = profile_of(top["profile"], around)
     bodies = _bodies(top, around.convert)
     fatigue = fatigue_of(values_of("fatigue", top.get("fatigue", {}), around.convert))
+    cracks = values_of("crack", top.get("crack", {}), around.convert)
+    if "crack" in top:
+        require("[crack]", cracks, ("at", "depths"))
     around.refuse_traces_without_units()
     return SceneFile(
         scene=Scene(profile=profile, **bodies, **loads),
@@ -259,6 +267,7 @@ def from_tables(top: dict[str, Any], folder: pathlib.Path = HERE) -> SceneFile:
         want=wants("want", TEXTS.read("want", top.get("want", []))),
         load_path=path,
         fatigue=fatigue,
+        crack=crack_of(cracks) if cracks else None,
         reads=tuple(around.reads),
     )
 

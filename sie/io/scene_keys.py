@@ -89,6 +89,13 @@ TABLES: Mapping[str, Keys] = {
         "depth": Key(by_type(list, list_of(CONSTANT), CONSTANT), LENGTH),
         "parts": Key(WHOLE),
     },
+    "crack": {
+        "at": Key(by_type(str, TEXT, NUMBER)),
+        "depths": Key(list_of(CONSTANT), LENGTH),
+        "threshold": Key(CONSTANT),
+        "fatigue_limit": Key(CONSTANT, STRESS),
+        "friction": Key(in_range(minimum=0.0)),
+    },
     "load": {
         **LOADS,
         "tilt": Key(NUMBER, ANGLE),

@@ -25,6 +25,8 @@ from sie.profiles.kinds import KINDS
 from sie.profiles.row import Periodic
 from sie.profiles.sampled import Sampled
 
+from .crack_table import TOGETHER as OF_CRACK
+from .crack_table import Crack
 from .fatigue_table import TOGETHER, Fatigue
 from .scene_keys import (
     LOADS,
@@ -57,6 +59,8 @@ def schema() -> Json:
         **tables,
         "load": _load(),
         "fatigue": tables["fatigue"] | {"dependencies": {k: [v] for k, v in TOGETHER}},
+        "crack": tables["crack"]
+        | {"required": ["at", "depths"], "dependencies": {k: [v] for k, v in OF_CRACK}},
         "body": body,
         "indenter": body,
     }
@@ -77,7 +81,9 @@ def schema() -> Json:
 
 
 def _table(name: str) -> Json:
-    return _object(_values(TABLES[name], _descriptions(Fatigue if name == "fatigue" else Scene)))
+    return _object(
+        _values(TABLES[name], _descriptions({"fatigue": Fatigue, "crack": Crack}.get(name, Scene)))
+    )
 
 
 def _body() -> Json:

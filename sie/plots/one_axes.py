@@ -7,6 +7,7 @@ from typing import Any
 from matplotlib.axes import Axes
 
 from sie.arguments import suggestion
+from sie.cracks.stress_intensity import StressIntensity
 from sie.io.scene_file import Units
 from sie.paths.history import History
 from sie.solution import Solution
@@ -43,6 +44,24 @@ def of_history(history: History, axes: Axes | None, units: Any) -> Axes:
         )
     axes = _axes(axes)
     loop_plot.draw(axes, loop, labels)
+    style.plain(axes)
+    return axes
+
+
+def of_cracks(
+    cracks: StressIntensity, axes: Axes | None, limits: tuple[float, float] | None, units: Any
+) -> Axes:
+    """ΔK of both modes against depth, with the threshold of (ΔK0, Δσ0) where these are given."""
+    labels = _labels(units)
+    lines = [(cracks.range, "-", "ΔK_I"), (cracks.shear_range, "--", "ΔK_II")]
+    if limits is not None:
+        lines.append((cracks.threshold(*limits), ":", "threshold of ΔK_I"))
+    axes = _axes(axes)
+    for values, line, label in lines:
+        axes.plot(cracks.depth, values, line, label=label)
+    axes.set_xlabel(f"depth of the crack, {labels.length}")
+    axes.set_ylabel(f"range of K, {labels.stress} √{labels.length}")
+    axes.legend()
     style.plain(axes)
     return axes
 

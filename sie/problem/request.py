@@ -12,6 +12,7 @@ from .scene import Scene
 # What can be asked for in a scene file, on the command line and of `sie.plan`.
 WANTS = (
     "edges", "pressure", "gap", "shear", "energy", "check", "stress", "yield", "tension", "cycle",
+    "crack",
 )  # fmt: skip
 # Attributes of the solution, and the quantities that they belong to.
 ALSO = {
@@ -29,7 +30,7 @@ UNASKED = ("edges", "pressure", "gap", "shear", "check")
 POINTS = 401
 GRID = (201, 101)
 # Quantities that depend on the shear traction.
-NEED_SHEAR = frozenset({"shear", "energy", "stress", "yield", "tension", "check", "cycle"})
+NEED_SHEAR = frozenset({"shear", "energy", "stress", "yield", "tension", "check", "cycle", "crack"})
 # Work that the solver may skip; `sie.solve(..., economy=())` switches all of it off.
 ECONOMY = frozenset({"symmetry", "transform", "zero panels", "convexity", "shear", "sliding"})
 

@@ -13,7 +13,7 @@ from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -25,6 +25,9 @@ from sie.errors import ContactError
 from . import fatigue
 from .fatigue import CriticalPlane
 from .half_plane import Stress, Tractions
+
+if TYPE_CHECKING:
+    from sie.cracks.stress_intensity import StressIntensity
 
 Array = NDArray[np.float64]
 
@@ -217,6 +220,45 @@ class Cycle:
         k = np.abs(flat).argmax(axis=0)
         widest = np.take_along_axis(flat, k[None], axis=0)[0]
         return np.abs(widest), np.mod(0.5 * (0.5 * np.pi - np.angle(widest)), 0.5 * np.pi)
+
+    def stress_intensity(
+        self, at: float, depth: ArrayLike, face_friction: float = 0.0
+    ) -> StressIntensity:
+        """K_I and K_II of cracks normal to the surface, at each turning point and depth.
+
+        Parameters
+        ----------
+        at : float
+            Position of the mouth of the crack on the surface, length.
+        depth : array_like of float
+            Depths of the tip, ascending, length.
+        face_friction : float, optional
+            Only 0: the faces of a closed crack slide freely.
+
+        Returns
+        -------
+        StressIntensity
+            `.mode_1` and `.mode_2`, arrays of shape (turning points, depths), `.range`, `.table()`,
+            `.plot()`, `.arrest(threshold, fatigue_limit)` and `.check()`.
+
+        Raises
+        ------
+        ValueError
+            For depths that do not ascend, are not below the surface or too small for doubles, and
+            for friction on the faces.
+
+        Examples
+        --------
+        >>> import sie
+        >>> scene = sie.Scene(profile=sie.Parabola(1.0), modulus=1.0, normal_load=1.0, friction=0.3)
+        >>> cycle = sie.steady_cycle(scene, (1.0, 0.15), (1.0, -0.15)).cycle
+        >>> K = cycle.stress_intensity(at=-cycle.states[0].pressure.interval[1], depth=[0.01, 0.1])
+        >>> K.mode_1.shape, K.range.shape
+        ((2, 2), (2,))
+        """
+        from sie.cracks.stress_intensity import stress_intensity  # noqa: PLC0415 -- SciPy's parts
+
+        return stress_intensity(self.states, at, depth, face_friction)
 
     def slip_range(self, x: ArrayLike) -> Range:
         """Lowest and highest slip on the surface over the cycle.

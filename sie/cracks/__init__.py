@@ -1,0 +1,1 @@
+"""Cracks normal to the surface: stress intensity, closure, arrest."""

@@ -1,0 +1,288 @@
+"""Stress intensity over a cycle of loading, and the depth at which a crack stops.
+
+A crack grows while ΔK_I, the range over the cycle with closed faces at 0, exceeds the threshold,
+which for short cracks falls with the depth (El Haddad, Smith & Topper 1979):
+
+    ΔK(a) > ΔK0 sqrt(a/(a + a0)),      a0 = (ΔK0/Δσ0)²/π
+
+ΔK0 is the threshold of long cracks, Δσ0 the fatigue limit of the smooth material, as ranges. For
+cracks below a fretted contact: Nowell, Dini & Hills, Eng. Fract. Mech. 73 (2006) 207-222.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property, partial
+from typing import Any, Protocol
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from sie import arguments
+from sie.stress.half_plane import Stress, Tractions
+
+from .edge_crack import CrackCertificate, EdgeCrack
+from .weights import modes
+
+Array = NDArray[np.float64]
+
+MOST_DEPTHS = 10_000
+BISECTIONS = 60  # of the logarithm of the depth at which a crack stops
+LEAST = 64.0  # spacings of doubles at the place of a crack: the least depth
+
+
+class State(Protocol):
+    """The attributes of a solution that a crack uses."""
+
+    def stress(self, x: ArrayLike, y: ArrayLike) -> Stress:
+        """The stress in the body."""
+
+    @property
+    def tractions(self) -> Tractions:
+        """The tractions, the bulk stress and the body."""
+
+
+@dataclass(frozen=True, eq=False)
+class StressIntensity:
+    """K_I and K_II of cracks normal to the surface over a cycle; `Cycle.stress_intensity` makes it.
+
+    Parameters
+    ----------
+    states : sequence of Solution
+        The solutions at the turning points.
+    at : float
+        Position of the mouth of the crack on the surface, length.
+    depth : ndarray of float
+        Depths of the tip, lengths, ascending.
+
+    Notes
+    -----
+    Faces that touch are without friction, and the crack does not change the contact. A positive
+    K_II is that of a positive σ_xy.
+
+    References
+    ----------
+    El Haddad, Smith & Topper, J. Eng. Mater. Technol. 101 (1979) 42-46; Nowell, Dini & Hills, Eng.
+    Fract. Mech. 73 (2006) 207-222.
+    """
+
+    states: Sequence[State]
+    at: float
+    depth: Array
+
+    @cached_property
+    def _modes(self) -> tuple[Array, Array]:
+        return self._at_depths(self.depth)
+
+    def _at_depths(self, depth: Array) -> tuple[Array, Array]:
+        found = [modes(partial(self._stress, state), depth) for state in self.states]
+        return np.stack([K for K, _ in found]), np.stack([K for _, K in found])
+
+    def _stress(self, state: State, y: Array) -> tuple[Array, Array]:
+        stress = state.stress(self.at, y)
+        return stress.xx, stress.xy
+
+    @property
+    def mode_1(self) -> Array:
+        """K_I of shape (turning points, depths), stress times root of length; 0 where closed."""
+        return self._modes[0]
+
+    @property
+    def mode_2(self) -> Array:
+        """K_II, likewise."""
+        return self._modes[1]
+
+    @property
+    def range(self) -> Array:
+        """ΔK_I over the cycle at each depth."""
+        return np.ptp(self.mode_1, axis=0)
+
+    @property
+    def shear_range(self) -> Array:
+        """ΔK_II over the cycle at each depth."""
+        return np.ptp(self.mode_2, axis=0)
+
+    def table(self) -> Any:
+        """The extremes at each depth.
+
+        Returns
+        -------
+        pandas.DataFrame or list of dict
+            A row for each depth with the columns depth, K1_max, K1_min, K1_range, K2_max, K2_min,
+            K2_range. A DataFrame where pandas is installed.
+        """
+        columns = {"depth": self.depth}
+        for name, K in (("K1", self.mode_1), ("K2", self.mode_2)):
+            columns |= {
+                f"{name}_max": K.max(0),
+                f"{name}_min": K.min(0),
+                f"{name}_range": np.ptp(K, 0),
+            }
+        rows = [
+            dict(zip(columns, map(float, row), strict=True))
+            for row in zip(*columns.values(), strict=True)
+        ]
+        try:
+            import pandas  # type: ignore[import, unused-ignore]  # noqa: PLC0415
+        except ImportError:
+            return rows
+        return pandas.DataFrame(rows)
+
+    def threshold(
+        self, threshold: float, fatigue_limit: float, depth: ArrayLike | None = None
+    ) -> Array:
+        """The range that a crack needs to grow, after El Haddad.
+
+        Parameters
+        ----------
+        threshold : float
+            ΔK0 of long cracks, stress times root of length.
+        fatigue_limit : float
+            Δσ0 of the smooth material, a range of stress.
+        depth : array_like of float, optional
+            Depths, those of the cracks if not given.
+
+        Returns
+        -------
+        ndarray of float
+            ΔK0 sqrt(a/(a + a0)), of the shape of the depths.
+        """
+        K0 = arguments.positive("threshold", threshold)
+        a0 = (K0 / arguments.positive("fatigue_limit", fatigue_limit)) ** 2 / math.pi
+        a = self.depth if depth is None else arguments.reals("depth", depth)
+        out: Array = K0 * np.sqrt(a / (a + a0))
+        return out
+
+    def arrest(self, threshold: float, fatigue_limit: float) -> float:
+        """The depth at which a crack that grows from the surface stops.
+
+        Parameters
+        ----------
+        threshold, fatigue_limit : float
+            ΔK0 and Δσ0, as of `threshold`.
+
+        Returns
+        -------
+        float
+            The depth at which ΔK_I falls to the threshold first; the first of the depths if it is
+            below there already, and inf if it stays above down to the last one.
+        """
+        above = self.range > self.threshold(threshold, fatigue_limit)
+        if above.all():
+            return math.inf
+        k = int(np.argmin(above))
+        if k == 0:
+            return float(self.depth[0])
+        low, high = self.depth[k - 1], self.depth[k]
+        for _ in range(BISECTIONS):
+            a = np.array([math.sqrt(low * high)])
+            if not low < a[0] < high:
+                break
+            grows = np.ptp(self._at_depths(a)[0]) > self.threshold(threshold, fatigue_limit, a)[0]
+            low, high = (a[0], high) if grows else (low, a[0])
+        return float(high)
+
+    def crack(self, turning_point: int, depth: float) -> EdgeCrack:
+        """One of the cracks by itself, with its opening, its closed zones and its certificate.
+
+        Parameters
+        ----------
+        turning_point : int
+            The index of the state.
+        depth : float
+            The depth of the tip, length.
+
+        Returns
+        -------
+        EdgeCrack
+            The crack in the stress of that state.
+        """
+        state = self.states[turning_point]
+        return EdgeCrack(
+            depth,
+            lambda y: self._stress(state, y)[0],
+            lambda y: self._stress(state, y)[1],
+        )
+
+    def check(self) -> CrackCertificate:
+        """The certificate of the first, the middle and the last depth at each turning point.
+
+        Returns
+        -------
+        CrackCertificate
+            The worst of each measure; the residual includes the difference of both modes from the
+            cracks solved one by one, over the largest K.
+        """
+        some = sorted({0, len(self.depth) // 2, len(self.depth) - 1})
+        largest = max(np.abs(self.mode_1).max(), np.abs(self.mode_2).max(), 1e-300)
+        found = []
+        for k in range(len(self.states)):
+            for i in some:
+                crack = self.crack(k, float(self.depth[i]))
+                off = np.abs([crack.mode_1 - self.mode_1[k, i], crack.mode_2 - self.mode_2[k, i]])
+                measured = crack.check()
+                found.append(
+                    measured._replace(residual=max(measured.residual, off.max() / largest))
+                )
+        return CrackCertificate(
+            float(max(c.residual for c in found)),
+            min(c.lowest_opening for c in found),
+            min(c.lowest_pressure for c in found),
+        )
+
+    def plot(
+        self, ax: Any = None, threshold: float = 0.0, fatigue_limit: float = 0.0, units: Any = None
+    ) -> Any:
+        """ΔK_I and ΔK_II against depth, with the threshold where it is given.
+
+        Parameters
+        ----------
+        ax : matplotlib.axes.Axes, optional
+            Where to draw; axes of their own if not given.
+        threshold, fatigue_limit : float, optional
+            ΔK0 and Δσ0, as of `threshold`.
+        units : mapping of str to str, optional
+            Labels of "length", "force" and "stress"; mm, N/mm and MPa if not given.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+            The axes that were drawn on.
+        """
+        from sie.plots.one_axes import of_cracks  # noqa: PLC0415 -- a higher layer
+
+        limits = (threshold, fatigue_limit) if threshold or fatigue_limit else None
+        return of_cracks(self, ax, limits, units)
+
+
+def stress_intensity(
+    states: Sequence[State], at: float, depth: ArrayLike, face_friction: float = 0.0
+) -> StressIntensity:
+    """The cracks of a cycle. ValueError for cracks that are none, before anything is computed."""
+    at = arguments.measure("at", at)
+    if arguments.real("face_friction", face_friction) != 0.0:
+        raise ValueError(
+            f"face_friction = {face_friction:g}: closed faces slide without friction here, so that "
+            "K_II is that of open ones; leave it out"
+        )
+    depths = np.atleast_1d(arguments.reals("depth", depth))
+    if depths.ndim != 1 or not 0 < depths.size <= MOST_DEPTHS:
+        raise ValueError(f"depth has the shape {depths.shape}: give 1 to {MOST_DEPTHS} depths")
+    for value in depths.tolist():
+        arguments.measure("depth", value)
+        if value <= 0.0:
+            raise ValueError(
+                f"depth = {value:g} is not inside the body: give depths > 0 below the surface"
+            )
+    if not (np.diff(depths) > 0.0).all():
+        raise ValueError("the depths do not ascend: give each once, the smallest first")
+    ends = [x for state in states for x in state.tractions.pressure.interval]
+    least = LEAST * float(np.spacing(max(abs(at), *(abs(x) for x in ends))))
+    if depths[0] < least:
+        raise ValueError(
+            f"depth = {depths[0]:g} is below what doubles resolve at x = {at:g}: give depths from "
+            f"{least:.2g}"
+        )
+    return StressIntensity(states, at, depths)
