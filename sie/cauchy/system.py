@@ -214,7 +214,7 @@ class System:
                 block.analysis.T * block.rows[2][rows],
             )
         )
-        return block.x[rows], solved(self._matrix, right[self.order])
+        return block.x[rows], solved(self.matrix, right[self.order])
 
     def solution(self) -> Array:
         """The unknowns, by LAPACK if they are few and otherwise by GMRES."""
