@@ -31,7 +31,7 @@ LINES = {
     "stress": 2270,
     "sweeps": 1080,
     "traction": 2720,
-    "wear": 530,
+    "wear": 540,
 }
 FILES = 295
 
