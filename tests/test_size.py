@@ -31,7 +31,7 @@ LINES = {
     "stress": 2490,
     "sweeps": 880,
     "traction": 2660,
-    "wear": 530,
+    "wear": 540,
 }
 FILES = 283
 

@@ -60,7 +60,8 @@ class StressIntensity:
     Notes
     -----
     Faces that touch are without friction, and the crack does not change the contact. A positive
-    K_II is that of a positive σ_xy.
+    K_II is that of a positive σ_xy. K has nine digits or more where the stress varies over a
+    thousandth of the depth or more slowly; `check` measures it.
 
     References
     ----------

@@ -48,7 +48,9 @@ from sie.traction.of_slope import SlopeDensity
 Array = NDArray[np.float64]
 
 HOLDS = ("load", "approach")
-DOUBLINGS, HALVINGS = 1100, 200  # of the distance at which wear ends
+# The first distance from the stick zone that is looked at, of its half-width, and how often it is
+# doubled, and halved, until wear ends
+NEXT, DOUBLINGS, HALVINGS = 1e-15, 1100, 200
 PANELS = 8  # of the rule for the volume, in arcosh
 CHECKED, TOLERATED = 101, 1e-9
 # Points of the worn profile on each worn zone and, coarser, on what is left, and how far it reaches
@@ -229,7 +231,7 @@ class WearLimit:
         def worn(distance: float) -> bool:
             return bool(self._overlap(np.array([edge + side * distance]))[0] > 0.0)
 
-        low = high = 1e-12 * zone.r
+        low, high = 0.0, NEXT * zone.r
         for _ in range(DOUBLINGS):
             if not worn(high):
                 break
@@ -304,6 +306,11 @@ def wear_limit(scene: Scene, hold: str = "load", datum: float | None = None) -> 
         raise ContactError(
             f"{what} has no wear limit here: it is found for one stick zone and slip in one "
             "direction; give one patch, or more tangential_load"
+        )
+    if not any(before.slip_widths):
+        raise ContactError(
+            f"nothing slips: both edges are sharp and stick under Q = {scene.tangential_load:g}, "
+            "and nothing wears; round the edges of the profile"
         )
     limit = WearLimit(before, before.normal_load)
     if hold == "load":

@@ -104,6 +104,21 @@ def test_a_held_approach_loses_load_and_keeps_the_gap_at_its_datum():
     assert after == pytest.approx(before, rel=1e-10)
 
 
+def test_a_sharp_edge_that_sticks_does_not_wear():
+    scene = sie.Scene(
+        profile=sie.Flat(1.0), tilt=0.2, modulus=1.0, normal_load=0.3, friction=0.5,
+        tangential_load=0.05,
+    )  # fmt: skip
+    worn = sie.wear_limit(scene)
+    assert worn.worn[0] == worn.stick[0] == -1.0 and worn.worn[1] > worn.stick[1]
+    assert worn.check().ok
+    level = sie.Scene(
+        profile=sie.Flat(1.0), modulus=1.0, normal_load=0.3, friction=0.5, tangential_load=0.05
+    )
+    with pytest.raises(sie.ContactError, match="nothing slips"):
+        sie.wear_limit(level)
+
+
 REFUSED = [
     ({"tangential_load": 0.0}, {}, ValueError, "nothing wears"),
     ({"sliding": 1}, {}, sie.ContactError, "sie.wear_modes"),
