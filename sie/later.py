@@ -9,6 +9,8 @@ from .paths.dissimilar_cycle import steady_cycle
 from .paths.history import History, follow
 from .paths.steady_state import SteadyCycle
 from .planning import Plan, plan
+from .sensitivity.derivative import Derivative, StressDerivative
+from .sensitivity.gradient import Uncertainty
 from .stress.fatigue import CriticalPlane
 from .stress.fretting import Cycle
 from .stress.half_plane import Stress
@@ -22,13 +24,16 @@ __all__ = [
     "CauchyEquation",
     "CriticalPlane",
     "Cycle",
+    "Derivative",
     "History",
     "Interrupted",
     "Peak",
     "Plan",
     "SteadyCycle",
     "Stress",
+    "StressDerivative",
     "TraceReport",
+    "Uncertainty",
     "YieldPoint",
     "follow",
     "least_smoothing",
