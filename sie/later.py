@@ -5,6 +5,7 @@
 
 from .cauchy.equation import CauchyEquation
 from .certificate.trace_noise import TraceReport
+from .many.solve_many import Many, solve_many
 from .paths.dissimilar_cycle import steady_cycle
 from .paths.history import History, follow
 from .paths.steady_state import SteadyCycle
@@ -27,6 +28,7 @@ __all__ = [
     "Derivative",
     "History",
     "Interrupted",
+    "Many",
     "Peak",
     "Plan",
     "SteadyCycle",
@@ -38,6 +40,7 @@ __all__ = [
     "follow",
     "least_smoothing",
     "plan",
+    "solve_many",
     "steady_cycle",
     "sweep",
 ]
