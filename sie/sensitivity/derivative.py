@@ -22,7 +22,8 @@ from .shear_rate import ShearRate, shear_rate
 
 Array = NDArray[np.float64]
 NODES = 14  # of the slope beside an edge
-BESIDE, HALVINGS = 1e-6, 32  # half-widths about a summit of p; of that interval
+BESIDE = 1e-6  # half-widths about a summit of p, where its place is found by p'
+ZOOMS, ZOOM_PLACES = 4, 24
 SAME_PEAK = (
     1e-7  # relative: peaks closer than that are one of several, and so are their derivatives
 )
@@ -275,13 +276,25 @@ def peaks(solution: Any) -> list[float]:
 def _summit(p: Density, x: float, r: float) -> float:
     """The zero of p' next to x, which values of p tell to the root of rounding only."""
     lo, hi = x - BESIDE * r, x + BESIDE * r
-    falls_left, falls_right = p.cauchy_derivative([lo, hi]).imag  # F' = hilbert' - i p'
-    if not falls_left < 0.0 < falls_right:
-        return x
-    for _ in range(HALVINGS):
-        middle = 0.5 * (lo + hi)
-        lo, hi = (lo, middle) if p.cauchy_derivative(middle).imag > 0.0 else (middle, hi)
+    for _ in range(ZOOMS):
+        near = np.linspace(lo, hi, ZOOM_PLACES)
+        rises = p.cauchy_derivative(near).imag < 0.0  # F' = hilbert' - i p'
+        if rises[-1] or not rises[0]:
+            return x
+        k = int(np.flatnonzero(rises)[-1])
+        lo, hi = float(near[k]), float(near[k + 1])
     return 0.5 * (lo + hi)
+
+
+def _common(function: Callable[[Any], Any], places: Any) -> float:
+    """The value at all places, which have to agree: else the largest of several has a kink."""
+    values = [float(function(place)) for place in places]
+    if max(values) - min(values) > SAME_PEAK * max(map(abs, values)):
+        raise ContactError(
+            f"the largest value is reached at {len(places)} places that change unlike, where its "
+            "derivative is one-sided: break the symmetry a little"
+        )
+    return values[0]
 
 
 def _of_hilbert(shear: ShearRate, x: float, moved: float) -> float:
@@ -313,14 +326,3 @@ def _steepness(density: Density, x: float) -> float:
     u = 0.5 - 0.5 * np.cos(np.pi * (np.arange(NODES) + 0.5) / NODES)
     near = np.polynomial.Polynomial.fit(u, density.hilbert(x + inward * u), NODES - 1)
     return float(near.deriv()(0.0)) / inward
-
-
-def _common(function: Callable[[Any], Any], places: Any) -> float:
-    """The value at all places, which have to agree: else the largest of several has a kink."""
-    values = [float(function(place)) for place in places]
-    if max(values) - min(values) > SAME_PEAK * max(map(abs, values)):
-        raise ContactError(
-            f"the largest value is reached at {len(places)} places that change unlike, where its "
-            "derivative is one-sided: break the symmetry a little"
-        )
-    return values[0]

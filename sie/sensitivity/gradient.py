@@ -68,9 +68,7 @@ def gradient(solution: Any, quantity: str) -> dict[str, Any]:
     known_quantity(quantity)
     found: dict[str, Any] = {}
     refused: ContactError | None = None
-    for name in parameters(solution.scene):
-        if name.startswith(HEIGHTS):
-            continue
+    for name in parameters(solution.scene, heights=False):
         try:
             found[name] = value_of(Derivative(solution, name), quantity)
         except ContactError as error:  # of one number; the others have derivatives

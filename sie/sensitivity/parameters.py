@@ -15,6 +15,7 @@ from sie.errors import ContactError
 from sie.problem.material import Elastic
 from sie.problem.scene import Scene
 from sie.profiles.base import Profile
+from sie.profiles.sampled import Sampled
 
 from .contact_rate import Change
 from .directions import directions
@@ -47,6 +48,9 @@ def parameter(scene: Scene, name: str | Profile) -> Parameter:
     """The change of a scene by a number of that name, or by adding so much of a profile."""
     if isinstance(name, Profile):
         return Parameter(Change(profile=name))
+    own = _of_loads(scene)
+    if name in own:
+        return own[name]()
     known = parameters(scene)
     if name not in known:
         shown = ", ".join(list(known)[:24]) + (", ..." if len(known) > 24 else "")
@@ -54,13 +58,17 @@ def parameter(scene: Scene, name: str | Profile) -> Parameter:
     return known[name]()
 
 
-def parameters(scene: Scene) -> Makers:
-    """The numbers of a scene that a derivative is taken by, each with what makes its change."""
-    return {
-        name: make
-        for makers in (_loads(scene), _materials(scene), _of_profile(scene.profile))
-        for name, make in makers.items()
-    }
+def parameters(scene: Scene, *, heights: bool = True) -> Makers:
+    """The numbers of a scene that a derivative is taken by, each with what makes its change.
+
+    `heights`: with those of a trace, one by one.
+    """
+    several = isinstance(scene.profile, Sampled) and not heights
+    return _of_loads(scene) | ({} if several else _of_profile(scene.profile))
+
+
+def _of_loads(scene: Scene) -> Makers:
+    return _loads(scene) | _materials(scene)
 
 
 def _loads(scene: Scene) -> Makers:
