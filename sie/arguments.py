@@ -81,6 +81,17 @@ def positive(name: str, value: Any, largest: float = LARGEST) -> float:
     return number
 
 
+def positives(name: str, value: Any, largest: float = LARGEST) -> Any:
+    """The same of a number, or of an array of numbers that will not be written to."""
+    if not isinstance(value, np.ndarray) or not value.ndim:
+        return positive(name, value, largest)
+    array = reals(name, value).copy()
+    for extreme in (array.min(initial=1.0), array.max(initial=1.0)):
+        positive(name, extreme, largest)
+    array.flags.writeable = False
+    return array
+
+
 def not_negative(name: str, value: Any) -> float:
     """A finite number >= 0."""
     number = finite(name, value)

@@ -8,10 +8,13 @@ from .certificate.trace_noise import TraceReport
 from .cracks.edge_crack import EdgeCrack
 from .cracks.edge_intensity import EdgeIntensity
 from .cracks.stress_intensity import StressIntensity
+from .many.solve_many import Many, solve_many
 from .paths.dissimilar_cycle import steady_cycle
 from .paths.history import History, follow
 from .paths.steady_state import SteadyCycle
 from .planning import Plan, plan
+from .sensitivity.derivative import Derivative, StressDerivative
+from .sensitivity.gradient import Uncertainty
 from .stress.fatigue import CriticalPlane
 from .stress.fretting import Cycle
 from .stress.half_plane import Stress
@@ -27,22 +30,27 @@ __all__ = [
     "CauchyEquation",
     "CriticalPlane",
     "Cycle",
+    "Derivative",
     "EdgeCrack",
     "EdgeIntensity",
     "History",
     "Interrupted",
+    "Many",
     "Peak",
     "Plan",
     "SteadyCycle",
     "Stress",
+    "StressDerivative",
     "StressIntensity",
     "TraceReport",
+    "Uncertainty",
     "WearLimit",
     "WearModes",
     "YieldPoint",
     "follow",
     "least_smoothing",
     "plan",
+    "solve_many",
     "steady_cycle",
     "sweep",
     "wear_limit",

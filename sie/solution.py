@@ -20,6 +20,7 @@ from . import arguments
 from .contact.known_contact import Edges, Normal
 from .contact.normal import contact_under
 from .contact.pressure import pressure
+from .derivative_answers import DerivativeAnswers
 from .errors import ContactError, InequalityError
 from .frictionless import Frictionless
 from .numerics.interval import Interval
@@ -55,7 +56,7 @@ NEARLY = 0.999  # of f P: a load in partial slip next to sliding
 BALANCED = 1e-9  # of P times the half-width: a moment that needs no tilt
 
 
-class Solution(Frictionless, StressAnswers):
+class Solution(Frictionless, StressAnswers, DerivativeAnswers):
     """The solution of a contact problem; `solve` makes it.
 
     Parameters

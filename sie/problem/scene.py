@@ -102,6 +102,11 @@ class Scene:
                 f"profile = {self.profile!r} is not a profile: give sie.Parabola(...), "
                 "sie.RoundedFlat(...) or another"
             )
+        if self.profile.arrays:
+            raise ValueError(
+                f"the parameters of {type(self.profile).__name__} are arrays, which are many "
+                "scenes: give them to sie.solve_many, or one number each"
+            )
         if (self.body is None) == (self.modulus is None):
             what = "neither" if self.body is None else "both"
             raise ValueError(

@@ -77,9 +77,12 @@ class Profile(ABC):
     """
 
     def _require_positive(self, *names: str, largest: float = arguments.LARGEST) -> None:
-        """Replace fields of a profile that is being built by floats. ValueError unless > 0."""
+        """Replace fields of a profile that is being built by floats. ValueError unless > 0.
+
+        An array stands for the profiles of many scenes (`sie.solve_many`).
+        """
         for name in names:
-            value = arguments.positive(name, getattr(self, name), largest)
+            value = arguments.positives(name, getattr(self, name), largest)
             object.__setattr__(self, name, value)
 
     @property
@@ -287,6 +290,11 @@ class Profile(ABC):
         """
         dz = arguments.measure("raised", dz)
         return self if dz == 0.0 else _derived("raised", self, dz)
+
+    @property
+    def arrays(self) -> tuple[Array, ...]:
+        """The parameters that are arrays, of many scenes at once (`sie.solve_many`)."""
+        return ()
 
     @property
     def period(self) -> float:

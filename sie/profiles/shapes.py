@@ -33,6 +33,11 @@ class _Convex(Profile):
     def convex(self) -> bool:
         return True
 
+    @property
+    @override
+    def arrays(self) -> tuple[Array, ...]:
+        return tuple(v for v in vars(self).values() if isinstance(v, np.ndarray))
+
 
 @dataclass(frozen=True)
 class Parabola(_Convex):
@@ -201,7 +206,7 @@ class Wedge(_Convex):
     rise: float  # `slope` is a method
 
     def __init__(self, slope: float) -> None:
-        object.__setattr__(self, "rise", arguments.positive("slope", slope))
+        object.__setattr__(self, "rise", arguments.positives("slope", slope))
 
     def __repr__(self) -> str:
         return f"Wedge(slope={self.rise!r})"

@@ -89,6 +89,17 @@ def labelled(
         if name not in axes  # the parameters of the sweep are known
     }
     reasons = np.array([reason for _, reason in answers], dtype=object).reshape(shape)
+    return dataset(axes, wanted, data, reasons, units)
+
+
+def dataset(
+    axes: dict[str, list[Any]],
+    wanted: dict[str, Any],
+    data: dict[str, Any],
+    reasons: Any,
+    units: Mapping[str, str],
+) -> Any:
+    """Arrays over the axes, an xarray Dataset with units where xarray is installed."""
     coordinates = {name: _coordinate(values) for name, values in axes.items()}
     try:
         import xarray  # type: ignore[import-not-found, unused-ignore]  # noqa: PLC0415

@@ -6,7 +6,8 @@
 `over` names fields of the scene, or parameters of its profile as "profile.half_flat"; or `scene` is
 a function of the named parameters that returns a Scene. Points are taken in chunks of neighbours,
 last name fastest, so that what does not change between two of them (a normal problem under many
-tangential loads) is solved once. Any `concurrent.futures.Executor` will do: a process pool, Dask's
+tangential loads) is solved once; in this process all points are solved as arrays where `many` does
+so with the same answers. Any `concurrent.futures.Executor` will do: a process pool, Dask's
 `client.get_executor(pure=False)`, `mpi4py.futures.MPIPoolExecutor()`. A scene without an answer
 leaves nan and the sentence that says why.
 """
@@ -29,8 +30,9 @@ from sie.problem.scene import Scene
 from sie.progress_bar import Progress
 from sie.solution import Solution
 
+from .as_arrays import as_arrays
 from .file import SweepFile
-from .result import Answer, labelled, labels
+from .result import Answer, dataset, labelled, labels
 from .work import DEFAULT, QUANTITIES, Point, Wanted, Work, answer_at, answers_of, reason
 
 AIM = 0.2  # seconds that a chunk takes a worker: to send it costs some milliseconds
@@ -126,7 +128,13 @@ def sweep(
     [0.56419, 1.128379]
     """
     axes, named = _axes(scene, over), labels(units)
-    wanted, points = _wanted(want), list(_points(axes))
+    wanted = _wanted(want)
+    at_once = None
+    if executor is None and to is None and isinstance(scene, Scene):
+        at_once = as_arrays(scene, axes, wanted)
+    if at_once is not None:
+        return dataset(axes, wanted, *at_once, named)
+    points = list(_points(axes))
     size, file = _chunk_size(chunk), SweepFile(to)
     run = _Run(
         Work(scene, wanted, tol),

@@ -99,7 +99,7 @@ def test_the_normal_problem_is_solved_once_for_all_frictions(monkeypatch):
     )
     sie.sweep(
         SCENE,
-        over={"normal_load": [0.1, 0.2], "friction": np.linspace(0, 1, 20)},
+        over={"normal_load": [0.1, 0.2], "friction": np.linspace(0, 1, 10)},
         want="half_width",
     )
     assert len(solved) == 2

@@ -1,0 +1,1 @@
+"""Contacts of one patch as arrays over many scenes."""

@@ -1,0 +1,1 @@
+"""Exact derivatives of a solution by the numbers of its scene."""

@@ -1,0 +1,247 @@
+"""The derivative of a contact without shear, for a change of its profile, loads and modulus.
+
+With E* fixed, the pressure p = L[h'] on the contact is linear in h', and moving an edge adds a
+square-root singularity there. So for any change of h', P and the tilt the derivative of p is the
+inversion of δh' on the same contact, of any index,
+
+    δp = L[δh'] + k1/2 sqrt((x2 - x)/(x - x1)) + k2/2 sqrt((x - x1)/(x2 - x)),
+
+whose k1, k2 follow from ∫δh'/w dt and from δP as those of a punch with two corners. The edges move
+as the singularities ask (`contact.edges`, with G = E*/2):
+
+    δx2 = (δP/G - r K2[δh'])/(r JR),          δx1 = -(δP/G - r K1[δh'])/(r JL)
+
+Where the half-width is given in place of the load, or the moment in place of the tilt, δP and the
+change of the tilt follow from two linear equations. On several patches the charges at the edges
+come from the linear equations of Newton's method (`patches.edge_charges`). A change of E* at a
+given load is one of P by -P δE*/E*, of a pressure that is then scaled.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sie.contact.edge_integrals import EdgeIntegrals, edge_integrals
+from sie.contact.known_contact import Edges, Normal
+from sie.contact.pressure import resolution, slope_series
+from sie.errors import ContactError
+from sie.patches.answer import SeveralPatches
+from sie.patches.density import PatchPressure
+from sie.patches.newton import closed, conditions_of
+from sie.patches.operator import Operator
+from sie.profiles.base import Profile
+from sie.profiles.profile_pieces import of_profile
+from sie.profiles.resolution import refined
+from sie.profiles.slope import Slope, polynomial_slope
+from sie.traction.base import Density
+from sie.traction.combination import superposed
+from sie.traction.of_slope import SlopeDensity, TransformDensity
+from sie.traction.on_panels import PanelDensity
+from sie.traction.panels import Panels
+from sie.traction.piece_quadrature import Geometry
+
+Array = NDArray[np.float64]
+TOLERANCE = 1e-13  # to which a direction is resolved on a contact
+RESOLVED = 1e-15  # ... and on patches
+NARROWEST = 1e-9  # of the contact: patches and gaps narrower than that are about to vanish
+CORNER = 1e-9  # half-widths: an edge so near to a corner of the profile stands at it
+FLAT = polynomial_slope((-math.inf, math.inf), (0.0,), ((0.0,),))
+
+
+@dataclass(frozen=True)
+class Change:
+    """A direction in which what determines a contact without shear changes.
+
+    profile     the change of h; None for none
+    load        that of P
+    half_width  that of the half-width, where it is given in place of P
+    tilt        that of the tilt
+    moment      that of M, where it is given in place of the tilt
+    modulus     δE*/E*
+    """
+
+    profile: Profile | None = None
+    load: float = 0.0
+    half_width: float = 0.0
+    tilt: float = 0.0
+    moment: float = 0.0
+    modulus: float = 0.0
+
+
+class Given(NamedTuple):
+    """Which of two numbers that exclude each other are given."""
+
+    half_width: bool
+    moment: bool
+
+
+class ContactRate(NamedTuple):
+    """The derivatives of the patches, the load, the moment about x = 0, the tilt, the pressure."""
+
+    patches: tuple[tuple[float, float], ...]
+    load: float
+    moment: float
+    tilt: float
+    pressure: Density
+
+
+def contact_rate(
+    found: Any, density: Any, profile: Profile, change: Change, given: Given
+) -> ContactRate:
+    """The derivative of a contact with its pressure. ContactError where it has none."""
+    g, P, M = change.modulus, density.resultant, density.moment
+    # at fixed E*, for a pressure that is scaled afterwards
+    plain = replace(change, load=change.load - g * P, moment=change.moment - g * M)
+    if isinstance(found, Normal):
+        rate = _of_one_patch(found.edges, (density, found.slope(profile)), plain, given)
+    elif isinstance(found, SeveralPatches):
+        rate = _of_patches(found, plain)
+    else:
+        raise ContactError(
+            "the whole period is in contact: derivatives are known where patches have edges; "
+            "lower the load"
+        )
+    p = superposed((1.0, rate.pressure), (g, density))
+    return rate._replace(load=rate.load + g * P, moment=rate.moment + g * M, pressure=p)
+
+
+def _of_one_patch(
+    edges: Edges, pressed: tuple[SlopeDensity, Slope], change: Change, given: Given
+) -> ContactRate:
+    (density, slope), contact, tol = pressed, edges.contact, resolution(TOLERANCE)
+    _refuse_corners(slope, edges)
+    direction = FLAT if change.profile is None else change.profile.pieces
+    direction = refined(direction, contact.x1, contact.x2, tol)
+    resolved = refined(slope, contact.x1, contact.x2, tol)
+    H, h = (edge_integrals(s, contact, keep_zero=True) for s in (resolved, direction))
+    G = density.half_modulus
+    rate = response(edges, G, (H, h), change, given)
+    turned, I0 = direction.tilted(rate.tilt), h.I0 + math.pi * rate.tilt
+    common = contact, G, *rate.intensities, rate.load, rate.moment
+    series = slope_series(turned, contact, tol)
+    p: Density
+    if series is not None:
+        p = TransformDensity(*common, series)
+    else:
+        p = PanelDensity(*common, Panels(Geometry(turned, contact, keep_zero=True), I0))
+    return ContactRate((rate.edges,), rate.load, rate.moment, rate.tilt, p)
+
+
+class Response(NamedTuple):
+    """What follows from the integrals of δh': of one patch, all but the pressure inside."""
+
+    edges: tuple[float, float]
+    load: float
+    moment: float
+    tilt: float
+    intensities: tuple[float, float]
+
+
+def response(
+    edges: Edges,
+    G: float,
+    integrals: tuple[EdgeIntegrals, EdgeIntegrals],
+    change: Change,
+    given: Given,
+) -> Response:
+    """The moves of the edges, the loads and the singular ends, by the integrals of h' and δh'."""
+    r, m, h = edges.contact.r, edges.contact.m, integrals[1]
+    moves = _moves(G * r, integrals, edges.sharp)
+    load, tilt = _load_and_tilt(moves, (G * r * r, m, h.C2), change, given, any(edges.sharp))
+    moment = m * load - G * r * r * (h.C2 + 0.5 * math.pi * tilt)
+    apart = 2.0 * G * (h.I0 + math.pi * tilt) / math.pi
+    both = 2.0 * (load / r - G * h.I1) / math.pi
+    x1, x2 = (moves @ (load, tilt, 1.0)).tolist()
+    return Response((x1, x2), load, moment, tilt, (0.5 * (both + apart), 0.5 * (both - apart)))
+
+
+def _moves(
+    Gr: float, integrals: tuple[EdgeIntegrals, EdgeIntegrals], sharp: tuple[bool, bool]
+) -> Array:
+    """The moves of both edges by δP, by the change of the tilt, and by δh' alone, (2, 3)."""
+    H, h = integrals
+    moves = np.zeros((2, 3))
+    if not sharp[0]:
+        moves[0] = -1.0 / (Gr * H.JL), -math.pi / H.JL, (h.I1 - h.I0) / H.JL
+    if not sharp[1]:
+        moves[1] = 1.0 / (Gr * H.JR), -math.pi / H.JR, -(h.I1 + h.I0) / H.JR
+    return moves
+
+
+def _load_and_tilt(
+    moves: Array, lever: tuple[float, float, float], change: Change, given: Given, sharp: bool
+) -> tuple[float, float]:
+    """δP and the change of the tilt, which are given or follow from what is given in their place.
+
+    `lever`: G r², the centre, and ∫δh' cos² dφ.
+    """
+    Grr, m, C2 = lever
+    system, right = np.eye(2), np.array([change.load, change.tilt])
+    if given.half_width:
+        if sharp:
+            raise ContactError(
+                "the half-width is bounded by a corner of the indenter, whatever the load: give "
+                "normal_load for a derivative"
+            )
+        row = 0.5 * (moves[1] - moves[0])
+        system[0], right[0] = row[:2], change.half_width - row[2]
+    if given.moment:
+        system[1], right[1] = (m, -0.5 * math.pi * Grr), change.moment + Grr * C2
+    load, tilt = np.linalg.solve(system, right).tolist()
+    return load, tilt
+
+
+def _refuse_corners(slope: Slope, edges: Edges) -> None:
+    """ContactError where an edge stands at a corner of the profile: it moves to one side only."""
+    contact = edges.contact
+    for x, held in zip((contact.x1, contact.x2), edges.sharp, strict=True):
+        for e, _ in () if held or slope.functions else slope.rises:
+            if abs(x - e) <= CORNER * contact.r:
+                raise ContactError(
+                    f"the edge at x = {x:.6g} stands at a corner of the profile, where "
+                    "derivatives are one-sided: change the load a little"
+                )
+
+
+def _of_patches(found: SeveralPatches, change: Change) -> ContactRate:
+    """On several patches, at fixed E*."""
+    state, o, G = found.found.state, found.found.operator, found.pressure.half_modulus
+    P, N = o.patches, o.patches.number
+    _refuse_events(P.r, P.gaps[: N - 1 + P.closing], 0.5 * (P.b[-1] - P.a[0]))
+    linear, held = conditions_of(found.found), found.found.given.moment is not None
+    changes = np.zeros(2 * N + 1)
+    changes[-2:] = change.load / G, change.moment / G if held else change.tilt
+    flat = np.zeros((len(o.pieces.origins), 1))
+    pieces = replace(o.pieces, coefficients=flat, series=flat[:, :0])
+    if change.profile is not None:
+        pieces = of_profile(change.profile, o.pieces.domain, RESOLVED)
+        inverted = Operator(P, pieces, np.zeros(2 * N))
+        load, moment = inverted.resultants(0.0)
+        gaps, (C, plain) = closed(inverted), inverted.closures
+        missed = C + inverted.H0 * plain, gaps[: N - 1]
+        changes -= np.concatenate((*missed, (load, moment if held else 0.0)))
+        if P.closing:
+            changes[linear.replaced[0]] = -gaps[-1]
+    y = linear.charged(changes[:, None])[:, 0]
+    p = PatchPressure(Operator(P, pieces, y[:-1]), G, float(y[-1]), change.load)
+    moves = linear.moves(state, y).reshape(N, 2).tolist()
+    moment = change.moment if held else p.moment
+    return ContactRate(tuple((a, b) for a, b in moves), change.load, moment, p.tilt, p)
+
+
+def _refuse_events(r: Array, gaps: Array, half: float) -> None:
+    """ContactError where a patch is born or two merge: derivatives are one-sided there."""
+    if r.min() < NARROWEST * half:
+        what, remedy = "a patch of contact has no width", "it is just born"
+    elif gaps.min(initial=math.inf) < NARROWEST * half:
+        what, remedy = "a gap between patches has no width", "they just merge"
+    else:
+        return
+    raise ContactError(
+        f"{what} to rounding ({remedy}), where derivatives are one-sided: change the load a little"
+    )

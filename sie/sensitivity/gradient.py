@@ -1,0 +1,326 @@
+"""Derivatives of one quantity by every number of a scene, and first-order uncertainty.
+
+Of the heights of a trace the derivatives are found together (reverse mode). A quantity J of one
+patch is linear in δh', whose own derivative is piecewise linear between the points: with R(t) the
+answer to a slope that steps up by 1 at t, and δh'' = γ_i at the points,
+
+    δJ = δh'(x_0) R(x_0) + Σ γ_i ∫ hat_i(t) R(t) dt
+
+R is elementary: with t = m + r cos ψ the integrals of a step are I0 = ψ, I1 = sin ψ and C2 =
+ψ/2 - sin(2ψ)/4, and its pressure at x is, beside the singular ends,
+
+    E*/(2π) ln |(A + B)/(A - B)|,   A² = (x - x1)(x2 - t),   B² = (t - x1)(x2 - x)
+
+The transpose of the equations of the spline then leads from the weights of the γ to those of the
+heights, at the cost of one spline.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from sie import arguments
+from sie.contact.edge_integrals import NOTHING, edge_integrals
+from sie.contact.known_contact import Normal
+from sie.contact.pressure import resolution
+from sie.errors import ContactError
+from sie.numerics.interval import Interval
+from sie.profiles.resolution import refined
+from sie.profiles.sampled import Sampled
+
+from .contact_rate import TOLERANCE, Change, Given, Response, response
+from .derivative import Derivative, peaks
+from .parameters import parameters
+
+Array = NDArray[np.float64]
+
+OF_CONTACT = (
+    "half_width", "centre", "left_edge", "right_edge", "contact_length", "normal_load", "moment",
+    "tilt",
+)  # fmt: skip
+PEAKS = ("peak_pressure", "peak_tension", "elastic_limit")
+HEIGHTS = "profile.heights"
+NODES, HALVINGS = 12, 52  # of a panel; towards the logarithm under a peak
+
+
+def value_of(derivative: Any, quantity: str) -> float:
+    """One of the quantities of a derivative, or of a response."""
+    if quantity in ("left_edge", "right_edge"):
+        return float(derivative.edges[quantity == "right_edge"])
+    return float(getattr(derivative, quantity))
+
+
+def known_quantity(quantity: str) -> str:
+    """The name. ValueError if it is none that has derivatives."""
+    if not arguments.among(quantity, (*OF_CONTACT, *PEAKS)):
+        known = ", ".join((*OF_CONTACT, *PEAKS))
+        raise ValueError(f"quantity {quantity!r} has no gradient: choose among {known}")
+    return quantity
+
+
+def gradient(solution: Any, quantity: str) -> dict[str, Any]:
+    """As `Solution.gradient`."""
+    known_quantity(quantity)
+    found: dict[str, Any] = {}
+    refused: ContactError | None = None
+    for name in parameters(solution.scene, heights=False):
+        try:
+            found[name] = value_of(Derivative(solution, name), quantity)
+        except ContactError as error:  # of one number; the others have derivatives
+            refused = error
+    if isinstance(solution.scene.profile, Sampled):
+        found[HEIGHTS] = of_heights(solution, quantity)
+    if not found and refused is not None:
+        raise refused
+    return found
+
+
+class Uncertainty:
+    """The standard deviations that those of the numbers of a scene cause, to first order.
+
+    `solution.uncertainty(deviations)` makes it. The numbers are taken as independent, and their
+    deviations as small.
+
+    Parameters
+    ----------
+    solution : Solution
+        The solution.
+    deviations : mapping of str to float
+        Standard deviations by the names of `Solution.derivative`, each in the unit of its number;
+        "profile.heights" is the noise of all heights of a trace.
+
+    Examples
+    --------
+    >>> import sie
+    >>> scene = sie.Scene(profile=sie.Parabola(4.0), modulus=1.0, normal_load=1.0)
+    >>> found = sie.solve(scene).uncertainty({"profile.radius": 0.4, "normal_load": 0.1})
+    >>> round(found.of("half_width") / sie.solve(scene).half_width, 6)
+    0.070711
+    """
+
+    def __init__(self, solution: Any, deviations: Mapping[str, float]) -> None:
+        self._solution = solution
+        self._deviations = {
+            name: arguments.finite(f"the deviation of {name}", value)
+            for name, value in deviations.items()
+        }
+        self._derivatives = {
+            name: Derivative(solution, name) for name in self._deviations if name != HEIGHTS
+        }
+
+    def shares(self, quantity: str) -> dict[str, float]:
+        """The deviations that each number alone causes in a quantity.
+
+        Parameters
+        ----------
+        quantity : str
+            As of `Solution.gradient`.
+
+        Returns
+        -------
+        dict of str to float
+            Deviations by name, in the unit of the quantity.
+
+        Raises
+        ------
+        ValueError
+            For another quantity.
+        """
+        known_quantity(quantity)
+        return {name: self._share(name, quantity) for name in self._deviations}
+
+    def _share(self, name: str, quantity: str) -> float:
+        deviation = self._deviations[name]
+        if name == HEIGHTS:
+            return float(deviation * np.linalg.norm(of_heights(self._solution, quantity)))
+        return abs(deviation * value_of(self._derivatives[name], quantity))
+
+    def of(self, quantity: str) -> float:
+        """The standard deviation of a quantity.
+
+        Parameters
+        ----------
+        quantity : str
+            As of `Solution.gradient`.
+
+        Returns
+        -------
+        float
+            The root of the sum of the squares of `shares`.
+        """
+        return math.hypot(*self.shares(quantity).values())
+
+    def pressure(self, x: ArrayLike) -> Array:
+        """The standard deviation of the pressure at x, infinite at an edge that moves.
+
+        Parameters
+        ----------
+        x : array_like of float
+            Positions, lengths.
+
+        Returns
+        -------
+        ndarray of float
+            Stresses, of the shape of x.
+        """
+        return self._of_traction("pressure", x)
+
+    def shear(self, x: ArrayLike) -> Array:
+        """The standard deviation of the shear at x.
+
+        Parameters
+        ----------
+        x : array_like of float
+            Positions, lengths.
+
+        Returns
+        -------
+        ndarray of float
+            Stresses, of the shape of x.
+        """
+        return self._of_traction("shear", x)
+
+    def _of_traction(self, which: str, x: ArrayLike) -> Array:
+        if HEIGHTS in self._deviations:
+            raise ValueError(
+                f"the noise of all heights has a deviation of single quantities: ask for "
+                f'of("peak_pressure"), or leave {HEIGHTS} out'
+            )
+        each = [
+            self._deviations[name] * getattr(derivative, which)(x)
+            for name, derivative in self._derivatives.items()
+        ]
+        return np.asarray(np.sqrt(np.sum(np.square(each), axis=0)))
+
+
+# -- all heights of a trace ------------------------------------------------------------------------
+
+
+def of_heights(solution: Any, quantity: str) -> Array:
+    """The derivatives by the heights of a trace, (n,)."""
+    profile, found = solution.scene.profile, solution.normal
+    if not isinstance(profile, Sampled):
+        raise ValueError(f'"{HEIGHTS}" are those of a trace: the profile is {profile!r}')
+    together = profile.lam == 0.0 and isinstance(found, Normal) and quantity not in PEAKS[1:]
+    if not together:
+        every = range(len(profile.points))
+        return np.array(
+            [value_of(Derivative(solution, f"{HEIGHTS}[{k}]"), quantity) for k in every]
+        )
+    place = _one_peak(solution) if quantity == "peak_pressure" else None
+    factors = _factors(solution, quantity, place)
+    first, weights = _weights(solution, profile.points, factors, place)
+    return transposed_spline(profile.points, first, weights)
+
+
+def _one_peak(solution: Any) -> float:
+    places = peaks(solution)
+    if len(places) > 1:
+        raise ContactError(
+            f"the largest pressure is reached at {len(places)} places, where its derivative by the "
+            "heights is one-sided: break the symmetry a little"
+        )
+    return places[0]
+
+
+def _factors(solution: Any, quantity: str, place: float | None) -> tuple[float, float, float]:
+    """What the integrals I0, I1 and C2 of δh' contribute to a quantity, to a peak by its ends."""
+    scene, edges = solution.scene, solution.normal.edges
+    G, contact = 0.5 * scene.Estar, edges.contact
+    slope = refined(
+        solution.normal.slope(scene.profile), contact.x1, contact.x2, resolution(TOLERANCE)
+    )
+    H = edge_integrals(slope, contact, keep_zero=True)
+    given = Given(scene.half_width is not None, scene.moment is not None)
+
+    def part(**integral: float) -> float:
+        rate = response(edges, G, (H, NOTHING._replace(**integral)), Change(), given)
+        if place is None:
+            return value_of(_Single(rate), quantity)
+        ratio = math.sqrt(contact.from_right(place) / contact.from_left(place))
+        k1, k2 = rate.intensities
+        return 0.5 * (k1 * ratio + k2 / ratio)
+
+    return part(I0=1.0), part(I1=1.0), part(C2=1.0)
+
+
+class _Single:
+    """The derivatives of one patch that follow from its response."""
+
+    def __init__(self, rate: Response) -> None:
+        self.edges, self.normal_load, self.moment, self.tilt = rate[:4]
+        self.contact_length = rate.edges[1] - rate.edges[0]
+        self.half_width, self.centre = 0.5 * self.contact_length, 0.5 * sum(rate.edges)
+
+
+def _weights(
+    solution: Any, x: Array, factors: tuple[float, float, float], place: float | None
+) -> tuple[float, Array]:
+    """R at the first point, and ∫ hat_i R dt of all points."""
+    contact: Interval = solution.normal.edges.contact
+    G = 0.5 * solution.scene.Estar
+
+    def answer(t: Array) -> Array:
+        left, right = (
+            np.clip(apart, 0.0, 2.0 * contact.r)
+            for apart in (contact.from_left(t), contact.from_right(t))
+        )
+        psi = 2.0 * np.arctan2(np.sqrt(right), np.sqrt(left))
+        R = factors[0] * psi + factors[1] * np.sin(psi)
+        R += factors[2] * (0.5 * psi - 0.25 * np.sin(2.0 * psi))
+        if place is not None:
+            A = np.sqrt(contact.from_left(place) * right)
+            B = np.sqrt(left * contact.from_right(place))
+            step = np.abs(place - np.clip(t, contact.x1, contact.x2))
+            apart = 2.0 * contact.r * step / (A + B)  # |A - B|, without cancellation
+            R += G / math.pi * np.log((A + B) / np.where(apart == 0.0, A + B, apart))
+        return np.asarray(R)
+
+    towards = 2.0 * contact.r * 0.5 ** np.arange(HALVINGS)
+    centres = (contact.x1, contact.x2) if place is None else (contact.x1, contact.x2, place)
+    cuts = np.concatenate([np.append(c + towards, np.append(c - towards, c)) for c in centres])
+    ends = np.union1d(x, cuts[(cuts > x[0]) & (cuts < x[-1])])
+    node, weight = np.polynomial.legendre.leggauss(NODES)
+    half = 0.5 * np.diff(ends)[:, None]
+    t = ends[:-1, None] + half * (1.0 + node)
+    k = np.searchsorted(x, ends[:-1], side="right") - 1
+    share = (t - x[k, None]) / np.diff(x)[k, None]
+    value = half * weight * answer(t)
+    total = np.bincount(k, (value * (1.0 - share)).sum(axis=1), len(x))
+    total += np.bincount(k + 1, (value * share).sum(axis=1), len(x))
+    return float(answer(x[:1])[0]), np.asarray(total, dtype=float)
+
+
+def transposed_spline(x: Array, first: float, weights: Array) -> Array:
+    """The weights of the heights, by those of f' at the first point and of f'' at all points.
+
+    It is the transpose of `profiles.splines.interpolating_spline`, not-a-knot at its ends.
+    """
+    from scipy.linalg import solve_banded  # noqa: PLC0415 -- heavy, and for traces only
+
+    step = np.diff(x)
+    w, out = weights.copy(), np.zeros(len(x))
+    # f'(x0) = chord - step (2 γ0 + γ1)/6
+    w[:2] -= first * step[0] * np.array([2.0, 1.0]) / 6.0
+    out[:2] += first * np.array([-1.0, 1.0]) / step[0]
+    begin, end = step[0] / step[1], step[-1] / step[-2]
+    inner = w[1:-1].copy()
+    inner[:2] += w[0] * np.array([1.0 + begin, -begin])
+    inner[-2:] += w[-1] * np.array([-end, 1.0 + end])
+    system = np.zeros((3, len(inner)))  # the transpose: its bands change places
+    system[1] = 2.0 * (step[:-1] + step[1:])
+    system[2, :-1] = system[0, 1:] = step[1:-1]
+    system[1, 0] += step[0] * (1.0 + begin)
+    system[2, 0] -= step[0] * begin
+    system[1, -1] += step[-1] * (1.0 + end)
+    system[0, -1] -= step[-1] * end
+    bends = 6.0 * solve_banded((1, 1), system, inner, check_finite=False)
+    chords = np.append(0.0, bends) - np.append(bends, 0.0)
+    out[1:] += chords / step
+    out[:-1] -= chords / step
+    return out
