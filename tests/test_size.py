@@ -21,7 +21,7 @@ LINES = {
     "friction": 11440,
     "io": 5560,
     "live": 1170,
-    "many": 940,
+    "many": 930,
     "numerics": 2170,
     "patches": 5260,
     "paths": 1040,

@@ -8,7 +8,6 @@ from typing import Any
 import numpy as np
 
 from sie.profiles.base import Profile
-from sie.profiles.power_law import PowerLaw
 from sie.profiles.row import asks_for_patches
 from sie.profiles.shapes import Flat, Parabola, Power, RoundedFlat, Wedge
 
@@ -57,6 +56,4 @@ def _(profile: Wedge, shape: tuple[int, ...]) -> tuple[Family, ...]:
 
 @families.register
 def _(profile: Power, shape: tuple[int, ...]) -> tuple[Family, ...]:
-    if not PowerLaw(profile.exponent, 1.0).explicit:
-        return ()
     return (Closed(power(profile.exponent), _flat(shape, profile.coefficient)),)

@@ -21,7 +21,9 @@ from numpy.typing import NDArray
 
 from sie.inheritance import override
 from sie.numerics.interval import EPS
-from sie.profiles.power_law import PowerLaw
+from sie.problem.scene import Scene
+from sie.profiles.shapes import Power
+from sie.solution import solve
 
 from .families import Array, Contact, Family
 
@@ -146,17 +148,11 @@ ROUNDED = (lambda b, a, R: _punch_load(b - a, a, R), punch_width, _punch_pressur
 
 
 def power(m: float) -> tuple[Callable[..., Array], Callable[..., Array], Callable[..., Array]]:
-    """The formulas of |x|^m times a coefficient, by those of `profiles.power_law`."""
-    law = PowerLaw(m, 1.0)
-    factor = law.load(1.0, 1.0)
-
-    def pressure(x: Array, r: Array, T: Array, A: Array) -> Array:
-        y = (x / r).ravel()
-        J = law.superposed(y, np.maximum(1.0 - np.abs(y), 0.0), 1.0).reshape(x.shape)
-        return np.asarray(m * T / (math.pi * r) * J)
-
+    """The formulas of |x|^m times a coefficient: all contacts of it are alike."""
+    unit = solve(Scene(profile=Power(m, 1.0), modulus=2.0, half_width=1.0))
+    factor = unit.normal_load
     return (
         lambda r, A: factor * A * r**m,
         lambda T, A: (T / (factor * A)) ** (1.0 / m),
-        pressure,
+        lambda x, r, T, A: T / (factor * r) * unit.pressure(np.clip(x / r, -1.0, 1.0)),
     )

@@ -123,7 +123,7 @@ def _of_one_patch(
     rate = response(edges, G, (H, h), change, given)
     turned, I0 = direction.tilted(rate.tilt), h.I0 + math.pi * rate.tilt
     common = contact, G, *rate.intensities, rate.load, rate.moment
-    series = slope_series(turned, contact, tol)
+    series = slope_series(turned, contact)
     p: Density
     if series is not None:
         p = TransformDensity(*common, series)

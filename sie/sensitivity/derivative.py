@@ -65,7 +65,7 @@ class Derivative:
 
     def __init__(self, solution: Any, name: str | Profile) -> None:
         scene = solution.scene
-        if scene.bonded or scene.coupled or scene.goodman or scene.epsilon:
+        if scene.bonded or scene.coupled or scene.epsilon:
             raise ContactError(
                 "derivatives are known where the shear leaves the pressure alone: give dundurs = 0 "
                 "to neglect β, or friction = 0"

@@ -118,9 +118,6 @@ CASES = {
         "modulus",
     ),
     "half-width": (lambda v: scene(FLAT, half_width=v, tilt=0.03), 1.0, "half_width"),
-    "radius at a half-width and a moment": (
-        lambda v: scene(sie.RoundedFlat(0.5, v), half_width=1.0, moment=0.03), 1.0, "profile.radius"
-    ),
     "wedge": (lambda v: scene(sie.Wedge(v)), 0.3, "profile.slope"),
     "power": (lambda v: scene(sie.Power(2.5, v)), 0.5, "profile.coefficient"),
     "exponent": (lambda v: scene(sie.Power(v, 0.5)), 2.5, "profile.exponent"),
