@@ -13,7 +13,7 @@ HOUSE = Path(sie.__file__).parent
 LINES = {
     "": 2800,
     "benchmark_set": 10,
-    "cauchy": 2080,
+    "cauchy": 2100,
     "certificate": 1570,
     "cli": 960,
     "contact": 2520,
