@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from sie import arguments
 from sie.errors import ContactError
 from sie.numerics import jacobi
+from sie.numerics.interval import EPS
 from sie.numerics.jacobi_weight import Weight
 
 from .interval_map import Affine, Map
@@ -29,6 +30,7 @@ PROBES = np.array([-0.967, -0.871, -0.537, 0.071, 0.467, 0.859, 0.973])
 # A solution so many times larger than its right-hand side belongs to a matrix that is singular to
 # rounding.
 SINGULAR = 1e10
+NEGLIGIBLE = 64.0 * EPS  # below this part of the largest, what a sum leaves is rounding
 
 
 class Condition(NamedTuple):
@@ -218,6 +220,20 @@ def solved(matrix: Array, rhs: Array) -> Array:
             "where both ends are singular"
         )
     return found
+
+
+def right_hand_side(
+    problem: Problem, multiples: Array, sampled: Array, values: Array
+) -> tuple[Array, bool]:
+    """g + Σ d_j u_j from samples of g and u_j, and whether φ = 0 is the solution.
+
+    It is where the free functions take g away, but for rounding, and all conditions ask for 0.
+    """
+    out = multiples @ sampled
+    rounding = NEGLIGIBLE * (np.abs(multiples) @ np.abs(sampled)).max()
+    free = len(multiples) == 1 + len(problem.free)  # and no constant that g should not need
+    vanishes = free and bool(np.abs(out).max() <= rounding) and not values.any()
+    return (np.zeros_like(out) if vanishes else out), vanishes
 
 
 def positive(*scales: Any) -> float:

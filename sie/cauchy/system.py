@@ -20,6 +20,7 @@ from sie.numerics.interval import EPS
 
 from .attempt import TAIL, Attempt, Terms, attempted
 from .formulation import (
+    NEGLIGIBLE,
     PROBES,
     Problem,
     condition_rows,
@@ -29,6 +30,7 @@ from .formulation import (
     positions,
     positive,
     real_if_real,
+    right_hand_side,
     sample,
     sample_kernel,
     solved,
@@ -40,9 +42,8 @@ Array = NDArray[Any]
 # Unknowns up to which LAPACK's n³ costs less than GMRES, measured (`validation`).
 DENSE = 600
 KRYLOV = 120
-# The first and the last of a kernel's coefficients in t are examined; below this they are rounding.
+# The first and the last of a kernel's coefficients in t are examined.
 _FIRST, _LAST = slice(0, TAIL), slice(-TAIL, None)
-NEGLIGIBLE = 64.0 * EPS
 
 
 class _Block(NamedTuple):
@@ -296,8 +297,11 @@ class System:
         """The density of these unknowns, with its residuals, tails and rounding."""
         N = sum(self.sizes)
         c, d = unknown[:N], unknown[N:] / self._free_columns[1]
+        multiples = np.concatenate(([1.0], d))
+        wanted, vanishes = right_hand_side(self.problem, multiples, self.sampled, self.values)
+        if vanishes:
+            c = np.zeros_like(c)
         smooth = self.kernel @ self._weighted(c)
-        wanted = np.concatenate(([1.0], d)) @ self.sampled
         size = [
             positive(np.abs(wanted[rows]).max(), np.abs(smooth[rows]).max())
             for rows in self._row_slices

@@ -25,6 +25,7 @@ from .formulation import (
     constant_of,
     functionals,
     positions,
+    right_hand_side,
     sample,
     solved,
 )
@@ -47,8 +48,9 @@ def by_transform(problem: Problem, n: int) -> Attempt:
     rows, values = condition_rows(problem, [functionals(interval, weight, n)])
     found, unknown = _closed(c, second[:, : max(-kappa, 0)], rows, values, kappa)
     multiples = np.concatenate(([1.0], unknown))
-    wanted = multiples @ sampled
-    left_over = constant * jacobi.evaluate(weight.inverse, multiples @ second, PROBES) - wanted[m:]
+    wanted, vanishes = right_hand_side(problem, multiples, sampled, values)
+    found, image = (0.0 * found, 0.0 * second[0]) if vanishes else (found, multiples @ second)
+    left_over = constant * jacobi.evaluate(weight.inverse, image, PROBES) - wanted[m:]
     off = float(unsure(x, wanted / stretch, stretch).max())
     return attempted(problem, [found], unknown, [Terms(n, left_over, wanted, sampled[0], 0.0, off)])
 

@@ -142,9 +142,9 @@ def boundary_data(
     x, y = places.T
     if labels is None:
         labels = np.arange(1, len(x) + 1)
-    numbers = np.asarray(labels, dtype=np.int64)
-    if numbers.shape != x.shape:
-        raise ValueError(f"{numbers.size} labels of {len(x)} points: give one for each point")
+    numbers = arguments.reals("labels", labels).astype(np.int64)
+    if numbers.shape != x.shape or (numbers != labels).any():
+        raise ValueError(f"{numbers.size} labels of {len(x)} points: give a whole number for each")
     if kind == "displacement":
         u = moved(x, y)
         held = (
@@ -235,8 +235,9 @@ def _traction(tractions: Tractions, places: Array, normals: Array) -> Array:
     x, y = places.T
     s = Stress(tractions, x, np.abs(y))
     xy = s.xy if y.max() > 0.0 else -s.xy
-    n_x, n_y = normals.T
-    return np.column_stack((s.xx * n_x + xy * n_y, xy * n_x + s.yy * n_y))
+    upright = normals[:, 1] == 0.0  # a side is upright or level: stresses may be infinite
+    t = np.where(upright, (s.xx, xy), (xy, s.yy)).T
+    return np.where(upright, normals[:, 0], normals[:, 1])[:, None] * t
 
 
 def _forces(tractions: Tractions, places: Array, normal: tuple[float, float]) -> Array:

@@ -68,7 +68,7 @@ class Measure:
         left, right = d(x.anchor - P.a[j], x.offset), d(x.anchor - P.b[j], x.offset)
         if np.iscomplexobj(S):
             middle = d(x.anchor - P.c[j], x.offset)
-            return middle * np.sqrt((left / middle) * (right / middle)) * S, S
+            return middle * np.sqrt(left / middle) * np.sqrt(right / middle) * S, S
         T = np.sqrt(np.abs(left * right)) * S
         return np.where((left < 0.0) & (right < 0.0), -T, T), S
 

@@ -93,7 +93,10 @@ def displacement_of(
     rotation = arguments.finite("rotation", rotation)
     period = solution.scene.profile.period
     deep = 10.0 * solution.half_width if math.isinf(period) else period
-    x0, y0 = (solution.centre, deep) if zero is None else arguments.listed("zero", zero, ZERO_AT)
+    place = (solution.centre, deep) if zero is None else arguments.listed("zero", zero, ZERO_AT)
+    if len(place) != 2:
+        raise ValueError(f"zero = {place!r} has {len(place)} numbers: give {ZERO_AT}")
+    x0, y0 = place
     x0, y0 = arguments.finite("zero", x0), arguments.not_negative("zero", y0)
     at = _middle(solution)
     tilt = solution.tilt

@@ -205,3 +205,30 @@ def test_the_thin_aerofoil_has_the_circulation_of_the_closed_form(incidence, cam
     )
     assert sheet(x) == pytest.approx(closed, rel=PROMISE)
     assert sheet.resultant == pytest.approx(2.0 * np.pi * (incidence + 0.5 * camber), rel=PROMISE)
+
+
+def _ridge(x, t):
+    return 0.1 / ((t - x) ** 2 + 0.01)
+
+
+@pytest.mark.parametrize("k", [None, _ridge])
+@pytest.mark.parametrize("multiple", [1.0, 0.3, -2.3])
+def test_a_right_hand_side_made_of_free_functions_has_no_density(multiple, k):
+    """g = -d u has the solution φ = 0, whatever rounding leaves of the sum."""
+
+    def shape(x):
+        return np.cos(3.0 * x) / 3.0
+
+    asked = sie.CauchyEquation(
+        (-1.0, 1.0), lambda x: multiple * shape(x), k=k, ends="bounded", free=(shape,)
+    )
+    density = asked.solve()
+    np.testing.assert_array_equal(density([-0.6, 0.2]), 0.0)
+    np.testing.assert_allclose(density.constants, -multiple, rtol=1e-13)
+    assert density.error < 1e-14
+    if k is None:
+        return
+    apart = sie.CauchyEquation(
+        ((-1.0, 1.0), (2.0, 3.0)), 1.0, k=k, ends="bounded", free=(1.0, np.sin)
+    )
+    np.testing.assert_array_equal(apart.solve()([-0.6, 2.2]), 0.0)

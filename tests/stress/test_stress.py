@@ -300,3 +300,12 @@ def test_bulk_stress_is_added_along_the_surface_only():
     assert pulled.xx - plain.xx == pytest.approx(0.5)
     assert pulled.yy == pytest.approx(plain.yy, abs=1e-15) and (pulled.xy == plain.xy).all()
     assert pulled.zz - plain.zz == pytest.approx(0.15)
+
+
+@pytest.mark.parametrize("depth", [1e-100, 1e-291])
+def test_the_stress_below_the_middle_of_a_patch_tends_to_that_on_the_surface(depth):
+    """The root of a patch is that of its edges, however near its middle is."""
+    profile = sie.Periodic(sie.Parabola(40.0), 1.5)
+    solution = sie.solve(sie.Scene(profile=profile, modulus=1e5, poisson=0.3, normal_load=10.0))
+    near, surface = solution.stress(0.0, depth), solution.stress(0.0, 0.0)
+    np.testing.assert_allclose([near.xx, near.yy], [surface.xx, surface.yy], rtol=1e-12)
