@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 import pytest
-from closed_forms import EPS, call, coarse, mp, of_every_call, principal_value, resultant, short
+from closed_forms import EPS, call, coarse, mp, principal_value, resultant, short
 
 from analytic import cattaneo, cattaneo_rounded, rounded_flat
 
@@ -228,40 +228,6 @@ def test_cycles_close_and_reverse(module, given, friction: float) -> None:
 
 SLID = {**HERTZ, "tangential_load": 0.35}
 PART = {**ROUNDED, "tangential_load": 0.05}
-SMALL = {**ROUNDED, "tangential_load": 1e-9}
-ENERGY = {"normal_load": 2.0, "friction": 0.3, "tangential_load": 0.35, "modulus": 3.0}
-CALLS = [
-    (cattaneo.stick_half_width, SLID),
-    (cattaneo.slip_width, SLID),
-    *((cattaneo.shear, {"x": x, **SLID}) for x in (0.1, -0.9)),
-    (cattaneo.unloading_shear, {"x": 0.1, **HERTZ, "largest_load": 0.4, "tangential_load": 0.2}),
-    (cattaneo.reloading_shear,
-     {"x": 0.1, **HERTZ, "largest_load": 0.4, "least_load": -0.1, "tangential_load": 0.2}),
-    (cattaneo.slip, {"x": -0.9, **SLID, "modulus": 3.0}),
-    (cattaneo.excess_shift, ENERGY),
-    (cattaneo.dissipation, ENERGY),
-    (cattaneo.bulk_stick, {**SLID, "bulk_stress": 0.1}),
-    (cattaneo.bulk_shear, {"x": -0.3, **SLID, "bulk_stress": -0.1}),
-    (cattaneo_rounded.loading_ratio,
-     {"half_flat": 0.5, "half_width": 1.0, "stick_half_width": 0.7}),
-    *(
-        (function, given)
-        for function in (cattaneo_rounded.stick_rim, cattaneo_rounded.slip_width)
-        for given in (PART, SMALL)
-    ),
-    *(
-        (cattaneo_rounded.shear, {"x": x, **given})
-        for x in (0.1, -0.5, 0.52)
-        for given in (PART, SMALL)
-    ),
-    (cattaneo_rounded.unloading_shear,
-     {"x": 0.1, **ROUNDED, "largest_load": 0.06, "tangential_load": 0.02}),
-    (cattaneo_rounded.reloading_shear,
-     {"x": 0.1, **ROUNDED, "largest_load": 0.06, "least_load": -0.01, "tangential_load": 0.02}),
-    (cattaneo_rounded.slip, {"x": -0.82, **PART}),
-    (cattaneo_rounded.dissipation, PART),
-]  # fmt: skip
-TestEveryCall = of_every_call(CALLS)
 
 
 def test_bulk_tension_that_reverses_slip_is_refused() -> None:

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from closed_forms import EPS, call, coarse, mp, of_every_call, resultant, short
+from closed_forms import EPS, call, coarse, mp, resultant, short
 
 from analytic import (
     bonded_flat,
@@ -151,45 +151,6 @@ def test_sliding_rounded_flat_keeps_its_digits_everywhere(k: float, a: float) ->
 
 # --- what holds for all
 # ------------------------------------------------------------------------------------------
-
-CALLS = [
-    (sliding_hertz.edges, {"half_width": 1.1, "coupling": 0.3}),
-    (sliding_hertz.pressure, {"x": 0.4, **HERTZ, "coupling": -0.49}),
-    (sliding_hertz.load, {**HERTZ, "coupling": -0.49}),
-    (sliding_hertz.moment, {**HERTZ, "coupling": -0.49}),
-    (sliding_hertz.half_width,
-     {"normal_load": 0.7, "radius": 2.0, "modulus": 3.0, "coupling": 0.3}),
-    *(
-        (sliding_hertz.potential, {"z": z, **HERTZ, "coupling": 0.49})
-        for z in (0.3, 0.3 + 0.1j, 1.4 - 2j, 300 + 5j)
-    ),
-    (sliding_flat.upright_moment, {**FLAT, "coupling": 0.3}),
-    *(
-        (sliding_flat.pressure, {"x": x, **FLAT, "coupling": 0.49, "moment": -0.2})
-        for x in (0.0, -0.999, 0.7)
-    ),
-    (sliding_flat.tilt, {**FLAT, "coupling": 0.3, "moment": -0.2, "modulus": 3.0}),
-    *(
-        (sliding_flat.potential, {"z": z, **FLAT, "coupling": 0.49, "moment": -0.2})
-        for z in (0.3, 0.3 + 0.1j, 1.4 - 2j, 300 + 5j)
-    ),
-    (bonded_flat.pressure, {"x": 0.4, **BONDED, "dundurs": 0.4}),
-    (bonded_flat.shear, {"x": 0.999, **BONDED, "dundurs": -0.5}),
-    (bonded_flat.tilt,
-     {"half_width": 1.1, "dundurs": 0.3, "modulus": 3.0, "shear_load": 0.7, "moment": -0.2}),
-    *(
-        (bonded_flat.potential, {"z": z, **BONDED, "dundurs": 0.4})
-        for z in (0.3, 0.3 + 0.1j, 1.4 - 2j, 300 + 5j)
-    ),
-    (sliding_rounded_flat.rims, {**ROUNDED, "coupling": 0.49}),
-    (sliding_rounded_flat.edges, {**ROUNDED, "coupling": -0.3}),
-    (sliding_rounded_flat.moment, {**ROUNDED, "coupling": -0.3}),
-    *(
-        (sliding_rounded_flat.pressure, {"x": x, **ROUNDED, "coupling": 0.49})
-        for x in (-0.6, -0.4, 0.0, 0.5, 0.52)
-    ),
-]  # fmt: skip
-TestEveryCall = of_every_call(CALLS)
 
 
 def test_pressure_is_infinite_at_sharp_corners_only_and_zero_outside() -> None:

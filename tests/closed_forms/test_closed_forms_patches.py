@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from closed_forms import EPS, Call, coarse, mp, of_every_call, resultant
+from closed_forms import EPS, coarse, mp, resultant
 
 from analytic import cracks, flat_row, parabola_row, two_flats, two_parabolas, wavy
 
@@ -146,42 +146,6 @@ def test_cracks_far_from_others_and_with_thin_bridges() -> None:
 # ------------------------------------------------------------------------------------------
 
 SHAPE = {"wavelength": 2.0, "amplitude": 0.3, "modulus": 5.0}
-CALLS: list[Call] = [
-    *((two_flats.pressure, {"x": x, **FLATS, "moment": -2.0}) for x in (1.0001, -1.5, 1.999)),
-    (two_flats.largest_moment, FLATS),
-    (two_flats.tilt, {**FLATS, "moment": -2.0, "modulus": 3.0}),
-    *(
-        (two_flats.potential, {"z": z, **FLATS, "moment": -2.0})
-        for z in (0.3, 1.2, 0.3 + 0.1j, -1.4 - 2j, 3e5 + 5j)
-    ),
-    (two_parabolas.height, {"x": 0.7, "distance": 1.5, "radius": 2.0}),
-    (two_parabolas.slope, {"x": 0.7, "distance": 1.5, "radius": 2.0}),
-    (two_parabolas.distance, {"inner": 0.1, "outer": 2.0}),
-    (two_parabolas.load, PARABOLAS),
-    *(
-        (two_parabolas.edges, {"normal_load": P, "distance": 1.5, "radius": 2.0, "modulus": 3.0})
-        for P in (1e-12, 1.0, 20.0)
-    ),
-    *((two_parabolas.pressure, {"x": x, **PARABOLAS}) for x in (1.0001, -1.4, 1.999)),
-    (wavy.height, {"x": 5.3, "wavelength": 2.0, "amplitude": 0.3}),
-    (wavy.slope, {"x": 5.3, "wavelength": 2.0, "amplitude": 0.3}),
-    *((wavy.pressure, {"x": x, **WAVE}) for x in (0.1, -6.4, 0.5999)),
-    (wavy.mean_pressure, WAVE),
-    (wavy.half_width, {"mean_pressure": 0.7, **SHAPE}),
-    (wavy.closing_pressure, SHAPE),
-    (wavy.complete_pressure, {"x": 0.3, "mean_pressure": 7.0, **SHAPE}),
-    *((wavy.potential, {"z": z, **WAVE}) for z in (0.3, 0.9, 0.3 + 0.1j, -1.4 - 2j, 0.3 + 200j)),
-    *((flat_row.pressure, {"x": x, **ROW}) for x in (0.1, -6.4, 0.5999)),
-    *((flat_row.potential, {"z": z, **ROW}) for z in (0.3, 0.9, 0.3 + 0.1j, -1.4 - 2j, 0.3 + 200j)),
-    (parabola_row.height, {"x": 5.3, "radius": 3.0, "period": 2.0}),
-    (parabola_row.slope, {"x": 5.3, "radius": 3.0, "period": 2.0}),
-    *((parabola_row.pressure, {"x": x, **CRESTS}) for x in (0.1, -6.4, 0.5999)),
-    *((parabola_row.mean_pressure, {**CRESTS, "half_width": a}) for a in (0.1, 0.6, 0.99)),
-    (parabola_row.half_width, {"mean_pressure": 0.7, "radius": 3.0, "period": 2.0, "modulus": 5.0}),
-    (cracks.pair, {"inner": 0.1, "outer": 2.0, "tension": -3.0}),
-    (cracks.row, {"half_length": 0.4, "period": 1.0, "tension": 3.0}),
-]  # fmt: skip
-TestEveryCall = of_every_call(CALLS)
 
 
 def test_pressure_is_zero_beside_the_patches_and_infinite_at_sharp_corners_only() -> None:

@@ -135,7 +135,7 @@ def test_unloading_by_a_ten_millionth_moves_an_end_by_as_little():
 
 def test_a_flat_punch_that_turns_while_it_is_sheared_is_refused_with_a_remedy():
     flat = sie.Scene(profile=sie.Flat(1.0), modulus=1.0, friction=0.3, normal_load=1.0)
-    with pytest.raises(sie.ContactError, match="sharp edges.*round its corners"):
+    with pytest.raises(sie.ContactError, match=r"sharp edges.*round its corners"):
         after([*BEFORE, (1, -0.1, -0.05)], (0, 0.1, -0.1), flat)
 
 
