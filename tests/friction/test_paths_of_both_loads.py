@@ -69,7 +69,7 @@ KINDS = {
 TURNING = [(0.1, 0.02), (0.3, 0.1), (0.25, -0.05), (0.1, 0.02)]
 
 
-@pytest.mark.slow(but=1)
+@pytest.mark.slow
 @pytest.mark.parametrize("name", KINDS)
 def test_energy_of_a_path_is_that_of_the_path_cut_into_parts(name):
     scene = sie.Scene(profile=KINDS[name], modulus=1.0, normal_load=0.3, friction=0.5)
