@@ -129,8 +129,8 @@ def calls(questions: list[Any]) -> list[tuple[Callable[..., Any], dict[str, Any]
             required = {k for k, v in parameters.items() if v.default is v.empty}
             of_others = not prefix and name.split(".")[1].startswith(("partial_",))
             begins = name.startswith(f"{module.__name__.split('.')[1]}.{prefix}")
-            pair = name == "flat.partial_edges"  # its edge at a corner keeps the shape of b
-            if not begins or of_others or pair or not required <= asked.keys():
+            listed = name == "flat.partial_edges"  # its edges are a list and no arrays
+            if not begins or of_others or listed or not required <= asked.keys():
                 continue
             if "rim" in parameters and not {"rim", "half_width"} & asked.keys():
                 continue

@@ -9,11 +9,9 @@ import numpy as np
 import pytest
 
 import sie
-from sie import frictionless
 from sie.contact import normal, pressure
 from sie.numerics import chebyshev
 from sie.patches import answer
-from sie.profiles import resolution
 from sie.traction.of_slope import SlopeDensity
 
 PUNCH = sie.RoundedFlat(0.5, 1.0)
@@ -44,13 +42,6 @@ def counted(module, name):
 
 def scene(profile, **given):
     return sie.Scene(profile=profile, modulus=1.0, poisson=0.3, **{"normal_load": 0.3, **given})
-
-
-def test_a_piecewise_polynomial_slope_needs_no_transform():
-    with counted(chebyshev, "transform") as transforms:
-        solved = sie.solve(scene(PUNCH))
-        _ = solved.pressure(np.linspace(-0.4, 0.4, 1001)), solved.normal_load
-    assert not transforms
 
 
 @pytest.mark.parametrize(
@@ -107,13 +98,6 @@ def test_a_cauchy_equation_without_kernel_builds_no_matrix():
     assert not matrices
 
 
-def test_the_counter_counts():
-    with counted(frictionless, "normal_contact") as solves:
-        for load in (0.1, 0.2):
-            _ = sie.solve(scene(PUNCH, normal_load=load)).edges
-    assert len(solves) == 2
-
-
 def test_pytest_finds_the_benchmarks_only_by_their_path(pytestconfig):
     patterns, found = (
         pytestconfig.getini("python_files"),
@@ -162,11 +146,3 @@ def calls_for(jumps):
 @pytest.mark.slow
 def test_jumps_are_looked_for_all_at_once():
     assert calls_for(41) <= 2 * calls_for(5)
-
-
-def test_the_gap_under_a_function_is_resolved_from_half_widths_outwards():
-    solved = sie.solve(scene(sie.FromFunction("arctan(x) + x/10")))
-    _ = solved.pressure
-    with counted(resolution, "_degrees") as resolutions:
-        solved.check()
-    assert len(resolutions) <= 30

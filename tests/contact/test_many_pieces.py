@@ -8,54 +8,7 @@ import numpy as np
 import pytest
 
 import sie
-from sie.numerics.cauchy_sums import LEAF, KernelSums
-from sie.traction import panels, potential
-
-
-def rows(kind, n, rng):
-    ends = {
-        "even": np.linspace(-1.0, 1.0, n + 1),
-        "graded": np.append(0.0, np.geomspace(1e-12, 1.0, n)),
-    }[kind]
-    lo, length = ends[:-1], np.diff(ends)
-    return (
-        lo,
-        length,
-        length[:, None] * np.sort(rng.random((n, 9)), axis=1),
-        rng.standard_normal((n, 9)),
-    )
-
-
-@pytest.mark.parametrize("kind", ["even", "graded"])
-@pytest.mark.parametrize("n", [2, 3, 41, 1000])
-@pytest.mark.parametrize("plane", [False, True], ids=["line", "plane"])
-def test_far_sums_equal_the_dense_sum_to_rounding(kind, n, plane):
-    rng = np.random.default_rng(n)
-    lo, length, offset, charge = rows(kind, n, rng)
-    z = np.concatenate(
-        (rng.uniform(-1.5, 1.5, 60), rng.uniform(-30.0, 30.0, 20), 10.0 ** rng.uniform(-12, 0, 20))
-    )
-    z = z + 1j * 10.0 ** rng.uniform(-9, 1, len(z)) if plane else z
-    far, k, i = KernelSums(lo, length, offset, charge).far(z)
-    for j, at in enumerate(z):
-        kernel = charge / ((lo - at)[:, None] + offset)
-        kernel[k[i == j]] = 0.0
-        assert abs(far[j] - kernel.sum()) <= 2e-15 * np.abs(kernel).sum()
-
-
-@pytest.mark.parametrize("n", [100, 1000, 10_000])
-def test_a_point_has_few_near_pieces_for_any_number_of_pieces(n):
-    rng = np.random.default_rng(0)
-    lo, length, offset, charge = rows("even", n, rng)
-    _, k, _ = KernelSums(lo, length, offset, charge).far(rng.uniform(-1.0, 1.0, n))
-    assert len(k) <= 3 * LEAF * n  # its own leaf and both beside it
-
-
-def test_a_loop_over_pieces_is_never_entered_with_many(monkeypatch):
-    monkeypatch.setattr(potential, "_ranges", None)
-    monkeypatch.setattr(potential, "_regions", None)
-    p, x = sie.solve(chained(300, 0.0)).pressure, np.linspace(-0.4, 0.4, 50)
-    assert np.isfinite(p(x)).all() and np.isfinite(p.cauchy(x + 0.1j)).all()
+from sie.traction import panels
 
 
 def test_jumps_of_a_slope_of_many_pieces_are_infinite_where_they_are():

@@ -103,11 +103,6 @@ def test_the_pressure_of_two_rounded_flats():
     assert float(p(-1.16)) == pytest.approx(0.143035588269716213, rel=1e-14)
 
 
-def test_the_outermost_edges_are_the_edges():
-    solution = solved(profile=TWO, normal_load=0.4)
-    assert solution.edges == (solution.patches[0][0], solution.patches[-1][1])
-
-
 def test_a_row_of_one_convex_profile_is_that_profile():
     one = solved(profile=sie.Parabola(1.0), normal_load=0.4)
     row = solved(profile=sie.Row([sie.Parabola(1.0)]), normal_load=0.4)

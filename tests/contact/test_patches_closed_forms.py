@@ -93,14 +93,6 @@ def test_edges_and_pressure_of_a_closed_form(form, gap):
     assert solution.check().ok
 
 
-@pytest.mark.parametrize("radius", [0.1, 2.0, 10.0])
-@pytest.mark.parametrize(("form", "gap"), [(pair_of_parabolas, 1.0), (row_of_parabolas, 0.4)])
-def test_parabolas_of_any_radius(form, gap, radius):
-    profile, load, edges, _ = form(gap, radius)
-    found = solved(profile=profile, normal_load=load).patches[-1]
-    assert found == pytest.approx([float(e) for e in edges], abs=2e-13)
-
-
 @pytest.mark.parametrize("part", [0.02, 0.4, 0.95])
 def test_potential_and_derivative_of_a_wave(part):
     """The derivative beside that of the closed form by Cauchy's formula on a circle."""

@@ -10,7 +10,6 @@ import numpy as np
 import pytest
 
 import sie
-from sie.io.scene_file import SceneFileError, parse
 
 PARABOLA, PUNCH, FLAT, WEDGE = (
     sie.Parabola(1.0),
@@ -177,41 +176,6 @@ def test_poisson_s_ratio_is_given_beside_the_modulus_or_with_the_body():
     assert values[0] == pytest.approx(values[1], rel=1e-13)
 
 
-HEAD = "[load]\nnormal_load = 5.0\n"
-BODY = "[body]\nyoung = 1e5\npoisson = 0.3\n"
-ROUND = '[profile]\nkind = "parabola"\nradius = 10.0\n'
-FILES = {
-    "load is normal_load": (BODY + ROUND + "[load]\nload = 5.0\n", 'did you mean "normal_load"?',
-                            BODY + ROUND + HEAD),
-    "another kind's key": (
-        BODY + HEAD + ROUND + "half_flat = 1.0\n", 'it belongs to kind "rounded-flat"',
-        BODY + HEAD + ROUND.replace("parabola", "rounded-flat") + "half_flat = 1.0\n",
-    ),
-    "a table of its own": (BODY + ROUND + HEAD + "pair = 3\n", "write the header [pair]",
-                           ROUND + HEAD + "[pair]\nmodulus = 3\n"),
-    "top of the file": (BODY + ROUND + HEAD + 'title = "a"\n', "top of the file",
-                        'title = "a"\n' + BODY + ROUND + HEAD),
-    "pair or body": (BODY + "[pair]\nmodulus = 1e5\n" + ROUND + HEAD, "leave one out",
-                     BODY + ROUND + HEAD),
-    "dundurs alone": (BODY + "[pair]\nmodulus = 1e5\n" + ROUND + HEAD,
-                      "give dundurs = 0 or coupling alone",
-                      BODY + "[pair]\ndundurs = 0\n" + ROUND + HEAD),
-    "a formula": (
-        BODY + HEAD + '[profile]\nkind = "function"\nslope = "x^3"\n', "did you mean **?",
-        BODY + HEAD + '[profile]\nkind = "function"\nslope = "x**3"\n',
-    ),
-}  # fmt: skip
-
-
-@pytest.mark.parametrize("name", FILES)
-def test_a_file_that_follows_its_refusal_s_remedy_is_solved(name):
-    asked, words, followed = FILES[name]
-    with pytest.raises(SceneFileError) as refusal:
-        parse(asked)
-    assert words in str(refusal.value)
-    solved(parse(followed).scene)
-
-
 def line(x):
     return 1.0 + x
 
@@ -285,31 +249,6 @@ def test_a_path_needs_friction_and_a_finite_one():
         sie.follow(bonded, sie.Path([(1.0, 0.1)]))
     answered(replace(bonded, friction=0.4), [(1.0, 0.1)])
     solved(replace(bonded, normal_load=1.0, tangential_load=0.1))
-
-
-def half_width(solution):
-    return solution.half_width
-
-
-SWEEPS = {
-    "a field": ({"over": {"load": [1.0]}}, "normal_load", {"over": {"normal_load": [1.0]}}),
-    "of the profile": ({"over": {"profile.R": [1.0]}}, "choose radius",
-                       {"over": {"profile.radius": [1.0]}}),
-    "a quantity": ({"want": "width"}, "half_width", {"want": "half_width"}),
-    "a function": ({"want": "width"}, "a dict of functions", {"want": {"width": half_width}}),
-    "a sequence": ({"over": {"normal_load": 1.0}}, "a sequence", {"over": {"normal_load": [1.0]}}),
-    "a chunk": ({"chunk": 0}, "a whole number > 0", {"chunk": 1}),
-}  # fmt: skip
-
-
-@pytest.mark.parametrize("name", SWEEPS)
-def test_a_sweep_that_follows_its_refusal_s_remedy_has_no_reason_left(name):
-    asked, words, followed = SWEEPS[name]
-    given = {"over": {"normal_load": [1.0]}, "want": "half_width", "progress": False}
-    with pytest.raises(ValueError, match=re.escape(words)):
-        sie.sweep(SHEARED, **(given | asked))
-    found = sie.sweep(SHEARED, **(given | followed))
-    assert np.asarray(found["reason"]).tolist() == [""]
 
 
 HEIGHTS = [f"{x:.2f} {0.5 * x * x:.6f}" for x in np.linspace(-1.0, 1.0, 41)]

@@ -120,6 +120,7 @@ def test_certificate_holds_from_narrow_slip_zones_to_incipient_sliding(
     assert solved(profile, beta, friction, part).check().ok
 
 
+@pytest.mark.slow
 def test_a_step_past_a_load_at_which_loads_turned_is_that_in_two_parts():
     parts = 0.65, 0.15, 0.12
     at_once, apart = followed(*parts, 0.66)[-1], followed(*parts, 0.65, 0.66)[-1]

@@ -158,6 +158,7 @@ def test_the_shift_is_the_mean_slip_under_a_flat_punch_on_the_contact_of_the_tim
     assert followed(HERTZ, GROWING)[1].shift == pytest.approx(total, rel=1e-9)
 
 
+@pytest.mark.slow
 def test_the_slip_range_of_a_steady_cycle_holds_for_points_that_leave_the_contact():
     A, B = scaled([(1.2, 0.55, 0.0), (0.9, -0.3, 0.0)])
     steady = sie.steady_cycle(HERTZ, A, B)

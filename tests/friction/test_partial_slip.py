@@ -9,6 +9,7 @@ import pytest
 from slip_cases import E, F, P, left_over, mp, rounded_load, sheared
 
 import sie
+from analytic import cattaneo_rounded, rounded_flat
 from sie.contact import normal
 
 FRACTIONS = (1e-14, 1e-9, 1e-4, 0.009, 0.011, 0.6, 1.0 - 1e-6, 1.0 - 1e-14)
@@ -16,66 +17,12 @@ FRACTIONS = (1e-14, 1e-9, 1e-4, 0.009, 0.011, 0.6, 1.0 - 1e-6, 1.0 - 1e-14)
 # -- the rounded punch in many digits (Ciavarella, Hills & Monno 1998; a = 0 is Hertz), R = 1 ------
 
 
-def rounded_rim(a, load):
-    """s - a, by Newton on the load, which is convex in s: from a large s down."""
-    rim = mp.mpf(1)
-    while rounded_load(a, a + rim) < load:
-        rim *= 2
-    for _ in range(500):
-        s = a + rim
-        step = (rounded_load(a, s) - load) / (E * s * mp.acos(a / s))
-        rim -= step
-        if abs(step) < rim * mp.mpf(10) ** -25:
-            return rim
-    raise AssertionError("the reference does not settle")
-
-
-def rounded_pressure(a, s, x):
-    """Positive integrand: E*/π ∫ t acos(a/t)/sqrt(t² - x²) dt from max(|x|, a) to s; t² = x² +
-    v².
-    """
-    x = abs(x)
-    if x >= s:
-        return mp.mpf(0)
-    lo = max(x, a)
-
-    def integrand(v):
-        return mp.acos(min(a / mp.sqrt(x * x + v * v), 1))
-
-    return E / mp.pi * mp.quad(integrand, [mp.sqrt(lo * lo - x * x), mp.sqrt(s * s - x * x)])
-
-
-def rounded_gap(a, s, x):
-    """The gap at x beside the contact of half-width s: 2/(π E*) ∫_s^x P'(t) acosh(x/t) dt, P' = E*
-    t acos(a/t).
-    """
-    return (
-        2
-        / mp.pi
-        * mp.quad(
-            lambda u: (x - s) * (t := s + (x - s) * u) * mp.acos(min(a / t, 1)) * mp.acosh(x / t),
-            [0, 1],
-        )
-    )
-
-
-def rounded_energy(a, b, c):
-    """2 f²/(π E*) ∫_c^b (P_b - P(s)) (P(s) - P_c) ds/s: what loading from Q = 0 costs."""
-    Pb, Pc = rounded_load(a, b), rounded_load(a, c)
-
-    def integrand(u):  # of the size 1, as mp.quad wants it
-        s = c + (b - c) * u
-        return (Pb - rounded_load(a, s)) * (rounded_load(a, s) - Pc) / (Pb - Pc) ** 2 / s
-
-    return (
-        2
-        * F
-        * F
-        / (mp.pi * E)
-        * (Pb - Pc) ** 2
-        * (b - c)
-        * mp.quad(integrand, mp.linspace(0, 1, 5))
-    )
+def closed(a, solution):
+    """What `analytic` is asked for the contact, in 70 digits."""
+    scene = solution.scene
+    Q, load = mp.mpf(scene.tangential_load), mp.mpf(scene.normal_load)
+    given = {"half_flat": mp.mpf(a), "radius": mp.one, "modulus": mp.mpf(E), "lib": mp}
+    return {**given, "normal_load": load, "friction": mp.mpf(F), "tangential_load": Q}
 
 
 @pytest.mark.slow(but=2)
@@ -88,24 +35,26 @@ def test_the_rounded_punch_and_hertz_in_partial_slip(a, fraction):
     profile = sie.RoundedFlat(a, 1.0) if a else sie.Parabola(1.0)
     load = float(rounded_load(mp.mpf(a), mp.mpf(1)))
     solution = sheared(profile, fraction, load)
-    b, c = (a + rounded_rim(a, P) for P in (mp.mpf(load), left_over(solution)))
+    exact = closed(a, solution)
+    rim, slipped = (f(**exact) for f in (cattaneo_rounded.stick_rim, cattaneo_rounded.slip_width))
     state = solution.tangential
     inner = state.corrective.contact
-    assert abs(solution.stick[0][1] / c - 1) < 3e-16
+    assert abs(solution.stick[0][1] / (a + rim) - 1) < 3e-16
     assert solution.stick[0][0] == -solution.stick[0][1]
-    assert abs((inner.x2 - mp.mpf(a) + inner.tail2) / (c - a) - 1) < 1e-13
-    assert abs(state.lengths[1] / (b - c) - 1) < 2e-13
-    assert abs(solution.energy_lost / rounded_energy(a, b, c) - 1) < 1e-12
+    assert abs((inner.x2 - mp.mpf(a) + inner.tail2) / rim - 1) < 1e-13
+    assert abs(state.lengths[1] / slipped - 1) < 2e-13
+    lost = cattaneo_rounded.dissipation(**exact) / 4  # of a cycle, four times that of its loading
+    assert abs(solution.energy_lost / lost - 1) < 1e-12
     assert solution.shear.resultant == solution.scene.tangential_load
-    peak = F * rounded_pressure(a, b, c)
+    shape = {name: exact[name] for name in ("half_flat", "radius", "modulus", "lib")}
+    peak = F * rounded_flat.pressure(0.0, rim=rim + slipped, **shape)
+    c = a + rim
     for x in (0.0, 0.5 * float(c), 0.99 * float(c)):
-        q = F * (rounded_pressure(a, b, x) - rounded_pressure(a, c, x))
-        assert abs(float(solution.shear(x)) - q) < 1e-13 * peak
-    x = solution.edges[1]
-    if (b - c) > 1e-6 * (b - a) and x > c:  # of the effect of one ulp of x
-        assert abs(
-            float(solution.slip(x)) / (F * rounded_gap(a, c, mp.mpf(x))) - 1
-        ) < 1e-12 + 4 * math.ulp(x) / (b - c)
+        assert abs(float(solution.shear(x)) - cattaneo_rounded.shear(x, **exact)) < 1e-13 * peak
+    x = math.nextafter(solution.edges[1], 0.0)
+    if slipped > 1e-6 * (rim + slipped) and x > c:  # of the effect of one ulp of x
+        slip = cattaneo_rounded.slip(x, **exact)
+        assert abs(float(solution.slip(x)) / slip - 1) < 1e-12 + 4 * math.ulp(x) / slipped
 
 
 def test_the_shear_next_to_the_stick_zone_of_a_thin_slip_zone():
@@ -113,7 +62,7 @@ def test_the_shear_next_to_the_stick_zone_of_a_thin_slip_zone():
     pressures.
     """
     solution = sheared(sie.Parabola(1.0), 1e-3)
-    b, c = (rounded_rim(0, P) for P in (mp.mpf(P), left_over(solution)))
+    b, c = (mp.sqrt(4 * load / (mp.pi * E)) for load in (mp.mpf(P), left_over(solution)))
     for t in (1e-1, 1e-3, 1e-6, 1e-9):
         x = float(c) * (1.0 - 1e-3 * t)
         q = E * F / 2 * (mp.sqrt(b * b - mp.mpf(x) ** 2) - mp.sqrt(c * c - mp.mpf(x) ** 2))

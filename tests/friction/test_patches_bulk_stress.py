@@ -89,6 +89,7 @@ def test_two_patches_agree_with_a_mesh_that_knows_no_superposition(points):
     assert errors[1] < 2e-3 and errors[1] < errors[0] / 1.6
 
 
+@pytest.mark.slow
 def test_a_steady_cycle_of_two_patches_under_bulk_stress_is_that_of_the_path_that_settles():
     A, B = (1.0, 0.1, 0.01), (1.0, -0.1, -0.01)
     steady, path = sie.steady_cycle(scene(EVEN), A, B), followed(EVEN, [A, B, A, B, A])

@@ -188,6 +188,7 @@ def test_contacts_that_layers_alone_answer_are_refused_where_the_normal_load_cha
         sie.follow(scene, sie.Path([(P, 0.1 * F * P), (1.1 * P, 0.3 * F * P)]))
 
 
+@pytest.mark.slow
 def test_energy_of_a_row_of_one_is_that_of_its_profile():
     row = sie.Scene(modulus=1.0, profile=sie.Row([TWO.profiles[0]]), normal_load=0.4, friction=F)
     one = sie.Scene(modulus=1.0, profile=TWO.profiles[0], normal_load=0.4, friction=F)
@@ -195,7 +196,7 @@ def test_energy_of_a_row_of_one_is_that_of_its_profile():
     assert lost[0] == pytest.approx(lost[1], rel=1e-10)
 
 
-@pytest.mark.slow(but=1)
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["row", "wavy punch"])
 def test_normal_and_tangential_loads_that_change_together_agree_with_a_mesh(name):
     """In small steps; patches of the wavy punch appear on the way."""

@@ -54,10 +54,10 @@ def test_energy_while_the_normal_load_changes_tends_to_that_at_constant_load():
 
 
 KINDS = {
+    "punch": sie.RoundedFlat(0.5, 1.0),
+    "wedge": sie.Wedge(0.3),
     "power 1.5": sie.Power(1.5, 0.5),
     "power 2.5": sie.Power(2.5, 0.5),
-    "wedge": sie.Wedge(0.3),
-    "punch": sie.RoundedFlat(0.5, 1.0),
     "tilted punch": sie.RoundedFlat(0.5, 1.0).tilted(0.02),
     "lopsided": sie.Polynomial((0.0, 0.05, 1.0, 0.4, 0.6)),
     "two radii": sie.Piecewise([-0.5, 0.25], [(0.5, 1.0), (0.0,), (-0.75, 3.0)]),
@@ -69,7 +69,7 @@ KINDS = {
 TURNING = [(0.1, 0.02), (0.3, 0.1), (0.25, -0.05), (0.1, 0.02)]
 
 
-@pytest.mark.slow(but=1)
+@pytest.mark.slow
 @pytest.mark.parametrize("name", KINDS)
 def test_energy_of_a_path_is_that_of_the_path_cut_into_parts(name):
     scene = sie.Scene(profile=KINDS[name], modulus=1.0, normal_load=0.3, friction=0.5)
@@ -81,6 +81,7 @@ def test_energy_of_a_path_is_that_of_the_path_cut_into_parts(name):
         assert one.energy_lost == pytest.approx(same.energy_lost, rel=1e-9)
 
 
+@pytest.mark.slow
 def test_energy_while_an_edge_passes_a_jump_is_that_of_the_mirrored_path():
     """Beside the jump the half-width hardly grows: a step of Newton's method that did not settle
     there is no contact.

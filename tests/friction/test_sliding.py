@@ -4,7 +4,6 @@ flat punch).
 
 import math
 
-import mpmath
 import numpy as np
 import pytest
 from hypothesis import example, given, settings
@@ -13,9 +12,6 @@ from sliding_cases import RIM, SIMILAR, bonded, inside, slid
 
 import analytic
 import sie
-from sie.numerics.interval import Interval
-from sie.profiles.slope import Slope
-from sie.traction.piece_quadrature import SlidingGeometry
 
 PROFILES = {
     "parabola": sie.Parabola(3.0),
@@ -251,27 +247,6 @@ def test_random_convex_chains_are_certified(breaks, coupling, load):
     )
     assert solution.check().ok, solution.check()
     assert solution.pressure.resultant == pytest.approx(load, rel=1e-13)
-
-
-@pytest.mark.parametrize("distance", [1e-3, 1e-30, 1e-200, 1.1e-308, 5e-324])
-@pytest.mark.parametrize("side", [-1.0, 1.0])
-@pytest.mark.parametrize("e", [0.144, -0.144, -3e-6])
-def test_dt_over_w_is_exact_on_pieces_that_end_next_to_an_edge(e, side, distance):
-    """∫ dt/w from an edge is the incomplete beta function of the distance from it over 2r."""
-    ends = np.sort(side * np.array([-math.inf, -1.5, 0.0, math.inf]))
-    slope = Slope(ends, np.zeros(3), np.ones((3, 1)), np.zeros(3, dtype=np.int64))
-    pieces = SlidingGeometry(slope, Interval(*sorted((-3.0 * side, distance * side))), e)
-
-    def from_edge(b):
-        from_it, half = mpmath.mpf(distance) - side * b, mpmath.mpf(0.5)
-        share = from_it / (mpmath.mpf(distance) + 3)
-        return mpmath.betainc(half + side * e, half - side * e, 0, share)
-
-    exact = [float(abs(from_edge(hi) - from_edge(lo))) for lo, hi in pieces.ends.T.tolist()]
-    # an ulp of a distance near the least double is more
-    least = math.ulp(distance) / distance
-    assert pieces.totals == pytest.approx(exact, rel=4e-15 + least)  # 4e-16 was measured
-    assert pieces.totals.sum() == pytest.approx(sum(exact), rel=4e-15)
 
 
 @pytest.mark.parametrize("moment", [-2.0, 0.0, 3.5])

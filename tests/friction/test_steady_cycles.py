@@ -167,6 +167,7 @@ def test_a_cycle_that_sticks_dissipates_nothing():
     assert cycle.shear_range(x) == pytest.approx(0.2 * f * (larger - smaller), abs=1e-15)
 
 
+@pytest.mark.slow
 @given(st.floats(-0.4, 0.4), st.floats(-0.5, 0.5))
 @settings(max_examples=10)
 def test_means_of_shear_and_bulk_stress_do_not_change_a_steady_cycle(mean, tension):

@@ -5,7 +5,6 @@ import shutil
 import signal
 import subprocess
 import sys
-from concurrent.futures import Executor, Future
 
 import numpy as np
 import pytest
@@ -74,29 +73,6 @@ def test_a_worker_that_is_killed_in_the_middle_costs_a_retry_and_no_result(clust
     assert note.exists()
     assert (found["half_width"] == serial["half_width"]).all()
     assert (found["reason"] == "").all()
-
-
-class KilledWorker(Exception):
-    """Dask's, for a task that was on several workers that died."""
-
-
-class Losing(Executor):
-    """Loses one chunk."""
-
-    def submit(self, function, work, points):
-        future = Future()
-        if points[0]["normal_load"] == 3.0:
-            future.set_exception(KilledWorker("died"))
-        else:
-            future.set_result(function(work, points))
-        return future
-
-
-def test_a_chunk_that_dask_gives_up_costs_its_own_points():
-    loads = {"normal_load": [1.0, 2.0, 3.0, 4.0]}
-    found = arrays(sie.sweep(SCENE, loads, "half_width", Losing(), chunk=1))
-    assert np.isfinite(found["half_width"]).tolist() == [True, True, False, True]
-    assert "died" in found["reason"][2]
 
 
 SCRIPT = """

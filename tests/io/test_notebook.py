@@ -4,7 +4,6 @@ import re
 import sys
 from html import escape
 
-import numpy as np
 import pytest
 
 import sie
@@ -29,19 +28,6 @@ def axes():
 def test_a_solution_is_drawn_on_given_axes(what, axes):
     assert SHEARED.plot(axes, what=what) is axes
     assert axes.get_xlabel() == "$x$ (mm)" and axes.get_ylabel()
-
-
-def test_what_is_drawn_is_the_pressure(axes):
-    x, p = next(
-        line for line in PUNCH.plot(axes).lines if line.get_label() == "pressure"
-    ).get_data()
-    np.testing.assert_allclose(p, PUNCH.pressure(x), rtol=1e-12, atol=1e-10)
-
-
-@pytest.mark.slow
-def test_a_history_is_drawn_on_given_axes(axes):
-    assert HISTORY.plot(axes) is axes
-    assert axes.get_ylabel() == "$Q$ (N/mm)"
 
 
 def test_units_are_labels(axes):

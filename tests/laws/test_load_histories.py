@@ -138,6 +138,7 @@ def test_reversed_shear_and_bulk_stress_reverse_the_answer(case):
         assert (other.shear(x) == -one.shear(x)).all()
 
 
+@pytest.mark.slow
 @settings(max_examples=6)
 @given(paths((*KNOWN, "moment")), st.integers(2, 4))
 def test_a_path_cut_into_parts_gives_the_same(case, parts):

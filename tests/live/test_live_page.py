@@ -20,7 +20,7 @@ import sie
 from sie.cli import main
 from sie.io.scene_file import Units, example, parse
 from sie.live.answer import PARTS, answer
-from sie.live.controls import ACROSS, DOWN, LIVE, OF_FILE, SAVED, shapes
+from sie.live.controls import ACROSS, DOWN, LIVE, SAVED, shapes
 from sie.live.frame import frame_of, surface
 from sie.live.setting import Setting, sliders
 
@@ -127,15 +127,6 @@ def test_a_setting_without_an_answer_is_refused_in_the_words_of_the_sliders():
     (sentence,) = answer(Setting(**setting), "contact").values()
     assert sentence == "These settings together have no answer. Set “Dundurs' β” to 0."
     assert "refusal" not in answer(Setting(**{**setting, "beta": 0.0}), "contact")
-
-
-def test_the_sliders_change_the_scene_of_a_file():
-    scene = sie.Scene(profile=sie.Parabola(2.0), modulus=3.0, poisson=0.3, normal_load=0.7)
-    words = {"load": "2", "friction": "0.4", "share": "0.5"}
-    setting = Setting.of_words(words, scene)
-    assert setting.shape == OF_FILE
-    assert setting.scene.normal_load == 1.4
-    assert math.isclose(setting.scene.tangential_load, 0.5 * 0.4 * 1.4)
 
 
 @pytest.mark.parametrize("name", FILES)

@@ -37,6 +37,7 @@ EVERY_KIND = (
     sie.FromFunction("sinh(x) + x/3", domain=(-2.0, 3.0)),
     sie.FromFunction(module_level_slope, breaks=(0.5,), domain=(-2.0, 3.0)),
     Faceted(2.0, 0.125),
+    sie.Row([sie.Flat(0.4).shifted(-0.6), sie.Wedge(0.5).shifted(0.9).raised(0.02)]).mirrored(),
     sie.Parabola(2.0).tilted(0.125),
     sie.RoundedFlat(0.5, 3.0).shifted(-0.25),
     sie.Piecewise((-1.0, 0.0, 0.5), ((0.0, 0.5), (0.0, 2.0))).mirrored(),

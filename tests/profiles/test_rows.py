@@ -19,16 +19,9 @@ WAVES = [Periodic(profile, 7.0) for profile in (Parabola(2.0), Flat(0.3), *ROWS[
 X = np.linspace(-3.4871, 3.4913, 1401)
 
 
-@pytest.mark.parametrize("profile", [*ROWS, *WAVES, TWO.shifted(1.0).mirrored().raised(0.1)])
-def test_rows_and_periodic_profiles_are_values(profile):
-    again = pickle.loads(pickle.dumps(profile))
-    assert again == profile
-    assert hash(again) == hash(profile)
-
-
-@pytest.mark.parametrize("profile", [TWO, FLATS, WAVES[0], WAVES[1], TWO.tilted(0.1).raised(1.0)])
-def test_a_printed_row_rebuilds_itself(profile):
-    assert eval(repr(profile), vars(sie) | {}) == profile
+@pytest.mark.parametrize("profile", WAVES[:2])
+def test_a_periodic_profile_is_a_value_that_is_rebuilt_from_its_repr(profile):
+    assert eval(repr(profile), vars(sie) | {}) == pickle.loads(pickle.dumps(profile)) == profile
 
 
 @pytest.mark.parametrize("row", ROWS)

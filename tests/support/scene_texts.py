@@ -52,6 +52,8 @@ ILL_FORMED = [
     (BODY + LOAD + PARABOLA + 'mirrored = "yes"\n',
      'mirrored = "yes" is neither true nor false'),
     (BODY + LOAD + PARABOLA + "plus = 3\n", "write the header [[profile.plus]]"),
+    (BODY + PARABOLA + LOAD + "pair = 3\n", "write the header [pair]"),
+    (BODY + PARABOLA + LOAD + 'title = "a"\n', "top of the file"),
     ("[body]\nyoung = 1e5\npoisson = 0.7\n" + PARABOLA + LOAD,
      "[body] poisson = 0.7 is outside"),
     ('want = ["edgse"]\n' + SCENE, 'want "edgse" is not known: did you mean "edges"?'),
@@ -65,6 +67,8 @@ ILL_FORMED = [
 ]  # fmt: skip
 # What the reader alone refuses.
 MEANINGLESS = [
+    (BODY + "[pair]\nmodulus = 1e5\n" + PARABOLA + LOAD,
+     "give dundurs = 0 or coupling alone"),
     (BODY + PARABOLA + "shifted = nan\n" + LOAD, "[profile] shifted is nan: give a number"),
     ("[body]\nrigid = true\n" + PARABOLA + LOAD,
      "both rigid: nothing can deform; give one of them young and poisson"),

@@ -14,7 +14,7 @@ from validation.harness.drawing import Figure, axes, draw, drawn, labelled
 from validation.harness.records import Curve, Found, Map, Table, plain
 from validation.harness.report import Section, page
 from validation.harness.running import run
-from validation.topics import economy, pressure, speed
+from validation.topics import economy, pressure
 
 # -- the page --------------------------------------------------------------------------------------
 
@@ -49,28 +49,13 @@ def test_the_page_needs_no_network_and_fits_a_phone():
     assert 'name="viewport"' in html
     assert "@media (max-width" in html
     assert html.count("<svg") == 2
+    assert "a &lt; b" in html and "&lt;b&gt;so" in html  # text is escaped
+    assert html.count('class="badge holds"') == html.count('class="badge refuted"') == 2
+    names = re.findall(r'\bid="([^"]*)"', html)
+    assert len(set(names)) == len(names) > 20
+    assert set(re.findall(r'(?:url\(#|href="#)([^)"]*)', html)) <= {*names}
     assert "<figcaption>What is seen." in html
     assert "x [mm]" in html
-
-
-def test_no_two_elements_of_the_page_share_a_name():
-    names = re.findall(
-        r'\bid="([^"]*)"', page([a_section("one"), a_section("two")], 1.0, quick=False)
-    )
-    assert len(names) > 20
-    assert len(set(names)) == len(names)
-    html = page([a_section("one")], 1.0, quick=False)
-    for used in re.findall(r'(?:url\(#|href="#)([^)"]*)', html):
-        assert f'id="{used}"' in html
-
-
-def test_text_is_escaped_and_the_verdicts_are_shown():
-    html = page([a_section()], 1.0, quick=False)
-    assert "a &lt; b" in html
-    assert "&lt;b&gt;so" in html
-    assert 'class="badge holds"' in html
-    assert 'class="badge refuted"' in html
-    assert "1 holds, 1 refuted, 0 fails, 0 blind" in html
 
 
 def test_every_number_is_in_the_json():
@@ -145,27 +130,3 @@ def test_the_numbers_of_the_readme_still_hold(kept_row):
     for then, fresh in zip(kept_row[1:4], (now.error, now.load, now.estimated), strict=True):
         assert max(then, 1e-15) / 10 <= max(fresh, 1e-15) <= 10 * max(then, 1e-15)
     assert now.evaluations <= kept_row[4]
-
-
-def test_the_table_is_made_of_a_report_that_has_it():
-    errors = {
-        "kind": "table",
-        "title": pressure.TABLE,
-        "rows": [[name + "-r=1", 1e-16, 0.0, 1e-16, 3] for name in readme.SHOWN],
-    }
-    times = {
-        "kind": "table",
-        "title": speed.TABLE,
-        "rows": [[name + "-r=1", 0.2, 2.0] for name in reversed(readme.SHOWN)],
-    }
-    assert readme.rows({"topics": {"pressure": [errors], "speed": [times]}})[0] == [
-        "parabola-r=1",
-        1e-16,
-        0.0,
-        1e-16,
-        3,
-        0.2,
-        2.0,
-    ]
-    with pytest.raises(ValueError, match="no topic `speed`"):
-        readme.rows({"topics": {"pressure": [errors]}})
