@@ -40,6 +40,25 @@ def test_certificate_holds_for_large_exponents(exponent):
     assert max(certificate.residual, certificate.shear.residual) < 5e-12
 
 
+@pytest.mark.parametrize(("load", "friction"), [(600.0, 0.05), (500.0, 0.05), (600.0, 0.06)])
+def test_shear_of_little_friction_stays_within_it_up_to_the_ends_of_stick(load, friction):
+    steel, titanium = sie.Elastic(210e3, 0.3), sie.Elastic(115e3, 0.32)
+    solution = sie.solve(
+        sie.Scene(
+            profile=sie.RoundedFlat(1.0, 50.0),
+            body=steel,
+            indenter=titanium,
+            friction=friction,
+            normal_load=load,
+        )
+    )
+    inside = solution.stick[0][1] - 10.0 ** np.arange(-11.0, -6.0)
+    p = solution.pressure(inside)
+    excess = np.abs(solution.shear(inside)) - friction * p
+    assert excess.max() < 1e-11 * friction * p.max()
+    assert solution.check().ok
+
+
 @pytest.mark.slow(but=1)
 @pytest.mark.parametrize("name", ["rounded flat", "kinked"])
 def test_energy_grows_with_the_load_by_friction_on_the_slip_of_the_flat(name):

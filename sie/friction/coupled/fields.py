@@ -28,7 +28,6 @@ NEAR_EDGE = 1e-3  # of the contact: up to there the distance from an edge tells 
 LEFT_OUT = 24.0  # e-folds that a rule goes on beyond: what it leaves out is then 4e-11 of p
 LAST = 745.0  # e-folds that doubles have
 FLAT = 1e-8  # of p and q: what changes less in v is no logarithm
-SMALL = 0.05  # β below which q loses digits by (1)
 NEAREST = 1e-8  # of the contact: nodes that are nearer to a mark are not looked at
 AT_NODE = 1e-30  # of a step: stands for no distance from a node
 
@@ -152,26 +151,22 @@ class Fields:
 
             1/π ∫q/(z - t) dt = ω/π ∫μ/(z - t) dt,   μ = (γ - β p)/|ω| in stick, q/ω in slip,
 
-        which gives γ in slip and loses nothing as β tends to 0. Where β is SMALL it gives q in
-        stick too, which else makes (1) hold.
+        which gives γ in slip and q in stick. By (1) q would lose digits like 1/β, and next to slip
+        what the rule leaves out at the end, a point mass over β f, would put q beyond f p.
         """
-        state, question = self.state, self.state.question
-        beta, small = question.beta, question.beta < SMALL or question.approximate
+        state, beta = self.state, self.state.question.beta
         rules = [state.pieces.rule(shift / SHIFTS) for shift in range(SHIFTS)]
-        rows = state.rows(rules, shear=not small)
+        rows = state.rows(rules)
         roots, held = [state.root(at) for at in rules], [state.sticks(at) for at in rules]
         sources = [
             np.where(sticks, beta * p - gamma, q) * at.weight / root
             for sticks, (p, q, gamma), at, root in zip(held, rows, rules, roots, strict=True)
         ]
         for k, (at, sticks) in enumerate(zip(rules, held, strict=True)):
-            other, needed = (k + SHIFTS // 2) % SHIFTS, ~sticks | small
-            flow = np.zeros(len(at.x))
-            flow[needed] = state.psi(at.chosen(needed), rules[other], sources[other])
-            flow *= roots[k]
+            other = (k + SHIFTS // 2) % SHIFTS
+            flow = roots[k] * state.psi(at, rules[other], sources[other])
             rows[k][2, ~sticks] = (beta * rows[k][0] + flow)[~sticks]
-            if small:
-                rows[k][1, sticks] = flow[sticks]
+            rows[k][1, sticks] = flow[sticks]
         return rules, rows
 
     @cached_property

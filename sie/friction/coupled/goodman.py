@@ -65,7 +65,7 @@ class Uncoupled(State):
         gamma[sticks] = self.question.gamma(at.x[sticks])
         return np.stack((p, self.pieces.sign[at.zone] * self.question.friction * p, gamma))
 
-    def rows(self, rules: list[Places], *, shear: bool) -> list[Array]:
+    def rows(self, rules: list[Places]) -> list[Array]:
         half = len(rules) // 2
         return [self._known(at, rules[k - half]) for k, at in enumerate(rules)]
 

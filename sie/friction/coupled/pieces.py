@@ -180,7 +180,8 @@ class Pieces:
         """
         power = np.where(self.powers != 0.0, self.powers - lowered, 0.0)
         h, reach_of_one, inner = self.fineness
-        reach = reach_of_one / (1.0 - np.abs(power))
+        # of (1) the integrands have these powers, and of (12) a root at the ends of stick zones
+        reach = reach_of_one / (1.0 - np.maximum(np.abs(power), 0.5))
         reach[self.powers == 0.0] = inner
         # what is summed varies down to the width of the narrower zone, from there on as its power
         for zone, cut in enumerate(self.cut_of_ends[1:-1]):

@@ -172,8 +172,8 @@ class State:
         values: Array = kernel @ (self.beside.weight * self._solved[1]) + self.of_slope(at, sources)
         return values
 
-    def rows(self, rules: list[Places], *, shear: bool) -> list[Array]:
-        """p, q and, in stick, γ on rules at equidistant shifts; q in stick by (1), if asked for."""
+    def rows(self, rules: list[Places]) -> list[Array]:
+        """p, q in slip, and γ in stick on rules at equidistant shifts; 0 for the others."""
         question, found = self.question, []
         cos, beta = math.cos(math.pi * question.theta), question.beta
         held, chi, H1 = (
@@ -190,14 +190,13 @@ class State:
                 1.0 - beta**2
             )
         for k, (at, sticks) in enumerate(zip(rules, held, strict=True)):
-            sources, needed, flow = rules[k - half], ~sticks | shear, np.zeros(len(at.x))
+            sources, slips, flow = rules[k - half], ~sticks, np.zeros(len(at.x))
             mass = masses[k - half] * sources.weight / chi[k - half]
-            flow[needed] = chi[k][needed] * self.psi(at.chosen(needed), sources, mass)
+            flow[slips] = chi[k][slips] * self.psi(at.chosen(slips), sources, mass)
             limit = self.pieces.sign[at.zone] * question.friction
             kappa = limit * beta
             p = np.where(sticks, masses[k], cos * flow - kappa * H1[k] / (1.0 + kappa**2))
-            q = np.where(sticks, (flow - H1[k]) / beta if shear else 0.0, limit * p)
-            found.append(np.stack((p, q, gammas[k])))
+            found.append(np.stack((p, limit * p, gammas[k])))
         return found
 
     def root(self, at: Places) -> Array:
