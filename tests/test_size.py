@@ -18,7 +18,7 @@ LINES = {
     "cli": 980,
     "contact": 2520,
     "examples": 10,
-    "friction": 11430,
+    "friction": 11490,
     "io": 5560,
     "live": 1170,
     "numerics": 2170,

@@ -19,6 +19,7 @@ from sie.errors import ContactError
 
 from .admissible import built
 from .cells import zones_on_cells
+from .leap import past_leap
 from .loading import LoadStep
 from .onset import ROUNDED, End, Motion, Onset, resting_place, set_out
 from .rates import Rates
@@ -30,7 +31,7 @@ Array = NDArray[np.float64]
 SHORTER = 1.0 / 3.0  # of a part that is not solved
 SHORTEST = 1e-9  # of a step: a part
 FINE = np.linspace(0.02, 1.0, 197)  # shares of τ at which events are looked for
-BEYOND = 1.3  # times τ: so far ahead an arrival is seen
+BEYOND = 1.75  # times τ: so far ahead an arrival is seen
 ARRIVED = 1e-7  # of the contact: room that is none
 NEARLY = 0.9999  # of τ: an event before it shortens the part
 ON_MARK = 3e-9  # of the contact: an end that recedes and is so close to a mark is on it
@@ -138,6 +139,10 @@ def strip_part(
         guess = _places(panel, (length / last) ** 0.5)
     else:
         raise ContactError("what sticks anew is not found in a part however short")
+    if event is not None and event.opened is not None:
+        leapt = past_leap(panel, *event.opened, rest)
+        if leapt is not None:
+            return _ended(leapt, None, begun + leapt.span.length)
     return replace(_ended(panel, event, begun + length), solved=failed > 1.0)
 
 
@@ -280,7 +285,7 @@ def _of_ends(panel: Panel, last: Event | None, upto: float) -> Iterator[Event]:
         way = np.sign(path[-1] - path[0])
         near = 1e-9 * span.before.contact.width
         sought = marks == (last.place if last is not None and last.j == j else np.nan)
-        passed = way * (path[-1] - marks) > -(upto - 0.999) * abs(path[-1] - path[0])
+        passed = way * (path[-1] - marks) > -(upto**2 - 0.998) * abs(path[-1] - path[0])
         for mark in marks[(way * (marks - path[0]) > near) & (passed | sought)]:
             if (
                 np.abs(edges - mark).min() < near

@@ -349,10 +349,12 @@ def _share(now: StripEquations, moves: Array) -> float:
 def solved_panel(span: Span, guess: Array) -> Panel:
     """The part by Newton's method. Raises ContactError where that fails.
 
-    guess: places of the ends at its end, (2N)
+    guess: places of the ends at its end, (2N), or at its moments, (n, 2N)
     """
-    final = span.with_edges(np.tile(guess, (MOMENTS, 1)))[-1]
-    places = span.start + np.outer(TAU[1:] ** 2, final - span.start)
+    places = span.with_edges(np.broadcast_to(guess, (MOMENTS, guess.shape[-1])))
+    final = places[-1]
+    if guess.ndim == 1:
+        places = span.start + np.outer(TAU[1:] ** 2, final - span.start)
     strips = tuple(
         Strip(
             j,

@@ -32,7 +32,13 @@ from sie.certificate.shear_check import certificate_of_parts
 from sie.contact.known_contact import Normal
 from sie.errors import ContactError
 from sie.friction.course import course
-from sie.friction.load_history.load_steps import Followable, named, points_of_loads, turning_points
+from sie.friction.load_history.load_steps import (
+    Followable,
+    TurningPoint,
+    named,
+    points_of_loads,
+    turning_points,
+)
 from sie.friction.load_history.path_slip import (
     CourseSlip,
     PathSlip,
@@ -41,7 +47,6 @@ from sie.friction.load_history.path_slip import (
     step_shift,
     touched,
 )
-from sie.friction.load_history.turning_point import TurningPoint
 from sie.friction.loading import LoadStep
 from sie.friction.loads import Loads
 from sie.friction.slip_state import Slip

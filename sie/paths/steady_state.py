@@ -17,8 +17,8 @@ from typing import Any, overload
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from sie.friction.load_history.load_steps import TurningPoint
 from sie.friction.load_history.path_slip import CourseSlip, step_slip
-from sie.friction.load_history.turning_point import TurningPoint
 from sie.friction.loads import Loads
 from sie.friction.slip_state import Slip
 from sie.numerics.zones import within

@@ -67,6 +67,22 @@ def test_opposite_slip_under_a_falling_load_is_that_of_the_end_loads():
     assert path.energy_lost == pytest.approx(4.183032e-4, abs=5e-11)
 
 
+RETURN = [(1, 0, 0), (1.49, 0.53, 0.17), (1, 0, 0), (1.49, 0.53, 0.17)]
+
+
+@pytest.mark.parametrize("scene", [HERTZ, LOPSIDED], ids=["hertz", "lopsided"])
+def test_loads_come_back_to_those_under_which_one_edge_stuck_and_the_other_slipped(scene):
+    """Where the end of the stick zone leaps at last over what slipped back; as in two parts."""
+    midway = (1.35, 0.53 * 5.0 / 7.0, 0.17 * 5.0 / 7.0)
+    whole, parts = followed(scene, RETURN), followed(scene, [*RETURN[:3], midway, RETURN[3]])
+    one, two, x = whole[-1], parts[-1], inside(whole[-1])
+    assert one.check().ok and two.check().ok
+    assert one.stick[0] == pytest.approx(two.stick[0], abs=1e-9)
+    assert one.shear(x) == pytest.approx(two.shear(x), abs=1e-8)
+    assert one.energy_lost == pytest.approx(two.energy_lost, rel=1e-6)
+    assert one.stick[0] == pytest.approx(whole[1].stick[0], abs=1e-3)
+
+
 # -- refusals --------------------------------------------------------------------------------------
 
 

@@ -8,25 +8,25 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import Protocol, TypeVar
 
 from sie.errors import ContactError
 from sie.friction.loading import Contacts, LoadStep, contact_under
 from sie.friction.loads import Loads
-from sie.friction.memory import LoadMemory, in_proportion, simple
+from sie.friction.memory import LoadMemory, SlippedLayer, in_proportion, simple
 from sie.friction.onset import Motion, onset
+from sie.friction.part import Part
 from sie.friction.slip_state import Slip
 from sie.friction.state import State
+from sie.friction.strip_part import StripPart
 from sie.numerics.graded_panels import Pieces
 from sie.numerics.interval import EPS, Interval
 from sie.problem.load_limit import refuse_sliding
 from sie.problem.load_path import Path
 from sie.problem.scene import Scene
 from sie.progress_bar import counted
-
-from .turning_point import TurningPoint
 
 Result = TypeVar("Result")
 
@@ -37,6 +37,35 @@ UNSTEADY = (
     "the steady state is not that of one permanent stick zone which both ends of the slip reach at "
     "once, which is all that is covered; change P, Q, σ and tilt in other proportions"
 )
+
+
+@dataclass(frozen=True)
+class TurningPoint:
+    """A turning point of a path.
+
+    loads       the loads there
+    memory      the layers there, where P and the tilt have not changed since S was 0
+    sign        that of the slip since the last turning point
+    slipped     the layers that it overwrote, from the top down
+    turned      whether slip has opposite signs at the two edges
+    parts       the parts of the last step in the order of time, where no layers answer it
+    step        that step
+    why         why they do not
+    """
+
+    loads: Loads
+    memory: LoadMemory = field(default_factory=LoadMemory)
+    sign: float = 1.0
+    slipped: tuple[SlippedLayer, ...] = ()
+    turned: bool = False
+    parts: tuple[Part | StripPart, ...] = ()
+    step: LoadStep | None = None
+    why: str = ""
+
+    @property
+    def state(self) -> State:
+        """The state after the last part."""
+        return self.parts[-1].state
 
 
 class Followable(Contacts, Protocol):

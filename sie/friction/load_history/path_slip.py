@@ -25,8 +25,7 @@ from sie.numerics.zones import within
 from sie.traction.base import ZERO, Density
 from sie.traction.combination import superposed
 
-from .load_steps import Followable, sheared_all_over
-from .turning_point import TurningPoint
+from .load_steps import Followable, TurningPoint, sheared_all_over
 
 Array = NDArray[np.float64]
 
