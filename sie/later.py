@@ -5,6 +5,7 @@
 
 from .cauchy.equation import CauchyEquation
 from .certificate.trace_noise import TraceReport
+from .inverse.wanted_pressure import profile_for_pressure
 from .many.solve_many import Many, solve_many
 from .paths.dissimilar_cycle import steady_cycle
 from .paths.history import History, follow
@@ -40,6 +41,7 @@ __all__ = [
     "follow",
     "least_smoothing",
     "plan",
+    "profile_for_pressure",
     "solve_many",
     "steady_cycle",
     "sweep",

@@ -41,7 +41,7 @@ LAYERS = (
     ("planning", "stages"),
     ("frictionless", "stress_answers", "derivative_answers", "solution"),
     ("paths",),
-    ("sensitivity", "many"),
+    ("sensitivity", "many", "inverse"),
     ("sweeps",),
     ("later",),
     ("io",),

@@ -11,7 +11,7 @@ import sie
 
 HOUSE = Path(sie.__file__).parent
 LINES = {
-    "": 2830,
+    "": 2840,
     "benchmark_set": 10,
     "cauchy": 2260,
     "certificate": 1710,
@@ -19,6 +19,7 @@ LINES = {
     "contact": 2800,
     "examples": 10,
     "friction": 13670,
+    "inverse": 320,
     "io": 4680,
     "live": 1190,
     "many": 960,
@@ -33,7 +34,7 @@ LINES = {
     "sweeps": 1190,
     "traction": 2720,
 }
-FILES = 300
+FILES = 302
 
 
 def lines_of(folder):
