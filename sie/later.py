@@ -8,6 +8,7 @@ from .certificate.trace_noise import TraceReport
 from .cracks.edge_crack import EdgeCrack
 from .cracks.edge_intensity import EdgeIntensity
 from .cracks.stress_intensity import StressIntensity
+from .inverse.wanted_pressure import profile_for_pressure
 from .many.solve_many import Many, solve_many
 from .paths.dissimilar_cycle import steady_cycle
 from .paths.history import History, follow
@@ -50,6 +51,7 @@ __all__ = [
     "follow",
     "least_smoothing",
     "plan",
+    "profile_for_pressure",
     "solve_many",
     "steady_cycle",
     "sweep",

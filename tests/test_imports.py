@@ -46,7 +46,7 @@ LAYERS = (
     ("planning", "stages"),
     ("frictionless", "stress_answers", "derivative_answers", "solution"),
     ("paths", "wear"),
-    ("sensitivity", "many"),
+    ("sensitivity", "many", "inverse"),
     ("sweeps",),
     ("later",),
     ("io",),

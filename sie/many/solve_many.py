@@ -11,7 +11,7 @@ import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, fields, replace
 from functools import cached_property, partial
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -25,6 +25,7 @@ from sie.solution import Solution, solve
 
 from .choice import families
 from .families import Contact, Family
+from .loads import Loads, one_signed, regular, sign, slips
 from .smooth import Smooth
 
 Array = NDArray[np.float64]
@@ -35,29 +36,6 @@ ALONE = -1  # the family of what is solved one by one
 ZOOMS, PLACES = 12, 9  # of the search for a peak, after a first look at FIRST places
 FIRST = 65
 LEFT_OPEN = "not solved as an array"
-
-
-class Loads(NamedTuple):
-    """Numbers of n scenes, (n,); P or b is None."""
-
-    modulus: Array
-    normal_load: Array | None
-    half_width: Array | None
-    tilt: Array
-    friction: Array
-    tangential_load: Array
-    bulk_stress: Array
-
-    @property
-    def size(self) -> Array:
-        """P or b, whichever is given."""
-        size = self.half_width if self.normal_load is None else self.normal_load
-        assert size is not None
-        return size
-
-    def of(self, which: Any) -> Loads:
-        """Those of some scenes."""
-        return self._replace(**{k: v[which] for k, v in self._asdict().items() if v is not None})
 
 
 def solve_many(
@@ -243,9 +221,9 @@ class Many:
         q = self._question
         loads = q.loads.of(some)
         with np.errstate(all="ignore"):
-            regular = _regular(loads)
+            good_numbers = regular(loads)
             for number, family in enumerate(q.families):
-                open_ = regular & np.isnan(self._found.r[some])
+                open_ = good_numbers & np.isnan(self._found.r[some])
                 open_ &= family.takes(loads.tilt, loads.half_width is not None)
                 if not open_.any():
                     continue
@@ -254,7 +232,7 @@ class Many:
                 size = of.size / (1.0 if width else G)
                 found = family.part(at).contact(size, of.tilt, width)
                 good = np.isfinite(found.r) & (found.r > 0.0) & np.isfinite(found.T)
-                good &= _one_signed(of, found)
+                good &= one_signed(of, found)
                 for mine, new in zip(self._found, found, strict=True):
                     mine[at[good]] = new[good]
                 self._family[at[good]] = number
@@ -349,12 +327,12 @@ class Many:
         """The contacts of p̂: under P - |Q|/f, at the tilt that the bulk stress asks for."""
         q, P = self._question, 0.5 * self._question.loads.modulus * self._found.T
         a = q.loads
-        sign, f = _sign(a), np.where(a.friction > 0.0, a.friction, np.nan)
+        direction, f = sign(a), np.where(a.friction > 0.0, a.friction, np.nan)
         with np.errstate(invalid="ignore"):
             load = np.where(
-                _slips(a) & (self._family != ALONE), P - np.abs(a.tangential_load) / f, np.nan
+                slips(a) & (self._family != ALONE), P - np.abs(a.tangential_load) / f, np.nan
             )
-            tilt = a.tilt - 0.5 * a.bulk_stress / (sign * f * a.modulus)
+            tilt = a.tilt - 0.5 * a.bulk_stress / (direction * f * a.modulus)
         none = np.zeros(len(P))
         loads = Loads(a.modulus, load, None, np.where(np.isnan(tilt), 0.0, tilt), none, none, none)
         return Many(replace(q, loads=loads, alone=True))
@@ -366,9 +344,9 @@ class Many:
         nan in full sliding and without friction, and where there are several stick zones.
         """
         a, out = self._question.loads, self.edges.reshape(-1, 2).copy()
-        slips = _slips(a)
-        if slips.any():
-            out[slips] = self._corrective.edges.reshape(-1, 2)[slips]
+        some = slips(a)
+        if some.any():
+            out[some] = self._corrective.edges.reshape(-1, 2)[some]
         out[a.friction == 0.0] = np.nan
         for k, solution in self._alone.items():
             zones = solution.stick
@@ -376,32 +354,5 @@ class Many:
         return self._shaped(out)
 
 
-# -- what the families answer ----------------------------------------------------------------------
-
-
 def _chunks(which: NDArray[np.int64], size: int) -> Iterator[NDArray[np.int64]]:
     return (which[k : k + size] for k in range(0, len(which), size))
-
-
-def _slips(a: Loads) -> NDArray[np.bool_]:
-    return (a.friction > 0.0) & ((a.tangential_load != 0.0) | (a.bulk_stress != 0.0))
-
-
-def _sign(a: Loads) -> Array:
-    return np.where(a.tangential_load < 0.0, -1.0, 1.0)
-
-
-def _regular(a: Loads) -> NDArray[np.bool_]:
-    """Whether the numbers are those of a scene; others are refused by `Scene` itself."""
-    size = a.size
-    good = np.isfinite(a.tilt) & np.isfinite(a.tangential_load) & np.isfinite(a.bulk_stress)
-    good &= (a.modulus > 1.0 / arguments.LARGEST) & (a.modulus < arguments.LARGEST)
-    good &= (size > 1.0 / arguments.LARGEST) & (size < arguments.LARGEST)
-    return np.asarray(good & (a.friction >= 0.0) & (a.friction < math.inf))
-
-
-def _one_signed(a: Loads, found: Contact) -> NDArray[np.bool_]:
-    """Whether nothing slips, or all slip has one sign and something sticks (`partial_slip`)."""
-    Q, P = np.abs(a.tangential_load), 0.5 * a.modulus * found.T
-    fits = (a.friction * P > Q) & (0.25 * math.pi * found.r * np.abs(a.bulk_stress) <= Q)
-    return np.asarray(fits | ~_slips(a) & ((a.friction > 0.0) | (Q == 0.0)))

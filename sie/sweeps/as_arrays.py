@@ -8,7 +8,8 @@ from typing import Any
 import numpy as np
 
 from sie import arguments
-from sie.many.solve_many import Loads, Many, Question
+from sie.many.loads import Loads
+from sie.many.solve_many import Many, Question
 from sie.problem.scene import Scene
 from sie.profiles.base import Profile
 from sie.profiles.shapes import Parabola, RoundedFlat
