@@ -40,7 +40,7 @@ def test_certificate_holds_for_large_exponents(exponent):
     assert max(certificate.residual, certificate.shear.residual) < 5e-12
 
 
-@pytest.mark.slow(but=1)
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["rounded flat", "kinked"])
 def test_energy_grows_with_the_load_by_friction_on_the_slip_of_the_flat(name):
     x, w = gauss_jacobi(24, 0.0, 0.0)[::2]
