@@ -163,6 +163,7 @@ def test_the_energy_under_a_load_that_is_negligible_next_to_the_largest_is_that_
     )
 
 
+@pytest.mark.slow
 def test_an_energy_that_is_no_double_in_its_units_is_refused():
     scene = sie.Scene(profile=sie.Parabola(1e60), modulus=2e120, normal_load=1e180, friction=F)
     last = sie.follow(scene, sie.Path([(1e180, 1e179), (1.2e180, -1e179)]))[-1]
