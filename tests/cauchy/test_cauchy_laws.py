@@ -2,7 +2,6 @@
 
 The reference (`oracles.manufactured`) is in 40 digits and uses no orthogonal polynomials."""
 
-import laws
 import numpy as np
 import pytest
 import scipy.special
@@ -99,24 +98,6 @@ def test_the_potential_jumps_by_the_density(problem, seed):
 
 def kernel(x, t):
     return 0.2 * np.exp(0.4 * x - 0.2 * t) * np.cos(x + 2.0 * t)
-
-
-def test_repeated_integrals_may_be_exchanged_by_the_formula_of_poincare_and_bertrand():
-    """In Tricomi's form H(φ Hψ + ψ Hφ) = Hφ Hψ - φ ψ; the left side by a quadrature of its own."""
-    phi = sie.CauchyEquation(
-        (-1.0, 2.0), lambda x: np.exp(0.5 * x), ends="bounded", free=(1.0,)
-    ).solve()
-    psi = sie.CauchyEquation(
-        (-1.0, 2.0), lambda x: 1.0 / (x - 3.0), ends="bounded", free=(1.0,)
-    ).solve()
-
-    def product(x):
-        return phi(x) * psi.hilbert(x) + psi(x) * phi.hilbert(x)
-
-    x = np.array([-0.6, 0.13, 1.4])
-    expected = phi.hilbert(x) * psi.hilbert(x) - phi(x) * psi(x)
-    found = [laws.principal_value(product, (-1.0, 2.0), v) for v in x]
-    assert found == pytest.approx(expected, abs=1e-12 * np.abs(expected).max())
 
 
 @given(constants, between(-1.0, 1.0), between(0.5, 2.0), st.sampled_from(KINDS[1:3]))

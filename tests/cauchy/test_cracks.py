@@ -11,7 +11,6 @@ import numpy as np
 import pytest
 import scipy.special
 from hypothesis import given
-from hypothesis import strategies as st
 from strategies import between, log_between
 
 import sie
@@ -45,55 +44,6 @@ def test_a_slit_under_uniform_pressure(a, p):
     assert intensity_factors(density)[0] == pytest.approx([p * np.sqrt(np.pi * a)] * 2, rel=PROMISE)
     x = a * np.array([-0.99, 0.2, 0.7])
     assert density(x) == pytest.approx(p * x / np.sqrt((a - x) * (a + x)), rel=PROMISE)
-
-
-@given(st.lists(between(-1.0, 1.0), min_size=1, max_size=9))
-def test_a_slit_under_a_polynomial_load(coefficients):
-    """K = 1/sqrt(πa) ∫ p sqrt((a + t)/(a - t)) dt (Green's function); ∫ s^m/sqrt(1 - s²) ds = π (m
-    - 1)!!/m!! for even m; a = 2.
-    """
-    a = 2.0
-    even = [
-        scipy.special.binom(m, m // 2) * 2.0**-m * np.pi if m % 2 == 0 else 0.0
-        for m in range(len(coefficients) + 1)
-    ]
-    right = sum(c * (even[m] + even[m + 1]) for m, c in enumerate(coefficients))
-    left = sum(c * (even[m] - even[m + 1]) for m, c in enumerate(coefficients))
-    size = np.sqrt(a / np.pi)
-    density = slit(a, lambda x: np.polynomial.polynomial.polyval(x / a, coefficients))
-    scale = max(1e-30, *map(abs, coefficients)) * size
-    assert intensity_factors(density)[0] == pytest.approx(
-        (size * left, size * right), abs=PROMISE * scale
-    )
-
-
-@pytest.mark.parametrize("height", [1.0, 0.1, 0.01])
-@pytest.mark.parametrize("place", [0.0, 0.6, -0.95])
-def test_a_slit_under_a_point_load(place, height):
-    """The load p = height/π / ((x - place)² + height²) of unit resultant; for a height of 0 it is
-    the point load of the textbooks.
-
-    With ζ = place + i height,  ∫ p sqrt((a + t)/(a - t)) dt = -Im sqrt((ζ + a)/(ζ - a)),
-    which is sqrt((a + place)/(a - place)) then.
-    """
-    a, zeta = 1.0, mp.mpc(place, height)
-    density = slit(a, lambda x: height / np.pi / ((x - place) ** 2 + height**2))
-    right, left = (
-        -mp.im(mp.sqrt((z + a) / (z - a))) / mp.sqrt(mp.pi * a) for z in (zeta, -mp.conj(zeta))
-    )
-    assert intensity_factors(density)[0] == pytest.approx((float(left), float(right)), rel=PROMISE)
-    if height == 0.01 and place == 0.0:
-        assert float(right) == pytest.approx(1.0 / np.sqrt(np.pi * a), rel=0.02)
-
-
-def test_the_stress_ahead_of_a_slit():
-    """σ_yy = p (|x|/sqrt(x² - a²) - 1) on the axis: the potential 1/π ∫ φ/(x - t) dt beyond the
-    tips.
-    """
-    density = slit(1.5, 2.0)
-    x = np.array([1.5 + 1e-9, 1.6, 4.0, -2.0, 100.0])
-    ahead = np.abs(x) / np.sqrt((np.abs(x) - 1.5) * (np.abs(x) + 1.5)) - 1.0
-    assert density.hilbert(x) == pytest.approx(2.0 * ahead, rel=PROMISE, abs=PROMISE)
 
 
 # -- several cracks -------------------------------------------------------------------------------

@@ -73,17 +73,6 @@ def test_the_closed_forms_are_in_equilibrium_and_compatible_to_thirty_digits(at)
     assert abs(mp.diff(total, (x, y), (2, 0)) + mp.diff(total, (x, y), (0, 2))) < 1e-10
 
 
-def test_both_number_systems_give_the_same():
-    exact = {**{k: mp.mpf(v) for k, v in PUNCH.items()}, "lib": mp}
-    for x, y in ((0.2, 1e-8), (-1.0, 0.3), (0.5, 0.0), (30.0, 40.0)):
-        doubles, digits = (
-            interior.rounded_flat(x, y, friction=0.2, **PUNCH),
-            interior.rounded_flat(x, y, friction=mp.mpf(0.2), **exact),
-        )
-        for ours, theirs in zip(doubles, digits, strict=True):
-            assert float(ours) == pytest.approx(float(theirs), rel=1e-12, abs=1e-16)
-
-
 def test_hertz_yields_on_the_surface_where_the_formula_predicts():
     f, nu, x = 0.4, 0.3, np.linspace(-1.5, 1.5, 100001)
     j2 = interior.second_invariant(interior.hertz(x, 0.0, friction=f, **HERTZ), poisson=nu)

@@ -1,6 +1,4 @@
-"""Many pieces: fast sums are the dense ones, batched formulas those of piece by piece, and memory
-isn't pieces times points.
-"""
+"""Many pieces: batched formulas are those of piece by piece; memory isn't pieces times points."""
 
 import tracemalloc
 

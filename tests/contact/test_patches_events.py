@@ -86,13 +86,6 @@ def test_patches_of_a_period_keep_their_place_where_two_gaps_are_as_wide():
     assert all(patches == pytest.approx(first, abs=1e-9) for patches in others)
 
 
-@pytest.mark.parametrize("gap", [1e-2, 1e-4, 1e-6])
-def test_parabolas_in_a_row_are_never_in_full_contact(gap):
-    solution = solved(sie.Periodic(sie.Parabola(1.0), 1.0), parabolas(gap))
-    assert 1.0 - solution.contact_length == pytest.approx(gap, rel=1e-6)
-    assert solution.check().ok
-
-
 # -- length and gaps -------------------------------------------------------------------------------
 
 

@@ -59,7 +59,7 @@ def test_shear_of_little_friction_stays_within_it_up_to_the_ends_of_stick(load, 
     assert solution.check().ok
 
 
-@pytest.mark.slow(but=1)
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["rounded flat", "kinked"])
 def test_energy_grows_with_the_load_by_friction_on_the_slip_of_the_flat(name):
     x, w = gauss_jacobi(24, 0.0, 0.0)[::2]

@@ -10,7 +10,6 @@ from slip_cases import E, F, P, left_over, mp, rounded_load, sheared
 
 import sie
 from analytic import cattaneo_rounded, rounded_flat
-from sie.contact import normal
 
 FRACTIONS = (1e-14, 1e-9, 1e-4, 0.009, 0.011, 0.6, 1.0 - 1e-6, 1.0 - 1e-14)
 
@@ -208,31 +207,6 @@ def test_without_a_tangential_load_everything_sticks():
 
 
 # -- cost and economy ------------------------------------------------------------------------------
-
-
-@pytest.fixture
-def full_solves(monkeypatch):
-    """Loads of the normal problems that are solved for a scene, not for a stick zone."""
-    loads = []
-
-    def counted(scene, *args):
-        loads.append(scene.normal_load)
-        return normal.normal_contact(scene, *args)
-
-    monkeypatch.setattr(sie.frictionless, "normal_contact", counted)
-    return loads
-
-
-def test_a_sweep_over_40_tangential_loads_solves_the_normal_problem_once(full_solves):
-    solution = sheared(sie.RoundedFlat(0.7, 1.0), 0.5)
-    sticks = [solution.with_(tangential_load=k / 40 * F * P).stick for k in range(40)]
-    _ = solution.edges  # with_ shares what is there: the first of a sweep has to be asked
-    full_solves.clear()
-    sticks = [solution.with_(tangential_load=k / 40 * F * P).stick for k in range(1, 41)]
-    assert len(full_solves) == 0
-    widths = [zone[0][1] for zone in sticks if zone]
-    assert widths == sorted(widths, reverse=True)
-    assert len(widths) == 39 and sticks[-1] == ()
 
 
 @pytest.mark.parametrize("fraction", [0.0, 0.4, 1.0])

@@ -139,6 +139,7 @@ def test_the_energy_of_the_shortest_slip_zones_is_the_first_term_of_its_series(p
     assert lost == pytest.approx(FP * FP * part**3 / (3.0 * np.pi * E), rel=1e-12)
 
 
+@pytest.mark.slow(but=1)
 @pytest.mark.parametrize(("length", "modulus"), [(1e60, 1e60), (1e-60, 1e-50), (1e100, 1e50)])
 def test_the_energy_of_loads_whose_squares_are_no_doubles_is_that_in_other_units(length, modulus):
     points = [(0.375, 0.1), (0.5, -0.05), (0.25, 0.02)]
@@ -162,6 +163,7 @@ def test_the_energy_under_a_load_that_is_negligible_next_to_the_largest_is_that_
     )
 
 
+@pytest.mark.slow
 def test_an_energy_that_is_no_double_in_its_units_is_refused():
     scene = sie.Scene(profile=sie.Parabola(1e60), modulus=2e120, normal_load=1e180, friction=F)
     last = sie.follow(scene, sie.Path([(1e180, 1e179), (1.2e180, -1e179)]))[-1]

@@ -117,11 +117,6 @@ def test_mending_sorts_averages_and_leaves_out():
     assert hash(mended) == hash(sie.Sampled([0, 1, 2, 3], [0, 1, 4, 9]))
 
 
-def test_a_contact_that_would_reach_the_end_of_the_trace_is_refused():
-    with pytest.raises(sie.ContactError, match="end"):
-        pressed(sie.Sampled(X, H), 100.0).edges  # noqa: B018 -- computes it
-
-
 # -- files -----------------------------------------------------------------------------------------
 
 

@@ -77,8 +77,8 @@ def test_the_displacement_below_hertz_is_the_integral_of_mc_ewens_strains():
 def test_its_derivatives_are_those_of_the_stress(solution):
     rng = np.random.default_rng(1)
     b = solution.half_width
-    x = solution.centre + rng.uniform(-2.0, 2.0, 500) * b
-    y = 10.0 ** rng.uniform(-1.0, 0.5, 500) * b
+    x = solution.centre + rng.uniform(-2.0, 2.0, 100) * b
+    y = 10.0 ** rng.uniform(-1.0, 0.5, 100) * b
     h = 2e-4 * y
     right, left = solution.displacement(x + h, y), solution.displacement(x - h, y)
     low, high = solution.displacement(x, y + h), solution.displacement(x, y - h)
