@@ -249,9 +249,22 @@ def _summed(way: Way, first: float, last: float, total: float) -> float:
     sums: list[float] = []
     for n in INTERVALS:
         sums.append((last - first) * _sum_of_rule(way, (first, last), rough, values, n))
+        if not values:
+            return _of_nothing_found(way, last, total)
         if len(sums) > 1 and _error(sums) <= PROMISED * (sums[-1] + total):
             return sums[-1]
     raise _unknown()
+
+
+def _of_nothing_found(way: Way, last: float, total: float) -> float:
+    """The integral up to a mark that is passed so soon after a turn that no state is found before.
+
+    The power grows there: half of that at the mark is as far off as half of it.
+    """
+    power = way.power(last)
+    if power is None or last * power > PROMISED * total:
+        raise _unknown()
+    return 0.5 * last * power
 
 
 def _error(sums: list[float]) -> float:
@@ -277,6 +290,8 @@ def _sum_of_rule(
             power = way.power(ends[0] + (ends[1] - ends[0]) * part)
             if power is not None:
                 values[part] = power
+    if not values:
+        return 0.0
     return float(weight * slope @ _filled(s, values, ends[0] == 0.0 and way.turned))
 
 
