@@ -27,6 +27,7 @@ from .numerics.interval import Interval
 from .problem.coverage import held_moment, refuse_uncovered
 from .problem.request import ECONOMY, sheared
 from .problem.scene import Scene
+from .profiles.placed_traces import traces_in
 from .stages import changed_scene, kept_stages
 from .stages import stage as cached_property  # its first reading is logged
 from .stress_answers import StressAnswers
@@ -692,8 +693,11 @@ class Solution(Frictionless, StressAnswers, DerivativeAnswers):
         """
         from .certificate.trace_noise import trace_reports
 
-        several = None if self.scene.bonded or self.scene.coupled else self.in_patches
-        return trace_reports(self.scene, several) if several is not None and several.found else ()
+        scene = self.scene
+        if scene.bonded or scene.coupled or next(traces_in(scene.profile), None) is None:
+            return ()
+        several = self.in_patches
+        return trace_reports(scene, several) if several.found else ()
 
     def plot(self, ax: Any = None, what: str = "pressure", units: Any = None) -> Any:
         """One panel of the picture of the contact, on axes of Matplotlib.

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,9 +13,11 @@ from sie.errors import ContactError
 from sie.problem.request import NEED_SHEAR, UNASKED, energy_costs
 from sie.profiles.placed_traces import traces_in
 from sie.profiles.trace_units import Reading
-from sie.solution import Solution
 
 from .scene_file import SceneFile
+
+if TYPE_CHECKING:
+    from sie.solution import Solution
 
 Array = NDArray[np.float64]
 

@@ -13,13 +13,15 @@ import itertools
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from sie.problem.material import Elastic
-from sie.solution import Solution
+
+if TYPE_CHECKING:
+    from sie.solution import Solution
 
 Array = NDArray[np.float64]
 

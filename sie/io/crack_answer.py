@@ -7,14 +7,16 @@ of another path all points, and of a scene without path its one state.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from sie.cracks.stress_intensity import stress_intensity
 from sie.progress_bar import reported
-from sie.solution import Solution
 
 from .crack_table import EDGES
 from .scene_file import SceneFile
+
+if TYPE_CHECKING:
+    from sie.solution import Solution
 
 
 @reported("crack")

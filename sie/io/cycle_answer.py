@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,13 +18,15 @@ from sie.paths.history import History, follow
 from sie.problem.load_path import Path
 from sie.problem.material import Elastic
 from sie.progress_bar import reported
-from sie.solution import Solution
 from sie.stress.fretting import Cycle
 from sie.stress.half_plane import Tractions
 from sie.stress.surface_search import ROUNDS, by_value, columns, largest
 
 from .fatigue_table import DEPTHS, Fatigue
 from .scene_file import SceneFile
+
+if TYPE_CHECKING:
+    from sie.solution import Solution
 
 Array = NDArray[np.float64]
 

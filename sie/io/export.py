@@ -65,7 +65,6 @@ from sie import __version__
 from sie.files import table_of_columns
 from sie.problem.request import POINTS
 from sie.progress_bar import counted
-from sie.solution import Solution
 
 from .answers import energy_of, notes_of, readings_of, slip_of, slipping, wanted
 from .sample_points import abscissae, beside, inside, peak
@@ -74,6 +73,7 @@ from .scene_writing import tables_of
 
 if TYPE_CHECKING:
     from sie.paths.history import History
+    from sie.solution import Solution
 
 Array = NDArray[np.float64]
 

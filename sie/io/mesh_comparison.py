@@ -13,6 +13,7 @@ and each of these is noted.
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,7 +22,9 @@ from sie.io.mesh_difference import EXACT, Comparison, difference
 from sie.io.mesh_files.names import STRESSES, TRACTIONS
 from sie.io.mesh_result import Mesh, Points, joined
 from sie.io.targets import peaks
-from sie.solution import Solution
+
+if TYPE_CHECKING:
+    from sie.solution import Solution
 
 Array = NDArray[np.float64]
 

@@ -23,17 +23,19 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import asdict, dataclass
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from sie.io.mesh_result import Mesh
-from sie.solution import Solution
+
+if TYPE_CHECKING:
+    from sie.solution import Solution
 
 Array = NDArray[np.float64]
 
-Exact = Callable[[Solution, Array, Array], Array]
+Exact = Callable[[Any, Array, Array], Array]  # of a solution at x, y
 
 # The exact values of what can be compared, at points (x, depth).
 EXACT: dict[str, Exact] = {

@@ -11,7 +11,6 @@ import numpy as np
 
 from sie.arguments import WIDE, named_rows
 from sie.problem.request import energy_costs
-from sie.solution import Solution
 
 from .answers import energy_of, notes_of, readings_of, slipping, wanted
 from .sample_points import SAME_PEAK, ceiling, full, peak, reach
@@ -19,6 +18,7 @@ from .scene_file import SceneFile, Units
 
 if TYPE_CHECKING:
     from sie.paths.history import History
+    from sie.solution import Solution
 
 NONE: Mapping[str, Any] = {}
 SAME_PLACE = 1e-7  # of the half-width: rounding of p leaves a smooth peak uncertain by as much

@@ -17,14 +17,17 @@ import re
 import sys
 from dataclasses import dataclass
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from sie.files import table_of_columns
 from sie.problem.request import GRID
-from sie.solution import Solution
 from sie.stress.half_plane import Stress
+
+if TYPE_CHECKING:
+    from sie.solution import Solution
 
 Array = NDArray[np.float64]
 

@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
-
-from sie.solution import Solution
 
 from .answers import energy_of
 from .mesh_difference import Peak
 from .mesh_result import Mesh
 from .sample_points import inside, peak
+
+if TYPE_CHECKING:
+    from sie.solution import Solution
 
 PLACES = (0.0, 0.25, 0.5, 0.75, 0.9)  # of the half-width, from the centre of the last patch
 ROUNDING = 1e-12  # half-widths

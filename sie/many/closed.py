@@ -19,14 +19,16 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from sie.contact.normal import normal_contact
+from sie.contact.pressure import pressure as pressure_on
 from sie.inheritance import override
 from sie.numerics.interval import EPS
 from sie.problem.scene import Scene
 from sie.profiles.shapes import Power
-from sie.solution import solve
 
 from .families import Array, Contact, Family
 
+TOL = 1e-13
 MOST_STEPS, CLOSE = 40, 1e-8  # of Newton's method; what is left is the square of the last step
 SHORT, TERMS = 0.25, 12  # up to this argument a series of so many terms is right to rounding
 
@@ -149,10 +151,11 @@ ROUNDED = (lambda b, a, R: _punch_load(b - a, a, R), punch_width, _punch_pressur
 
 def power(m: float) -> tuple[Callable[..., Array], Callable[..., Array], Callable[..., Array]]:
     """The formulas of |x|^m times a coefficient: all contacts of it are alike."""
-    unit = solve(Scene(profile=Power(m, 1.0), modulus=2.0, half_width=1.0))
-    factor = unit.normal_load
+    scene = Scene(profile=Power(m, 1.0), modulus=2.0, half_width=1.0)
+    normal = normal_contact(scene, TOL)
+    factor, unit = normal.edges.normal_load, pressure_on(normal, scene, TOL)
     return (
         lambda r, A: factor * A * r**m,
         lambda T, A: (T / (factor * A)) ** (1.0 / m),
-        lambda x, r, T, A: T / (factor * r) * unit.pressure(np.clip(x / r, -1.0, 1.0)),
+        lambda x, r, T, A: T / (factor * r) * unit(np.clip(x / r, -1.0, 1.0)),
     )

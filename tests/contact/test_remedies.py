@@ -217,11 +217,6 @@ SHEARED = scene(PARABOLA, friction=0.4)
 PATHS = {
     "raise the load": ([(1, 0.1), (1, 0.5)], "raise normal_load", [(1, 0.1), (1.3, 0.5)]),
     "a later point": ([(0, 0), (1, 0.1)], "ask for a later point", [(1, 0.1)]),
-    "lower Q or σ": (
-        [(1, 0.1, 3.0), (1, 0.05, 1.5)],
-        "lower Q or σ",
-        [(1, 0.1, 0.1), (1, 0.05, 0.05)],
-    ),
 }
 
 

@@ -82,9 +82,6 @@ def test_a_cycle_repeats_itself_once_the_slip_of_pressing_is_worn_off():
     assert states[5].stick[0] == pytest.approx(states[3].stick[0], abs=1e-11)
 
 
-CORNERS = sie.Piecewise((-3.0, -0.1, 0.1, 3.0), ((-0.17, 1.0), (0.0, 1.0), (0.17, 1.0)))
-
-
 @pytest.mark.slow(but=1)
 @pytest.mark.parametrize("load", [0.0, 0.3])
 def test_symmetric_trace_is_answered_as_the_profile_that_it_samples(load):
@@ -95,13 +92,6 @@ def test_symmetric_trace_is_answered_as_the_profile_that_it_samples(load):
     )
     assert trace.stick[0] == pytest.approx(smooth.stick[0], abs=1e-11)
     assert trace.check().ok
-
-
-@pytest.mark.slow
-def test_tangential_load_moves_an_end_of_the_stick_zone_past_a_corner():
-    solution = solved(CORNERS, 0.03, 0.3, normal_load=0.05, tangential_load=0.012)
-    assert solution.stick[0][1] < 0.1 < solution.half_width
-    assert solution.check().ok
 
 
 # In the second one nothing sticks that stuck under a lighter normal load

@@ -68,7 +68,6 @@ def test_a_front_that_is_held_up_is_that_of_the_step_in_parts():
     midway = tuple(a + 0.6 * (b - a) for a, b in zip(start, end, strict=True))
     whole, parts = (followed(HERTZ, [(1, 0, 0), start, *on, end])[-1] for on in ([], [midway]))
     assert parts.stick[0] == pytest.approx(whole.stick[0], abs=1e-9)
-    assert whole.energy_lost > 0.0
 
 
 @pytest.mark.slow

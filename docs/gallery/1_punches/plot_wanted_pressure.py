@@ -27,7 +27,7 @@ for name, p in wanted.items():
     for share in (1.0, 0.5):
         lighter = solution.with_(normal_load=share * load)
         lower.plot(x, lighter.pressure(x), label=f"{name}, {share:g} P")
-upper.set(ylabel="height")
+upper.set(xlabel="x", ylabel="height")
 upper.legend()
 lower.set(xlabel="x", ylabel="pressure")
 lower.legend()

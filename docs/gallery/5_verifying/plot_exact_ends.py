@@ -50,7 +50,7 @@ plt.show()
 
 # %%
 # The study: root mean square error of stresses over their peak, on four meshes.
-sys.path.insert(0, str(Path("../../how-to").resolve()))
+sys.path.insert(0, str(Path(sie.__file__).parents[1] / "docs" / "how-to"))
 from punch_study import convergence, stored  # noqa: E402
 
 convergence(stored())

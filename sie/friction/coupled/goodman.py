@@ -1,14 +1,4 @@
-"""Goodman's approximation: β q is left out of equation (1), which makes p that without friction.
-
-    H1 = Hp,      γ = Hq + β p      β > 0,   q = s f p where the bodies slip.
-
-With w(z)² the product of the distances from both edges, bounded at these, and ω of `State.root`,
-
-    p = w/π PV∫ (H1/w)/(t - x) dt,        1/π ∫q/(z - t) dt = ω/π ∫ν/(z - t) dt,
-
-ν = (γ - β p)/|ω| in stick, q/ω in slip. p is bounded if ∫H1/w dt = 0, and ∫t H1/w dt is πP up to a
-factor; q is bounded at the ends of n stick zones if the moments ∫ν t^k dt vanish for k < n, and
-that with k = n is Q. Under a flat punch p = P/(π w), and
+"""The flat punch in Goodman's approximation (`uncoupled`), where p = P/(π w), and its stick zone.
 
     K'(k)/K(k) = β/f      of the modulus k = c/b.
 
@@ -19,7 +9,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,96 +17,13 @@ from sie.numerics.elliptic import modulus_of_ratio
 
 from .flat import NARROWEST_RATIO, FlatPunch, half_rule, squares
 from .pieces import Places
-from .state import Rates, State
+from .state import State
+from .uncoupled import Uncoupled
 
 Array = NDArray[np.float64]
 
 # beyond it c = 4 exp(-π K'/2K) is lost even beside a double's smallest lengths; c² is a double
 WIDEST_RATIO = 200.0
-
-
-@dataclass(frozen=True, eq=False)
-class Uncoupled(State):
-    """p, q and γ of Goodman's approximation for zones that need not be right."""
-
-    def _w(self, at: Places) -> Array:
-        """w over half the width, negative as χ of a slip zone is."""
-        to_left, to_right = self._to_edges(at)
-        values: Array = -np.sqrt(np.abs(to_left * to_right)) / self.half_width
-        return values
-
-    def _mass(self, at: Places) -> Array:
-        values: Array = -self.question.slope(at.x) * at.weight / self._w(at)
-        return values
-
-    def pressure(self, at: Places, sources: Places) -> Array:
-        """p at places half a step from the sources."""
-        values: Array = self._w(at) * self.psi(at, sources, self._mass(sources))
-        return values
-
-    def pressure_in_slip(self, at: Places) -> Array:
-        return self.pressure(at, self.nodes)
-
-    def _known(self, at: Places, sources: Places) -> Array:
-        """p, q in slip, and γ in stick."""
-        p, sticks = self.pressure(at, sources), self.sticks(at)
-        gamma = np.zeros(len(p))
-        gamma[sticks] = self.question.gamma(at.x[sticks])
-        return np.stack((p, self.pieces.sign[at.zone] * self.question.friction * p, gamma))
-
-    def rows(self, rules: list[Places]) -> list[Array]:
-        half = len(rules) // 2
-        return [self._known(at, rules[k - half]) for k, at in enumerate(rules)]
-
-    @cached_property
-    def _on_nodes(self) -> tuple[Array, float]:
-        """ν times weights on the nodes, and ∫p dt."""
-        t = self.nodes
-        p, q, gamma = self._known(t, self.halfway)
-        sources = np.where(self.sticks(t), self.question.beta * p - gamma, q) / self.root(t)
-        return sources * t.weight, float(p @ t.weight)
-
-    @cached_property
-    def shear_halfway(self) -> Array:
-        at = self.halfway
-        _, q, _ = self._known(at, self.nodes)
-        sticks = self.sticks(at)
-        held = at.chosen(sticks)
-        q[sticks] = self.root(held) * self.psi(held, self.nodes, self._on_nodes[0])
-        return q
-
-    @cached_property
-    def missed(self) -> Array:
-        question, arm, mass = self.question, self._arm(self.nodes), self._mass(self.nodes)
-        of_p = np.array([mass.sum(), mass @ arm - question.P]) / question.P
-        n, (sources, carried) = self.pieces.signs.count(0), self._on_nodes
-        powers = np.array([sources @ arm**k for k in range(n + 1)]) * self.half_width**n
-        # Q as a part of what p is on the same nodes: next to sliding their errors are one
-        load = question.Q * carried / question.P
-        of_q = np.append(powers[:n], (powers[n] - load) / question.friction) / question.P
-        return np.append(of_p, of_q)
-
-    def beside_contact(self, x: Array) -> tuple[Array, Array]:
-        left, last = x < self.middle, len(self.pieces.cuts) - 1
-        order = np.argsort(~left, kind="stable")
-        back = np.argsort(order, kind="stable")
-        anchor = np.where(left, 0, last)[order]
-        offset, none = x[order] - self.pieces.cuts[anchor], np.zeros(len(x), dtype=int)
-        at, t = Places(anchor, offset, x[order], none, none, none), self.halfway
-        tractions = np.stack((self.pressure(t, self.nodes), self.shear_halfway))
-        Hp, Hq = (tractions * t.weight) @ (1.0 / self.pieces.apart(at, t)).T / math.pi
-        return Hp[back], Hq[back]
-
-    def rates(self, dQ: float, strain: float) -> Rates:
-        """p stays; q changes in the stick zone, by the gradient of a strip bonded there."""
-        places = self.pieces.rule(0.5, 1.0)
-        places = places.chosen(~self.sticks(places))
-        (zone,) = np.flatnonzero(self.pieces.sign == 0.0)
-        first, last = self.pieces.cut_of_ends[[zone, zone + 1]].tolist()
-        from_first, from_last = (self.pieces.from_cut(places, cut) for cut in (first, last))
-        far = dQ / math.pi - 0.5 * strain * (from_first + from_last)
-        gamma = strain + np.sign(from_first) * far / np.sqrt(from_first * from_last)
-        return Rates(places, gamma)
 
 
 @dataclass(frozen=True, eq=False)
