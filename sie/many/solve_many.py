@@ -56,7 +56,7 @@ def solve_many(
     ----------
     profile : Profile or callable
         A profile, whose parameters may be arrays: Parabola, RoundedFlat, Flat, Wedge, and the
-        coefficient of Power. Or a slope h'(x, **parameters), a function of arrays.
+        coefficient of Power. Or a slope h'(x, ...), a function of arrays and named parameters.
     modulus : array_like of float
         E*, stress.
     normal_load, half_width : array_like of float

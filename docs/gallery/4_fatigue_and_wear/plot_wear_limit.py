@@ -16,7 +16,9 @@ cylinder = sie.Parabola(100.0)  # mm
 steel = sie.Elastic(young=210e3, poisson=0.3)
 loads = {"body": steel, "normal_load": 200.0, "friction": 0.5}
 limit = sie.wear_limit(sie.Scene(profile=cylinder, tangential_load=60.0, **loads))
-print(f"stick zone {limit.stick} mm, worn between {limit.worn} mm, {limit.volume:.3g} mm³ per mm")
+(lo, hi), (left, right) = limit.stick, limit.worn
+print(f"stick zone {lo:.3f} to {hi:.3f} mm, worn from {left:.3f} to {right:.3f} mm")
+print(f"volume {limit.volume:.3g} mm² per mm")
 
 # %%
 # The same by steps
