@@ -18,7 +18,7 @@ loads = {"body": steel, "normal_load": 200.0, "friction": 0.5}
 limit = sie.wear_limit(sie.Scene(profile=cylinder, tangential_load=60.0, **loads))
 (lo, hi), (left, right) = limit.stick, limit.worn
 print(f"stick zone {lo:.3f} to {hi:.3f} mm, worn from {left:.3f} to {right:.3f} mm")
-print(f"volume {limit.volume:.3g} mm² per mm")
+print(f"volume {limit.volume:.3g} mm³ per mm")
 
 # %%
 # The same by steps
