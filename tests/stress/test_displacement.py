@@ -20,6 +20,12 @@ GIVEN = {
     "sharp edges": {"profile": sie.Flat(1.0)},
     "wedge": {"profile": sie.Wedge(0.01)},
     "two patches": {"profile": FEET, **SHEARED},
+    "sharp edges between smooth ones": {
+        "profile": sie.Row(
+            [sie.Parabola(50.0).shifted(-2.0), sie.Flat(0.5), sie.Parabola(50.0).shifted(2.0)]
+        ),
+        "normal_load": 5000.0,
+    },
     "per period": {"profile": sie.Periodic(sie.Parabola(50.0), 2.0)},
     "full stick": {
         "profile": sie.Flat(1.0),
@@ -30,7 +36,7 @@ GIVEN = {
     "dissimilar": {"profile": sie.Parabola(50.0), "indenter": TITANIUM, **SHEARED},
 }
 SOLVED = {
-    name: sie.solve(sie.Scene(body=STEEL, normal_load=500.0, **given))
+    name: sie.solve(sie.Scene(**{"body": STEEL, "normal_load": 500.0, **given}))
     for name, given in GIVEN.items()
 }
 EVERY = pytest.mark.parametrize("solution", SOLVED.values(), ids=SOLVED)
@@ -96,7 +102,7 @@ def test_its_derivatives_are_those_of_the_stress(solution):
 @EVERY
 def test_the_surfaces_are_apart_by_the_gap_and_the_profile(solution):
     b, scene = solution.half_width, solution.scene
-    x = solution.centre + b * np.linspace(-1.7, 1.7, 200)
+    x = np.append(solution.centre + b * np.linspace(-1.7, 1.7, 200), np.ravel(solution.patches))
     body, indenter = (solution.displacement(x, 0.0 * x, name) for name in ("body", "indenter"))
     height, gap = scene.profile.height(x), solution.gap(x)
     known = np.isfinite(gap)
