@@ -129,5 +129,6 @@ class LoadMemory:
 
 def _passed(thickness: complex, depth: complex, taken: complex) -> bool:
     """Whether a front reaches the corner below a layer."""
-    ahead = (1.0 - (taken / thickness).real) * abs(thickness)
+    towards = thickness.conjugate() / abs(thickness)  # a ratio to a tiny thickness would overflow
+    ahead = abs(thickness) - (taken * towards).real
     return ahead <= NOTHING * abs(depth + taken)
