@@ -67,9 +67,9 @@ class DerivativeAnswers:
         -------
         dict
             Numbers by the names of `derivative`. Those of all heights of a trace are one array,
-            "profile.heights": in one patch without smoothing at the cost of one solve (peaks of
-            the stress excepted, which take one for each height). A number by which the quantity
-            has no derivative is left out.
+            "profile.heights": in one patch without smoothing at the cost of a solve (3 to 7 for
+            the peak pressure; peaks of the stress take one for each height). A number by which the
+            quantity has no derivative is left out.
 
         Raises
         ------

@@ -31,7 +31,7 @@ LINES = {
     "plots": 1030,
     "problem": 950,
     "profiles": 5570,
-    "sensitivity": 1360,
+    "sensitivity": 1350,
     "stress": 2490,
     "sweeps": 990,
     "traction": 2660,

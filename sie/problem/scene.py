@@ -246,30 +246,8 @@ class Scene:
             self._set("poisson", Elastic(1.0, self.poisson).poisson)
 
     def _check_loads(self) -> None:
-        if (self.normal_load is None) == (self.half_width is None):
-            what = "neither" if self.normal_load is None else "both"
-            raise ValueError(
-                f"{what} of normal_load and half_width given: give exactly one, the other follows"
-            )
-        for name in ("normal_load", "half_width"):
-            if getattr(self, name) is not None:
-                largest = arguments.LARGEST_LOAD if name == "normal_load" else arguments.LARGEST
-                self._set(name, arguments.positive(name, getattr(self, name), largest))
-        self._set("tilt", arguments.measure("tilt", self.tilt))
-        if self.moment is not None:
-            self._set(
-                "moment", arguments.measure("moment", self.moment, arguments.LARGEST_COEFFICIENT)
-            )
-            if self.half_width is not None:
-                raise ValueError(
-                    f"both half_width = {self.half_width:g} and moment = {self.moment:g} given: "
-                    "give normal_load beside a moment, or tilt beside a half_width"
-                )
-            if self.tilt != 0.0:
-                raise ValueError(
-                    f"both tilt = {self.tilt:g} and moment = {self.moment:g} given: give one, the "
-                    "other follows"
-                )
+        self._check_size()
+        self._check_tilt()
         self._set("friction", arguments.real("friction", self.friction))
         if self.friction != math.inf:
             arguments.not_negative("friction", self.friction)
@@ -287,6 +265,34 @@ class Scene:
             )
         self._check_sliding()
         self._check_coupling()
+
+    def _check_size(self) -> None:
+        if (self.normal_load is None) == (self.half_width is None):
+            what = "neither" if self.normal_load is None else "both"
+            raise ValueError(
+                f"{what} of normal_load and half_width given: give exactly one, the other follows"
+            )
+        for name in ("normal_load", "half_width"):
+            if getattr(self, name) is not None:
+                largest = arguments.LARGEST_LOAD if name == "normal_load" else arguments.LARGEST
+                self._set(name, arguments.positive(name, getattr(self, name), largest))
+
+    def _check_tilt(self) -> None:
+        self._set("tilt", arguments.measure("tilt", self.tilt))
+        if self.moment is not None:
+            self._set(
+                "moment", arguments.measure("moment", self.moment, arguments.LARGEST_COEFFICIENT)
+            )
+            if self.half_width is not None:
+                raise ValueError(
+                    f"both half_width = {self.half_width:g} and moment = {self.moment:g} given: "
+                    "give normal_load beside a moment, or tilt beside a half_width"
+                )
+            if self.tilt != 0.0:
+                raise ValueError(
+                    f"both tilt = {self.tilt:g} and moment = {self.moment:g} given: give one, the "
+                    "other follows"
+                )
 
     def _check_sliding(self) -> None:
         if not arguments.among(self.sliding, (-1, 0, 1)):

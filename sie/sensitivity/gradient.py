@@ -171,18 +171,7 @@ class Uncertainty:
         return self._of_traction("pressure", x)
 
     def shear(self, x: ArrayLike) -> Array:
-        """The standard deviation of the shear at x.
-
-        Parameters
-        ----------
-        x : array_like of float
-            Positions, lengths.
-
-        Returns
-        -------
-        ndarray of float
-            Stresses, of the shape of x.
-        """
+        """The standard deviation of the shear at x, as `pressure` gives that of the pressure."""
         return self._of_traction("shear", x)
 
     def _of_traction(self, which: str, x: ArrayLike) -> Array:

@@ -390,13 +390,8 @@ def test_a_path_of_scenes_is_refused_before_any_work_where_all_slides():
 
 def test_energy_is_known_where_a_mark_is_passed_at_once_after_a_turn():
     """It is passed at 7e-6 of the step, and sooner no state is found."""
-    scene = sie.Scene(
-        profile=sie.Parabola(radius=50.0),
-        body=sie.Elastic(young=110e3, poisson=0.34),
-        indenter=sie.Elastic(young=210e3, poisson=0.30),
-        normal_load=100.0,
-        friction=0.3,
-    )
+    bodies = {"body": sie.Elastic(110e3, 0.34), "indenter": sie.Elastic(210e3, 0.30)}
+    scene = sie.Scene(profile=sie.Parabola(50.0), normal_load=100.0, friction=0.3, **bodies)
     whole = sie.follow(scene, sie.Path([(100.0, 0.0), (100.0, 18.0)]))
     parts = sie.follow(scene, sie.Path([(100.0, 0.0), (100.0, 9.0), (100.0, 18.0)]))
     assert whole[-1].energy_lost == pytest.approx(parts[-1].energy_lost, rel=3e-6)

@@ -250,13 +250,13 @@ def _summed(way: Way, first: float, last: float, total: float) -> float:
     for n in INTERVALS:
         sums.append((last - first) * _sum_of_rule(way, (first, last), rough, values, n))
         if not values:
-            return _of_nothing_found(way, last, total)
+            return _up_to_an_early_mark(way, last, total)
         if len(sums) > 1 and _error(sums) <= PROMISED * (sums[-1] + total):
             return sums[-1]
     raise _unknown()
 
 
-def _of_nothing_found(way: Way, last: float, total: float) -> float:
+def _up_to_an_early_mark(way: Way, last: float, total: float) -> float:
     """The integral up to a mark that is passed so soon after a turn that no state is found before.
 
     The power grows there: half of that at the mark is as far off as half of it.
