@@ -297,9 +297,9 @@ def _with_jumps(
     found: EdgeIntegrals, slope: Slope, contact: Interval, lower: float | None
 ) -> EdgeIntegrals:
     """JR and JL with what the jumps of H add, 1/(r cos φ) of each; at `lower` all of H enters."""
-    rises = slope.rises
-    if lower is not None:
-        rises = ((lower, slope.after(lower)), *((b, rise) for b, rise in rises if b > lower))
+    rises = slope.jumps
+    if lower is not None:  # of the right half: half of the rise on the axis
+        rises = tuple((b, 0.5 * rise if b == lower else rise) for b, rise in rises if b >= lower)
     JR, JL = found.JR, found.JL
     for b, rise in rises:
         left, right = contact.from_left(b), contact.from_right(b)

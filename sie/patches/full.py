@@ -169,7 +169,7 @@ class FullPressure(Density):
     def steepness(self) -> FullPressure | None:
         """p', the pressure by the slope H'; None where H jumps, and p is infinite."""
         lo, hi = self.interval
-        if self.pieces.jumps(np.array([lo - EPS * self.period]), np.array([hi])).any():
+        if self.pieces.jump_within(np.array([lo - EPS * self.period]), np.array([hi])).any():
             return None
         return replace(self, pieces=self.pieces.derivative, load=0.0)
 
@@ -228,7 +228,7 @@ class FullPressure(Density):
         """The places of lowest pressure on a uniform grid, on which H has its conjugate by FFT."""
         n = 1 << len(self.panels[0]).bit_length()
         x = np.asarray(self.start + (self.period / n) * np.arange(n), dtype=float)
-        conjugate = np.fft.irfft(1j * np.fft.rfft(self.pieces.H(x)), n)
+        conjugate = np.fft.irfft(1j * np.fft.rfft(self.pieces(x)), n)
         return np.asarray(x[np.argsort(conjugate)[:SUSPECTS]])
 
 

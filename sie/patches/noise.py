@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie.profiles.base import Profile
-from sie.profiles.profile_pieces import of_profile
+from sie.profiles.pieces import of_profile
 
 from .density import PatchPressure
 from .newton import conditions, conditions_of, missed

@@ -11,8 +11,7 @@ from numpy.typing import NDArray
 from sie.numerics.chord import Chord
 from sie.problem.scene import Scene
 from sie.profiles.base import Profile
-from sie.profiles.pieces import Pieces
-from sie.profiles.profile_pieces import of_profile
+from sie.profiles.pieces import Pieces, of_profile
 from sie.profiles.slope import Slope
 
 from .start import Grid, grid_pressure

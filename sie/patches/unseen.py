@@ -100,6 +100,6 @@ def _misfit(found: Found, problem: Problem) -> float:
     largest = 0.0
     for a, b in zip(P.a.tolist(), P.b.tolist(), strict=True):
         if problem.domain[0] <= a and b <= problem.domain[1]:
-            _, missed = misfit(problem.slope, (pieces.H,), Interval(a, b), MISFIT)
+            _, missed = misfit(problem.slope, (pieces,), Interval(a, b), MISFIT)
             largest = max(largest, float(missed.max(initial=0.0)))
     return largest

@@ -89,9 +89,7 @@ def across(slope: Slope, window: tuple[float, float], start: float = 0.0) -> Arr
 def values(slope: Slope, x: Array) -> Array:
     """H at ascending places x; infinities and nan where a function overflows."""
     with np.errstate(all="ignore"):
-        if len(slope.origins) == 1 and len(x) and np.isinf(slope.domain).all():
-            return np.asarray(slope.inside(x[None])[0])
-        return np.asarray(slope(x))
+        return slope(x)
 
 
 def falls(H: Array) -> Bool:

@@ -25,7 +25,7 @@ from .base import Profile, of_any_x
 from .closed_trace import closed, open_seams
 from .derived import joined, parts_of
 from .lowest_profile import finite_ends, inside, lowest_of
-from .slope import FunctionTerm, Slope
+from .slope import FunctionTerm, Slope, chained
 
 Array = NDArray[np.float64]
 INF = float("inf")
@@ -110,18 +110,10 @@ class Row(Profile):
         parts = []
         for lo, hi, k in self.lowest:
             if k < 0:
-                flat = Slope(np.array([lo, hi]), np.array([lo]), np.zeros((1, 1)), np.zeros(1, int))
-                parts.append(flat)
+                parts.append(Slope(np.array([lo, hi]), np.array([lo]), np.zeros((1, 1))))
             else:
                 parts.append(self.profiles[k].pieces.within(lo, hi))
-        width = max(part.coefficients.shape[1] for part in parts)
-        c = [np.pad(s.coefficients, ((0, 0), (0, width - s.coefficients.shape[1]))) for s in parts]
-        return Slope(
-            np.concatenate([parts[0].breaks[:1], *(part.breaks[1:] for part in parts)]),
-            np.concatenate([part.origins for part in parts]),
-            np.concatenate(c),
-            np.concatenate([part.degrees for part in parts]),
-        )
+        return chained(parts)
 
     @cached_property
     def _of_functions(self) -> Slope:
@@ -132,7 +124,7 @@ class Row(Profile):
         zeros = np.zeros(len(breaks) - 1)
         origins = np.where(np.isfinite(breaks[:-1]), breaks[:-1], 0.0)
         term = FunctionTerm(LowestSlope(self))
-        return Slope(breaks, origins, zeros[:, None], zeros.astype(np.int64), (term,))
+        return Slope(breaks, origins, zeros[:, None], (term,))
 
     @of_any_x
     @override

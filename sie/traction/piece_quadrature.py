@@ -159,16 +159,19 @@ class Geometry:
 
     def slopes(self, offset: Array) -> Array:
         """H at lo + offset, (K, n)."""
-        return self.slope.local(self.k, self.ends[0], self.tails[0], offset)
+        lo, tail = self.ends[0][:, None], self.tails[0][:, None]
+        H: Array = self.slope.value(self.k[:, None], lo, tail + offset)
+        return H
 
     def weighted_derivative(self, offset: Array, angle: Array, weight: Array, H: Array) -> Array:
         """H' times the weights at the nodes, which are at these angles from the nearer edge."""
-        slope, lo, tail = self.slope, self.ends[0], self.tails[0]
-        dH: Array = weight * slope.local_derivative(self.k, lo, tail, offset)
+        slope, k, lo = self.slope, self.k[:, None], self.ends[0][:, None]
+        u = self.tails[0][:, None] + offset
+        dH: Array = weight * slope.derivative.value(k, lo, u)
         if not slope.functions:
             return dH
         # H' dφ = dH / (r cos φ), with dH from the interpolant at the nodes
-        functions = H - slope.without_functions.local(self.k, lo, tail, offset)
+        functions = H - slope.without_functions.value(k, lo, u)
         functions[np.ptp(functions, axis=1) <= SEEN_JUMP * np.abs(H).max(axis=1)] = 0.0
         n = H.shape[1]
         steep = chebyshev.gauss_legendre(n)[1] * (functions @ chebyshev.differentiation(n)[0].T)
