@@ -30,13 +30,13 @@ LINES = {
     "paths": 1040,
     "plots": 1030,
     "problem": 950,
-    "profiles": 5570,
+    "profiles": 5290,
     "sensitivity": 1350,
     "stress": 2490,
     "sweeps": 990,
     "traction": 2660,
 }
-FILES = 303
+FILES = 300
 
 
 def lines_of(folder):

@@ -20,10 +20,10 @@ from sie.numerics.interval import Interval, interval_about
 from sie.problem.request import ECONOMY
 from sie.problem.scene import Scene
 from sie.profiles.base import Profile
+from sie.profiles.look import between_points
 from sie.profiles.pieces import without_functions
 from sie.profiles.resolution import refined
 from sie.profiles.slope import Slope
-from sie.profiles.unresolved import between_points
 
 from .edges import NEAR, Found, Search
 from .known_contact import NEARER, Edges, Normal, refuse_unresolved, with_breaks

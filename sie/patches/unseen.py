@@ -20,11 +20,12 @@ from sie.profiles.look import (
     closer,
     falls,
     may_touch,
+    misfit,
     narrow_parts,
+    start_of,
     turns,
     values,
 )
-from sie.profiles.unresolved import misfit, start_of
 
 from .gap import overlaps
 from .of_scene import Problem

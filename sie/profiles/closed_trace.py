@@ -22,8 +22,7 @@ from sie.numerics.interval import EPS
 from . import fitting
 from .base import Profile
 from .derived import Placed, parts_of, total_tilt, with_part
-from .sampled import Sampled
-from .spline_profile import SplineProfile
+from .sampled import Sampled, SplineProfile
 from .splines import Spline, closed_spline
 
 Array = NDArray[np.float64]

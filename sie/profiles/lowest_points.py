@@ -22,7 +22,6 @@ Array = NDArray[np.float64]
 SAMPLES = 24  # per piece, besides its degree; a sign change between two samples is then bisected
 MANY, FEWER = 100, 3  # a slope of more polynomials than MANY is sampled at FEWER points each
 SHORTLIST = 16  # of the minima of a rough trace: the lowest by the samples
-HEIGHT_NODES = 16
 BEYOND = 1e-3
 ROUNDING = 8.0  # ulp
 NEXT = float(np.finfo(float).tiny)  # to the origin of a piece
@@ -47,8 +46,9 @@ def lowest_points(slope: Slope) -> tuple[float, float]:
     if len(candidates) == 1:
         z1, z2 = candidates[0]
         return float(z1), float(z2)
-    heights = [_height(slope, ends, z1) for z1, _ in candidates]
-    z1, z2 = candidates[int(np.argmin(heights))]
+    places = np.array([z1 for z1, _ in candidates])
+    rises = without_functions(slope).rises(np.full(len(places), places[0]), places)
+    z1, z2 = candidates[int(np.argmin(rises))]
     return float(z1), float(z2)
 
 
@@ -145,16 +145,6 @@ def _root(slope: Slope, k: int, lo: float, hi: float) -> float:
     if a < -NEXT < NEXT < b and (H(0.0) == 0.0 or H(-NEXT) <= 0.0 <= H(NEXT)):
         return origin
     return origin + false_position(H, a, b, ends, lambda *_: False)
-
-
-def _height(slope: Slope, ends: Array, z: float) -> float:
-    """h(z) - h(left end), by Gauss-Legendre on every piece; only to compare minima."""
-    degree = slope.degree
-    g, w = chebyshev.gauss_legendre(HEIGHT_NODES + degree if slope.functions else degree // 2 + 1)
-    lo, hi = np.minimum(ends[:, 0], z), np.minimum(ends[:, 1], z)
-    length = hi - lo
-    H = slope.value(np.arange(len(lo))[:, None], lo[:, None], length[:, None] * g)
-    return float((length * (H @ w)).sum())
 
 
 def raised(resolved: Slope, touch: tuple[float, float], x: Array) -> Array:
