@@ -41,7 +41,7 @@ MANY = 24
 CHOP = 0.5 * EPS
 # Part of a piece that is next to a break: there the logarithm is more than 7 (`near_breaks`).
 NEXT_TO_BREAK = 1e-3
-TERMS = 23  # of the series beyond FAR_FIELD (`outer_series`), where |ρ|^22 <= 0.172^22 is rounding
+TERMS = 23  # of `of_slope.outer_series` beyond FAR_FIELD, where |ρ|^22 <= 0.172^22 is rounding
 
 
 class Series(NamedTuple):

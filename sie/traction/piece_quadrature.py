@@ -111,12 +111,9 @@ class Geometry:
     def part(self, chosen: NDArray[np.bool_]) -> Geometry:
         """Some of the pieces; quadrature only."""
         part = copy(self)
-        part.k = self.k[chosen]
-        part.ends = self.ends[:, chosen]
-        part.tails = self.tails[:, chosen]
-        part.length = self.length[chosen]
-        part.left, part.right = self.left[:, chosen], self.right[:, chosen]
-        part.root_left, part.root_right = self.root_left[:, chosen], self.root_right[:, chosen]
+        part.k, part.length = self.k[chosen], self.length[chosen]
+        for name in ("ends", "tails", "left", "right", "root_left", "root_right"):
+            setattr(part, name, getattr(self, name)[:, chosen])
         part.cut_left = self.cut_left and bool(chosen[0])
         part.cut_right = self.cut_right and bool(chosen[-1])
         from_edge, sign, length = self.angles
