@@ -34,7 +34,7 @@ LINES = {
     "sensitivity": 1350,
     "stress": 2490,
     "sweeps": 990,
-    "traction": 2600,
+    "traction": 2580,
 }
 FILES = 299
 

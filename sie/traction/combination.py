@@ -109,11 +109,8 @@ class Combination(Density):
 
     def _at_infinity(self, x: float) -> float:
         """The sum where terms are infinite: finite where their strengths cancel."""
-        total = self.strength(x)
-        size = sum(abs(factor * density.strength(x)) for factor, density in self.terms)
-        if abs(total) > CANCELLED * size:
-            return math.copysign(math.inf, total)
-        return float(np.mean(self(self._beside(x))))
+        infinite = [factor * density.strength(x) for factor, density in self.terms]
+        return self._cancelled(infinite, self, x)
 
     def _steepness(self, x: float) -> float:
         """The derivative where those of terms are infinite.
@@ -129,14 +126,17 @@ class Combination(Density):
             for factor, strength, slope in steep
             if math.isinf(slope)
         ]
+        return self._cancelled(infinite, lambda y: self.cauchy_derivative(y).imag, x)
+
+    def _cancelled(
+        self, infinite: list[float], function: Callable[[Array], Array], x: float
+    ) -> float:
+        """The sum of infinite terms at x; where they cancel, the mean of a function beside x."""
         if abs(sum(infinite)) > CANCELLED * sum(map(abs, infinite)):
             return math.copysign(math.inf, sum(infinite))
-        return float(np.mean(self.cauchy_derivative(self._beside(x)).imag))
-
-    def _beside(self, x: float) -> Array:
         lo, hi = self.interval
         step = BESIDE * (hi - lo)
-        return np.array([y for y in (x - step, x + step) if lo < y < hi])
+        return float(np.mean(function(np.array([y for y in (x - step, x + step) if lo < y < hi]))))
 
     @override
     def strength(self, x: float) -> float:

@@ -73,13 +73,11 @@ class Panels:
         self.half_length = 0.5 * g.length
         self.series = g.chebyshev_slope(g.slope.degree + 1)
         self.degree = self.series.shape[1] - 1
-        self.lengths = [self.degree + 1] * len(g.k)
         if g.slope.functions:
             matters = np.abs(self.series) > CHOP * self.scale
             matters[:, 0] = True
             lengths = self.degree + 1 - matters[:, ::-1].argmax(axis=1)
             self.series[np.arange(self.degree + 1) >= lengths[:, None]] = 0.0
-            self.lengths = lengths.tolist()
         self.many = len(g.k) > MANY
 
     @cached_property
@@ -160,16 +158,13 @@ class Panels:
         return [list(zip(*of_end, strict=True)) for of_end in zip(*rows, strict=True)]
 
     def slope_and_Q(self, k: Any) -> tuple[Array, Array]:
-        """H and Q of one piece, as short as they are; of several as columns."""
-        if isinstance(k, int):
-            n = self.lengths[k]
-            return self.series[k, :n], self.continuation[k, : n - 1]
+        """H and Q of one piece, or of several as columns."""
         return self.series.T[:, k], self.continuation.T[:, k]
 
     def polynomials(self, k: Any) -> Series:
-        """All polynomials of one piece, as short as they are; of several as columns."""
+        """All polynomials of one piece, or of several as columns."""
         if isinstance(k, int):
-            return self._short_polynomials[k]
+            return self._of_each[k]
         return Series(*(c[:, k] for c in self._polynomials))
 
     @cached_property
@@ -185,14 +180,9 @@ class Panels:
         return Series(self.series.T, dH.T, ends.T, self.continuation.T, dQ.T)
 
     @cached_property
-    def _short_polynomials(self) -> list[Series]:
-        H, dH, ends, Q, dQ = (np.ascontiguousarray(c.T) for c in self._polynomials)
-        return [
-            Series(
-                H[k, :n], dH[k, : n - 1], ends[k, : max(n - 1, 1)], Q[k, : n - 1], dQ[k, : n - 2]
-            )
-            for k, n in enumerate(self.lengths)
-        ]
+    def _of_each(self) -> list[Series]:
+        columns = [np.ascontiguousarray(c.T) for c in self._polynomials]
+        return [Series(*rows) for rows in zip(*columns, strict=True)]
 
     # -- the breaks --------------------------------------------------------------------------------
 
@@ -202,32 +192,37 @@ class Panels:
         signs = (-1.0) ** np.arange(self.degree + 1)
         return np.stack((self.series @ signs, self.series.sum(axis=1)))
 
+    def _rises(self, at_ends: Array, bound: Array) -> tuple[Array, Array, Array]:
+        """The breaks inside, and how much something rises there; the largest bound beside each.
+
+        It has values (2, K) at the ends of the pieces, and a bound on each (K,).
+        """
+        g, inside = self.geometry, np.ones(at_ends.shape, dtype=bool)
+        inside[0, :1], inside[1, -1:] = not g.cut_left, not g.cut_right
+        e, which = np.unique(g.ends[inside], return_inverse=True)
+        rise: Array = np.bincount(which, (at_ends * [[1.0], [-1.0]])[inside]).astype(float)
+        largest = np.zeros(len(e))
+        np.maximum.at(largest, which, np.broadcast_to(bound, at_ends.shape)[inside])
+        return e, rise, largest
+
+    @property
+    def _least(self) -> float:
+        """The part of a bound that a rise has to exceed."""
+        return SEEN_JUMP if self.geometry.slope.functions else JUMP
+
     @cached_property
     def jumps(self) -> list[tuple[float, float]]:
         """(break, ±inf) inside the contact where H jumps: there the pressure is infinite."""
-        g = self.geometry
-        if g.slope.continuous:
+        slope = self.geometry.slope
+        if slope.continuous:
             return []
-        rise: dict[float, float] = {}
-        least = SEEN_JUMP if g.slope.functions else JUMP
         # Rounding of coefficients that are given about x = 0 grows with the distance from there.
         # The pieces beside a break decide: others may be as steep as a cusp.
         steepness = np.abs(self.series[:, 1:]).sum(axis=1) / self.half_length
-        rounding: dict[float, float] = {}
-        for k, (lo, hi) in enumerate(g.ends.T.tolist()):
-            entering, leaving = self._slope_at_ends[:, k].tolist()
-            for e, jump, cut in (
-                (lo, entering, g.cut_left and k == 0),
-                (hi, -leaving, g.cut_right and k == len(self.series) - 1),
-            ):
-                if not cut:
-                    rise[e] = rise.get(e, 0.0) + jump
-                    rounding[e] = max(rounding.get(e, self.scale), abs(e) * float(steepness[k]))
-        return [
-            (e, math.copysign(math.inf, jump))
-            for e, jump in rise.items()
-            if abs(jump) > least * rounding[e] and not _is_cusp(g.slope, e)
-        ]
+        e, rise, steep = self._rises(self._slope_at_ends, steepness)
+        found = np.abs(rise) > self._least * np.maximum(self.scale, np.abs(e) * steep)
+        signed = zip(e[found].tolist(), np.copysign(np.inf, rise[found]).tolist(), strict=True)
+        return [(at, sign) for at, sign in signed if not _is_cusp(slope, at)]
 
     @cached_property
     def breaks(self) -> Breaks:
@@ -262,24 +257,14 @@ class Panels:
     @cached_property
     def kinks(self) -> tuple[tuple[float, float], ...]:
         """(break, ±inf) where p' ~ -[H']/π ln|x - e| is infinite; -inf where p itself is."""
-        g, dH = self.geometry, self._polynomials.dH
+        dH = self._polynomials.dH
         n = np.arange(1.0, len(dH) + 1.0)  # U_m(±1) = (±1)^m (m + 1)
-        slopes: dict[float, list[float]] = {}
-        bounds: dict[float, float] = {}  # of |H'| on the pieces beside a break
-        bound = n @ np.abs(dH)
-        for side, at_ends in ((1, (n * (-1.0) ** (n - 1.0)) @ dH), (0, n @ dH)):
-            for k, slope in enumerate(at_ends.tolist()):
-                if not (g.cut_left and k == 0 if side else g.cut_right and k == len(at_ends) - 1):
-                    e = float(g.ends[1 - side, k])
-                    slopes.setdefault(e, [0.0, 0.0])[side] = slope
-                    bounds[e] = max(bounds.get(e, 0.0), float(bound[k]))
-        least = SEEN_JUMP if g.slope.functions else JUMP
-        infinite = {e for e, _ in self.jumps}
-        return tuple(
-            (e, -math.inf if e in infinite else math.copysign(math.inf, before - after))
-            for e, (before, after) in slopes.items()
-            if e in infinite or abs(after - before) > least * bounds[e]
-        )
+        at_ends = np.stack(((n * (-1.0) ** (n - 1.0)) @ dH, n @ dH))
+        e, rise, bound = self._rises(at_ends, n @ np.abs(dH))
+        infinite = np.isin(e, [at for at, _ in self.jumps])
+        sign = np.where(infinite, -np.inf, np.copysign(np.inf, -rise))
+        found = infinite | (np.abs(rise) > self._least * bound)
+        return tuple(zip(e[found].tolist(), sign[found].tolist(), strict=True))
 
     # -- quadrature beyond the reach ---------------------------------------------------------------
 

@@ -70,11 +70,13 @@ def on_contact(p: Panels, x: Array) -> Array:
     if p.many and len(x) > CHUNK:
         return np.concatenate([on_contact(p, x[part]) for part in chunks(len(x))])
     w, function_of = p.edge.on_contact(x, p.geometry.slope.continuous and not p.many)
-    near = p.continuous_breaks.near(x)
-    levelled = near.levelled(function_of) if near else function_of
+    breaks, levelled = p.continuous_breaks, function_of
+    near = breaks.near(x)
+    if near[0].size:
+        levelled = breaks.levelled(function_of, near, len(x))
     V, _ = _on_line(p, x, w, levelled, served=p.serves_contact)
-    if near:
-        V[near.i] += near.left_out(function_of, x)
+    if near[0].size:
+        V[near[0]] += breaks.left_out(function_of, near, x)
     for e, infinite in p.jumps:
         V[x == e] = infinite
     return V
