@@ -30,7 +30,7 @@ LINES = {
     "paths": 1040,
     "plots": 1030,
     "problem": 950,
-    "profiles": 5290,
+    "profiles": 5270,
     "sensitivity": 1350,
     "stress": 2490,
     "sweeps": 990,

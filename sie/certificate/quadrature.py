@@ -19,7 +19,7 @@ from sie.numerics import chebyshev
 from sie.numerics.gauss_jacobi import gauss_jacobi
 from sie.numerics.graded_rule import GRADING, NODES, balanced, graded, on_panels
 from sie.numerics.interval import EPS, Interval, angles, inner, position
-from sie.profiles.power_law import PowerLaw
+from sie.profiles.functions import PowerLaw
 from sie.profiles.resolution import refined
 from sie.profiles.slope import Slope
 

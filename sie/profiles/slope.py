@@ -12,7 +12,7 @@ punch must not be formed as t/R - a/R where that edge is 1e-12 of the width.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any, Literal, NamedTuple, Self, TypeVar
@@ -20,13 +20,13 @@ from typing import Any, Literal, NamedTuple, Self, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from sie import arguments
 from sie.numerics import chebyshev
 from sie.numerics.interval import EPS, recentred, two_sum
 
+from .functions import FunctionTerm, Vectorised
+
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
-Vectorised = Callable[[Array], Any]
 
 # Up to so many pieces of so low a degree, a loop over floats is cheaper than NumPy's calls.
 FEW, LOW = 6, 4
@@ -39,22 +39,6 @@ NO_SERIES = np.zeros((1, 0))
 Pieced = TypeVar("Pieced", bound="Slope")
 
 
-@dataclass(frozen=True)
-class FunctionTerm:
-    """The function sign f(sign (t - shift)): a user's f, moved and mirrored with its profile."""
-
-    function: Vectorised
-    shift: float = 0.0
-    sign: float = 1.0
-
-    def __call__(self, offset: Array) -> Array:
-        """Values at t, given offset = t - shift; `resolution` refuses those that are not finite."""
-        with np.errstate(all="ignore"):
-            if self.sign > 0.0:
-                return arguments.real_values("slope", self.function, offset)
-            return -arguments.real_values("slope", self.function, -offset)
-
-
 class Row(NamedTuple):
     """One piece of a slope as plain floats, which cost less than arrays where there are few.
 
@@ -65,13 +49,6 @@ class Row(NamedTuple):
     hi: float
     origin: float
     coefficients: tuple[float, ...]
-
-    def at(self, x: float) -> float:
-        """H at x."""
-        value = 0.0
-        for c in self.coefficients:
-            value = value * (x - self.origin) + c
-        return value
 
 
 @dataclass(frozen=True, eq=False)
@@ -415,6 +392,12 @@ def polynomial_slope(
     return Slope(np.asarray(breaks, dtype=float), np.asarray(origins, dtype=float), c, tails=tails)
 
 
+def function_slope(breaks: Sequence[float], function: Vectorised) -> Slope:
+    """The slope that is a function on its breaks."""
+    none = np.zeros(len(breaks) - 1)
+    return Slope(np.asarray(breaks, dtype=float), none, none[:, None], (FunctionTerm(function),))
+
+
 def _distance(origins: Array, breaks: Array) -> Array:
     """The distance of each origin from its piece.
 
@@ -423,6 +406,5 @@ def _distance(origins: Array, breaks: Array) -> Array:
     """
     lo, hi = breaks[:-1], breaks[1:]
     outside = np.maximum(np.maximum(lo - origins, origins - hi), 0.0)
-    one_end = np.where(np.isfinite(lo), np.abs(origins - lo), np.abs(origins - hi))
-    without_ends = np.where(np.isinf(one_end), np.abs(origins), one_end)
-    return np.where(np.isfinite(lo) & np.isfinite(hi), outside, without_ends)
+    end = np.where(np.isfinite(lo), lo, np.where(np.isfinite(hi), hi, 0.0))
+    return np.where(np.isfinite(lo) & np.isfinite(hi), outside, np.abs(origins - end))

@@ -30,7 +30,7 @@ from numpy.typing import NDArray
 from sie.inheritance import override
 from sie.numerics import chebyshev
 from sie.numerics.interval import Interval
-from sie.profiles.power_law import PowerLaw
+from sie.profiles.functions import PowerLaw
 
 from . import potential
 from .of_slope import SlopeDensity

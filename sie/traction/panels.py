@@ -24,7 +24,7 @@ from numpy.typing import NDArray
 from sie.numerics import chebyshev
 from sie.numerics.cauchy_sums import SEPARATED, KernelSums
 from sie.numerics.interval import EPS
-from sie.profiles.power_law import PowerLaw
+from sie.profiles.functions import PowerLaw
 from sie.profiles.slope import JUMP, SEEN_JUMP, Slope
 
 from .near_breaks import ContinuousBreaks
