@@ -30,13 +30,13 @@ LINES = {
     "paths": 1040,
     "plots": 1030,
     "problem": 950,
-    "profiles": 5270,
+    "profiles": 5240,
     "sensitivity": 1350,
     "stress": 2490,
     "sweeps": 990,
     "traction": 2580,
 }
-FILES = 299
+FILES = 298
 
 
 def lines_of(folder):

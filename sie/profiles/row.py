@@ -22,9 +22,9 @@ from sie.arguments import abridged
 from sie.inheritance import override
 
 from .base import Profile, of_any_x
-from .closed_trace import closed, open_seams
 from .derived import joined, parts_of
 from .lowest_profile import finite_ends, inside, lowest_of
+from .placed_traces import closed, open_seams
 from .slope import Slope, chained, function_slope, polynomial_slope
 
 Array = NDArray[np.float64]
