@@ -18,7 +18,7 @@ LINES = {
     "cauchy": 2170,
     "certificate": 1570,
     "cli": 980,
-    "contact": 2520,
+    "contact": 2490,
     "examples": 10,
     "friction": 11520,
     "inverse": 320,
@@ -34,7 +34,7 @@ LINES = {
     "sensitivity": 1350,
     "stress": 2490,
     "sweeps": 990,
-    "traction": 2580,
+    "traction": 2560,
 }
 FILES = 298
 

@@ -201,7 +201,7 @@ class Slope:
     def steps(self) -> Array:
         """By how much H jumps up at the inner breaks, (K - 1,); 0 where that is rounding.
 
-        Functions are seen one ulp beside a break.
+        Functions are seen one ulp beside a break, where a power law may seem to jump.
         """
         k, x = np.arange(len(self.origins) - 1), self.breaks[1:-1]
         ulp = np.spacing(np.abs(x)) if self.functions else 0.0

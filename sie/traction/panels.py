@@ -25,7 +25,7 @@ from sie.numerics import chebyshev
 from sie.numerics.cauchy_sums import SEPARATED, KernelSums
 from sie.numerics.interval import EPS
 from sie.profiles.functions import PowerLaw
-from sie.profiles.slope import JUMP, SEEN_JUMP, Slope
+from sie.profiles.slope import JUMP, SEEN_JUMP
 
 from .near_breaks import ContinuousBreaks
 from .piece_quadrature import Geometry, quadrature_order
@@ -192,37 +192,18 @@ class Panels:
         signs = (-1.0) ** np.arange(self.degree + 1)
         return np.stack((self.series @ signs, self.series.sum(axis=1)))
 
-    def _rises(self, at_ends: Array, bound: Array) -> tuple[Array, Array, Array]:
-        """The breaks inside, and how much something rises there; the largest bound beside each.
-
-        It has values (2, K) at the ends of the pieces, and a bound on each (K,).
-        """
-        g, inside = self.geometry, np.ones(at_ends.shape, dtype=bool)
-        inside[0, :1], inside[1, -1:] = not g.cut_left, not g.cut_right
-        e, which = np.unique(g.ends[inside], return_inverse=True)
-        rise: Array = np.bincount(which, (at_ends * [[1.0], [-1.0]])[inside]).astype(float)
-        largest = np.zeros(len(e))
-        np.maximum.at(largest, which, np.broadcast_to(bound, at_ends.shape)[inside])
-        return e, rise, largest
-
-    @property
-    def _least(self) -> float:
-        """The part of a bound that a rise has to exceed."""
-        return SEEN_JUMP if self.geometry.slope.functions else JUMP
-
     @cached_property
     def jumps(self) -> list[tuple[float, float]]:
         """(break, ±inf) inside the contact where H jumps: there the pressure is infinite."""
-        slope = self.geometry.slope
-        if slope.continuous:
-            return []
-        # Rounding of coefficients that are given about x = 0 grows with the distance from there.
-        # The pieces beside a break decide: others may be as steep as a cusp.
-        steepness = np.abs(self.series[:, 1:]).sum(axis=1) / self.half_length
-        e, rise, steep = self._rises(self._slope_at_ends, steepness)
-        found = np.abs(rise) > self._least * np.maximum(self.scale, np.abs(e) * steep)
-        signed = zip(e[found].tolist(), np.copysign(np.inf, rise[found]).tolist(), strict=True)
-        return [(at, sign) for at, sign in signed if not _is_cusp(slope, at)]
+        slope, c = self.geometry.slope, self.contact
+        # on its axis a power law is steep, but without a corner p is finite there
+        steep = [f.shift for f in slope.functions if isinstance(f.function, PowerLaw)]
+        return [
+            (e, math.copysign(math.inf, rise))
+            for e, rise in slope.jumps
+            if c.from_left(e) > 0.0 < c.from_right(e)
+            and not (e in steep and not slope.without_functions.corner(e)[0])
+        ]
 
     @cached_property
     def breaks(self) -> Breaks:
@@ -257,13 +238,17 @@ class Panels:
     @cached_property
     def kinks(self) -> tuple[tuple[float, float], ...]:
         """(break, ±inf) where p' ~ -[H']/π ln|x - e| is infinite; -inf where p itself is."""
-        dH = self._polynomials.dH
+        g, dH = self.geometry, self._polynomials.dH
         n = np.arange(1.0, len(dH) + 1.0)  # U_m(±1) = (±1)^m (m + 1)
-        at_ends = np.stack(((n * (-1.0) ** (n - 1.0)) @ dH, n @ dH))
-        e, rise, bound = self._rises(at_ends, n @ np.abs(dH))
+        inside = np.ones(g.ends.shape, dtype=bool)
+        inside[0, :1], inside[1, -1:] = not g.cut_left, not g.cut_right
+        e, which = np.unique(g.ends[inside], return_inverse=True)
+        rises = np.stack(((n * (-1.0) ** (n - 1.0)) @ dH, -n @ dH))[inside]
+        rise, bound = np.bincount(which, rises, len(e)), np.zeros(len(e))
+        np.maximum.at(bound, which, np.broadcast_to(n @ np.abs(dH), inside.shape)[inside])
         infinite = np.isin(e, [at for at, _ in self.jumps])
         sign = np.where(infinite, -np.inf, np.copysign(np.inf, -rise))
-        found = infinite | (np.abs(rise) > self._least * bound)
+        found = infinite | (np.abs(rise) > (SEEN_JUMP if g.slope.functions else JUMP) * bound)
         return tuple(zip(e[found].tolist(), sign[found].tolist(), strict=True))
 
     # -- quadrature beyond the reach ---------------------------------------------------------------
@@ -303,12 +288,6 @@ class Panels:
         from_right = np.where(sign > 0.0, np.pi - angle, angle)  # T_n(cos ψ) = cos nψ
         WH = weight * g.slopes(offset)
         return np.array([2.0 * np.vdot(WH, np.cos(n * from_right)) for n in range(TERMS)])
-
-
-def _is_cusp(slope: Slope, x: float) -> bool:
-    """Whether x is the axis of a power law, so steep that it seems to jump, without a corner."""
-    steep = (f.shift for f in slope.functions if isinstance(f.function, PowerLaw))
-    return x in steep and not slope.without_functions.corner(x)[0]
 
 
 def _order_beyond(reach_in_s: Array) -> Index:
