@@ -34,7 +34,7 @@ LINES = {
     "sensitivity": 1350,
     "stress": 2490,
     "sweeps": 990,
-    "traction": 2560,
+    "traction": 2510,
 }
 FILES = 298
 

@@ -164,7 +164,7 @@ def _summed(g: Geometry, order: int) -> EdgeIntegrals:
     near = 2.0 * np.sin(0.5 * angle) ** 2
     s, left = sign * (near - 1.0), np.asarray(sign > 0.0)
     plus, minus = np.where(left, near, 2.0 - near), np.where(left, 2.0 - near, near)
-    dJ = g.weighted_derivative(offset, angle, weight, H)
+    dJ = g.weighted_derivative(offset, weight)
     JR, JL = float(np.vdot(dJ, plus)), float(np.vdot(dJ, minus))
     e = g.edge.epsilon
     C2 = float(np.vdot(WH, plus * minus - 2.0 * e * (e + s) if e else plus * minus))

@@ -16,7 +16,8 @@ from sie.numerics.chord import Points
 from sie.numerics.graded_rule import graded, on_panels
 from sie.numerics.zones import Zones, left_over
 from sie.profiles.base import Profile
-from sie.traction.base import ZERO, Density
+from sie.traction.base import Density
+from sie.traction.combination import ZERO
 
 Array = NDArray[np.float64]
 

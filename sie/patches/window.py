@@ -6,8 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie.errors import LoadError
-from sie.profiles.look import closer, may_touch, values
-from sie.profiles.look import falls as look_falls
+from sie.profiles.look import closer, falls, may_touch, values
 
 from .of_scene import Problem
 from .operator import Found
@@ -109,12 +108,12 @@ def whole_window(problem: Problem) -> tuple[float, float]:
         def outward(away: Array, side: float = side) -> Array:
             return side * (values(problem.slope, middle + side * away) + problem.given.tilt)
 
-        away = closer(away, look_falls(outward(away)))
+        away = closer(away, falls(outward(away)))
         H = outward(away)
         low = np.flatnonzero(may_touch(away, H, NARROWEST * (last - first), problem.given.load))
-        falling = np.flatnonzero((H[:-1] <= 0.0) | look_falls(H))
-        falls = away[falling[falling <= low.max(initial=0)]]
-        reach = max(abs(end - middle), BEYOND * float(falls.max(initial=0.0)))
+        falling = np.flatnonzero((H[:-1] <= 0.0) | falls(H))
+        last = away[falling[falling <= low.max(initial=0)]]
+        reach = max(abs(end - middle), BEYOND * float(last.max(initial=0.0)))
         ends.append(min(max(middle + side * reach, lo), hi) if np.isinf(limit) else limit)
     return ends[0], ends[1]
 
