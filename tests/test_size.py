@@ -25,16 +25,16 @@ LINES = {
     "io": 5580,
     "live": 1170,
     "many": 950,
-    "numerics": 2170,
+    "numerics": 2160,
     "patches": 5260,
     "paths": 1040,
     "plots": 1030,
     "problem": 950,
-    "profiles": 5240,
+    "profiles": 5220,
     "sensitivity": 1350,
     "stress": 2490,
     "sweeps": 990,
-    "traction": 2510,
+    "traction": 2500,
 }
 FILES = 298
 

@@ -130,15 +130,14 @@ def _with_jumps(
     found: EdgeIntegrals, slope: Slope, contact: Interval, lower: float | None, epsilon: float
 ) -> EdgeIntegrals:
     """JR and JL with what the jumps of H add, (1 ± s)/w of each; at `lower` half of one is in."""
-    b, rise = slope.breaks[1:-1], slope.steps
-    left, right = contact.from_left(b), contact.from_right(b)
-    there = (rise != 0.0) & (left > 0.0) & (right > 0.0)
-    if lower is not None:
-        there &= b >= lower
-        rise = np.where(b == lower, 0.5, 1.0) * rise
-    steep = np.sqrt(left[there]) / np.sqrt(right[there])
-    rise = rise[there] / contact.r * steep ** (-2.0 * epsilon)
-    JR, JL = found.JR + float(rise @ steep), found.JL + float(rise @ (1.0 / steep))
+    JR, JL = found.JR, found.JL
+    for b, rise in slope.jumps:
+        left, right = contact.from_left(b), contact.from_right(b)
+        if left > 0.0 and right > 0.0 and (lower is None or b >= lower):
+            steep = math.sqrt(left) / math.sqrt(right)
+            added = (0.5 if b == lower else 1.0) * rise / contact.r * steep ** (-2.0 * epsilon)
+            JR += added * steep
+            JL += added / steep
     return found._replace(JR=JR, JL=JL)
 
 

@@ -9,7 +9,7 @@ a concave corner, which contact never reaches; where one ends below another h ju
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
@@ -283,18 +283,17 @@ class Periodic(Profile):
 
     @override
     def slope(self, x: ArrayLike) -> Array:
-        x = arguments.reals("x", x)
-        finite = np.isfinite(x)
-        inner = self.within(np.where(finite, x, self.start))
-        beyond = inner > self.pieces.domain[1]
-        values = np.where(beyond, INF, self.pieces(np.minimum(inner, self.pieces.domain[1])))
-        return np.where(finite, values, np.nan)[()]
+        hi = self.pieces.domain[1]
+        return self._in_period(lambda x: np.where(x > hi, INF, self.pieces(np.minimum(x, hi))), x)
 
     @override
     def height(self, x: ArrayLike) -> Array:
+        return self._in_period(self.repeated.height, x)
+
+    def _in_period(self, function: Callable[[Array], Array], x: ArrayLike) -> Array:
         x = arguments.reals("x", x)
         finite = np.isfinite(x)
-        values = self.repeated.height(self.within(np.where(finite, x, self.start)))
+        values = function(self.within(np.where(finite, x, self.start)))
         return np.where(finite, values, np.nan)[()]
 
     @property

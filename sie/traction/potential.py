@@ -122,7 +122,7 @@ def _on_line(
     for block in blocks:
         k, i, s = block
         if s is None:
-            _add(V, block, X[i] * _cauchy_sum(p, k, x[i]))
+            _add(V, block, X[i] * _cauchy_sums(p, k, x[i])[0])
             continue
         H, Q = p.slope_and_Q(k)
         slope = chebyshev.evaluate(H, s)
@@ -337,18 +337,8 @@ def _difference(
     return total
 
 
-def _cauchy_sum(p: Panels, k: Any, x: Array) -> Array:
-    """S = ∫H/(w (t - x)) dt over the piece."""
-    offset, charge = p.rule(k)
-    if isinstance(k, int):
-        one: Array = charge @ np.reciprocal(offset[:, None] - p.from_lo(k, x))
-        return one
-    of_pairs: Array = (charge / (offset - p.from_lo(k, x)[:, None])).sum(axis=1)
-    return of_pairs
-
-
-def _cauchy_sums(p: Panels, k: Any, z: Complex) -> tuple[Complex, Complex]:
-    """S and S'."""
+def _cauchy_sums(p: Panels, k: Any, z: Any) -> tuple[Any, Any]:
+    """S = ∫H/(w (t - z)) dt over the piece, and S'."""
     offset, charge = p.rule(k)
     from_lo = p.from_lo(k, z)
     S, dS = np.zeros_like(z), np.zeros_like(z)
