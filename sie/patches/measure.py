@@ -26,11 +26,11 @@ from numpy.typing import NDArray
 
 from sie.numerics import chebyshev
 from sie.numerics.chord import Points
+from sie.numerics.tree import Level, Tree
 from sie.profiles.pieces import Pieces
 
 from .panels import Patches, PatchPanels, patch_panels
 from .sums import Groups, far_sums, multiply, parts
-from .tree import Level, Tree
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]

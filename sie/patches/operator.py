@@ -23,13 +23,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie.numerics.chord import Points
+from sie.numerics.tree import Level, Separation, Tree
 from sie.profiles.pieces import Pieces
 
 from .measure import Measure, Targets, close, integrals
 from .panels import GapPanels, gap_panels
 from .state import Findings, Given, State
 from .sums import Groups, add, far_sums, parts, ranges, steps
-from .tree import Level, Separation, Tree
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]

@@ -10,9 +10,8 @@ from numpy.typing import NDArray
 
 from sie.numerics import chebyshev
 from sie.numerics.chord import Chord, Points
+from sie.numerics.tree import CHARGES, CHUNK, FAR, POINTS, Level, Separation
 from sie.progress_bar import step_done
-
-from .tree import CHARGES, CHUNK, FAR, POINTS, Level, Separation
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
