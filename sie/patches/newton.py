@@ -28,11 +28,21 @@ from sie.profiles.pieces import Pieces
 from sie.progress_bar import step_done
 
 from .edge_charges import EdgeCharges
-from .edge_moves import INSISTS, INWARD, Damping, event_of, moved, turning_smooth
 from .measure import edge_ratio
 from .operator import Found, Operator, at_edges, gap_values, operator_of
 from .repairs import after
-from .state import Event, Given, State, balances
+from .state import (
+    INSISTS,
+    INWARD,
+    Damping,
+    Event,
+    Given,
+    State,
+    balances,
+    event_of,
+    moved,
+    turning_smooth,
+)
 from .sums import parts
 
 Array = NDArray[np.float64]
@@ -129,9 +139,8 @@ def relative_size(state: State, y: Array, told: Array) -> float:
     Moves are divided by the half-width or a narrower gap, changes by the largest charge.
     """
     P, sharp = state.patches, state.sharp
-    gaps = np.stack((np.concatenate((P.gaps[-1:], P.gaps[:-1])), P.gaps), axis=1).ravel()
     r = np.repeat(P.r, 2)
-    size = np.clip(gaps, NARROW * r, r)
+    size = np.clip(P.beside, NARROW * r, r)
     change = y[: len(sharp)][sharp]
     largest = np.abs(state.charge[sharp] + change).max(initial=0.0)
     return max(

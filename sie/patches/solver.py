@@ -21,7 +21,7 @@ from sie.progress_bar import reported
 
 from . import newton
 from .gap import overlaps
-from .of_scene import Problem
+from .of_scene import COARSE, WIDENED, Problem, fitted_window, levels, whole_window, widened
 from .operator import Found, Operator, operator_of
 from .panels import Patches
 from .repairs import after, apart, bounded, mended, one_period
@@ -29,7 +29,6 @@ from .start import Grid, cells_of
 from .state import SAME, Event, Findings, Given, State, balances
 from .tension import tensions
 from .unknown import refuse_unknown_depths, refuse_unknown_ends, unsettled
-from .window import COARSE, WIDENED, fitted_window, levels, whole_window, widened
 
 Array = NDArray[np.float64]
 
@@ -48,7 +47,7 @@ def contact(problem: Problem) -> Found:
     window = fitted_window(problem)
     for _ in range(WIDENED):
         found = _within(problem, window)
-        beyond = widened(found, problem, window)
+        beyond = widened(found.state.patches, problem, window)
         if beyond == window:
             found = _in_one_period(_with_far_valleys(found, problem), problem)
             refuse_unknown_depths(found, problem)

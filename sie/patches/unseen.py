@@ -27,10 +27,9 @@ from sie.profiles.look import (
 from sie.profiles.unresolved import misfit, start_of
 
 from .gap import overlaps
-from .of_scene import Problem
+from .of_scene import Problem, whole_window
 from .operator import Found, Operator
 from .state import Unseen
-from .window import whole_window
 
 Array = NDArray[np.float64]
 
