@@ -26,9 +26,6 @@ More = Callable[[Array, float], Array] | None
 
 NODES = 20
 DEGREE = 8.0  # of a series that they integrate over a panel
-# ... and so few of them on a panel this short, relative to its θ (all singularities have
-# Re θ = 0) and to 1
-SHORT, SHORT_NODES = 0.125, 6
 # Half-widths from an edge, as far as a gap is tested: between them a function needs few pieces.
 DOUBLED: Array = np.geomspace(1.0, 1024.0, 11)
 # The longest panel in θ: NODES then reach rounding (the nearest singularity is at θ = iπ or a
@@ -102,15 +99,7 @@ def _on_one_side(
     beyond = np.nextafter(contact.x2 if side > 0.0 else contact.x1, side * np.inf)
 
     def integral(start: Array, length: Array) -> Array:
-        short = (length <= np.minimum(SHORT * start, SHORT)) & (not slope.functions)
-        out = np.zeros(start.shape)
-        for chosen, nodes in ((short, SHORT_NODES), (~short, NODES)):
-            if chosen.any():
-                out[chosen] = by_quadrature(start[chosen], length[chosen], nodes)
-        return out
-
-    def by_quadrature(start: Array, length: Array, nodes: int) -> Array:
-        g, w = chebyshev.gauss_legendre(nodes)
+        g, w = chebyshev.gauss_legendre(NODES)
         t = start[:, None] + length[:, None] * g
         root = root_width * np.sinh(0.5 * t)
         d = root * root

@@ -265,20 +265,15 @@ class Untouched:
         x = np.unique(np.concatenate((even, breaks)))
         h = self._height(x)
         inner = np.flatnonzero((h[1:-1] <= h[:-2]) & (h[1:-1] <= h[2:])) + 1
-        found = [float(h.min())]
-        for k in inner[np.argsort(h[inner])][:LOWEST]:
-            found.append(self._lowest_between(float(x[k - 1]), float(x[k + 1])))
-        return min(found)
-
-    def _lowest_between(self, lo: float, hi: float) -> float:
-        """The minimum between two places with one minimum: an interval of a quarter each time."""
-        lowest = np.inf
-        for _ in range(SHRUNK):
-            x = np.linspace(lo, hi, 9)
+        inner = inner[np.argsort(h[inner])][:LOWEST, None]
+        lowest, first, last = float(h.min()), x[inner - 1], x[inner + 1]
+        # between two places with one minimum: an interval of a quarter each time
+        for _ in range(SHRUNK if inner.size else 0):
+            x = first + (last - first) * np.linspace(0.0, 1.0, 9)
             h = self._height(x)
-            k = int(np.argmin(h))
-            lowest = min(lowest, float(h[k]))
-            lo, hi = float(x[max(k - 1, 0)]), float(x[min(k + 1, 8)])
+            lowest, k = min(lowest, float(h.min())), h.argmin(axis=1)[:, None]
+            first = np.take_along_axis(x, np.maximum(k - 1, 0), 1)
+            last = np.take_along_axis(x, np.minimum(k + 1, 8), 1)
         return lowest
 
 
