@@ -25,7 +25,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie.contact.edge_integrals import edge_integrals
-from sie.contact.least_gaps import intervals_below, relative_gaps
+from sie.contact.gap import intervals_below, relative_gaps
 from sie.contact.small_strains import notes, regular_points
 from sie.numerics.chord import Points
 from sie.numerics.interval import EPS, Interval

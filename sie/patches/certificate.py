@@ -6,7 +6,7 @@ equilibrium   |∫p dx - P| / P, |∫p x dx - M| / (P r)
 gap           h + θx - 2/(πE*) ∫p ln|x - t| dt less the gap is constant in each gap: what it varies
               by beyond rounding, over the largest gap, or change of the integral, at these places
 inequalities  the lowest bound of D over the largest D, and places where the gap would be negative
-resolution    E*/2 |h' - its resolution| / peak of a function, at places of its own (`unseen`)
+resolution    E*/2 |h' - its resolution| / peak of a function, at places of its own (`unknown`)
 condition     relative change of the narrowest patch or gap per relative change of the load; it is
               large where a patch is about to appear, or two to merge
 """

@@ -25,7 +25,6 @@ from collections.abc import Callable
 from dataclasses import replace
 from functools import cached_property
 from itertools import pairwise
-from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -277,17 +276,7 @@ class Untouched:
         return lowest
 
 
-class Level(Protocol):
-    """A contact without friction: its patches, the pressure on them, the gap beside."""
-
-    @property
-    def patches(self) -> tuple[tuple[float, float], ...]: ...
-    @property
-    def pressure(self) -> Density: ...
-    def gap(self, x: Array) -> Array: ...
-
-
-def work(lower: Level, upper: Level, period: float) -> float:
+def work(lower: Contact | Untouched, upper: Contact, period: float) -> float:
     """E: the pressure of the upper level times the gap of the lower one."""
     places, weight = slip_rule(upper, lower.patches, period)
     p = upper.pressure(places.x)
@@ -295,7 +284,7 @@ def work(lower: Level, upper: Level, period: float) -> float:
     return float(np.where(np.isfinite(p), weight * p, 0.0) @ lower.gap(places.x))
 
 
-def slip_rule(upper: Level, stick: Zones, period: float) -> tuple[Points, Array]:
+def slip_rule(upper: Contact, stick: Zones, period: float) -> tuple[Points, Array]:
     """Places and weights on the patches beside the stick zones.
 
     They are in the angle between neighbouring ends of zones and breaks, and graded towards them.

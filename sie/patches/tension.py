@@ -73,19 +73,16 @@ def _at_corners(o: Operator) -> tuple[list[tuple[int, float, float, float, float
     corners, patch = corners[covered], patch[covered]
     if not corners.size:
         return [], np.inf
-    widths, deepest = [], np.full(corners.shape, np.inf)
-    for side in ("left", "right"):
-        piece = pieces.locate(corners, side)
-        end = pieces.breaks[piece] if side == "left" else pieces.breaks[piece + 1]
-        edge = P.a[patch] if side == "left" else P.b[patch]
-        room = np.minimum(np.abs(end - corners), np.abs(edge - corners))
-        width = room[:, None] * 0.5 ** np.arange(1.0, HALVED)
-        corner = np.broadcast_to(corners[:, None], width.shape)
-        which = np.broadcast_to(piece[:, None], width.shape)
-        D = on_patches(o, patch, Points(corner, -width if side == "left" else width), which)
-        widths.append(np.where(D < 0.0, width, 0.0).max(axis=1))
-        deepest = np.minimum(deepest, D.min(axis=1))
-    left, right = widths
+    before, after = pieces.locate(corners, "left"), pieces.locate(corners)
+    behind = np.minimum(corners - pieces.breaks[before], corners - P.a[patch])
+    ahead = np.minimum(pieces.breaks[after + 1] - corners, P.b[patch] - corners)
+    halved = 0.5 ** np.arange(1.0, HALVED)
+    offset = np.concatenate((-behind[:, None] * halved, ahead[:, None] * halved), axis=1)
+    corner = np.broadcast_to(corners[:, None], offset.shape)
+    piece = np.where(offset < 0.0, before[:, None], after[:, None])
+    D = on_patches(o, patch, Points(corner, offset), piece)
+    deepest, pulls = D.min(axis=1), np.where(D < 0.0, offset, 0.0)
+    left, right = -pulls.min(axis=1), pulls.max(axis=1)
     # D < 0 on half of the gap that opens there, of which a quarter at least is found
     narrower = 0.5 * np.minimum(corners - P.a[patch], P.b[patch] - corners)
     open_ = left + right > CLOSED * narrower
