@@ -31,8 +31,7 @@ from numpy.typing import NDArray
 
 from sie.errors import ContactError
 from sie.friction.slip_state import Slip
-from sie.numerics.chord import Points
-from sie.numerics.graded_rule import graded, on_panels
+from sie.numerics.graded_panels import OF_RULES, OF_SERIES, Rule
 from sie.numerics.zones import Zones, left_over, within
 from sie.problem.load_limit import remaining
 from sie.problem.scene import Scene
@@ -47,7 +46,7 @@ from .newton import edge_charges, loaded
 
 Array = NDArray[np.float64]
 
-LEVELS = ((32, 10), (200, 4), (2000, 1))  # of a graded rule where there are no more parts than ...
+FEW = 32  # parts of the patches, whose rule is graded as closely as any
 SHRUNK = 14  # times an interval about a minimum: to the root of rounding, which is enough
 SAMPLES, LOWEST = 65, 8  # heights on a patch, and how many of their minima are refined
 SCANNED = 40  # places on each stick zone
@@ -189,8 +188,8 @@ class PatchSlip(Slip):
 
         `strain` is E*/2 times the tilt.
         """
-        points, weight = slip_rule(self.full, self.stick, self.period)
-        slip = self.slip(points.x)
+        rule = slip_rule(self.full, self.stick, self.period)
+        points, weight, slip = rule.points, rule.weight, self.slip(rule.x)
         if isinstance(self.full, FullContact):
             return load * float(weight @ slip) / self.period
         o = self.full.found.operator
@@ -278,32 +277,16 @@ class Untouched:
 
 def work(lower: Contact | Untouched, upper: Contact, period: float) -> float:
     """E: the pressure of the upper level times the gap of the lower one."""
-    places, weight = slip_rule(upper, lower.patches, period)
-    p = upper.pressure(places.x)
+    rule = slip_rule(upper, lower.patches, period)
+    p = upper.pressure(rule.x)
     # a node that rounding puts on a sharp edge
-    return float(np.where(np.isfinite(p), weight * p, 0.0) @ lower.gap(places.x))
+    return float(np.where(np.isfinite(p), rule.weight * p, 0.0) @ lower.gap(rule.x))
 
 
-def slip_rule(upper: Contact, stick: Zones, period: float) -> tuple[Points, Array]:
-    """Places and weights on the patches beside the stick zones.
-
-    They are in the angle between neighbouring ends of zones and breaks, and graded towards them.
-    """
+def slip_rule(upper: Contact, stick: Zones, period: float) -> Rule:
+    """A rule on the patches beside the stick zones, graded to neighbouring ends and breaks."""
     breaks = np.array(upper.pressure.breaks)
     parts: list[tuple[float, float]] = []
     for lo, hi in left_over(upper.patches, stick, period):
-        inside = breaks[(breaks > lo) & (breaks < hi)].tolist()
-        ends = [lo, *inside, hi]
-        parts += pairwise(ends)
-    if not parts:
-        return Points(np.zeros(0), np.zeros(0)), np.zeros(0)
-    a, b = np.array(parts).T
-    fractions = graded(next((level for most, level in LEVELS if len(parts) <= most), 0))
-    cuts = np.unique(np.concatenate(([0.0], 0.5 * fractions, [0.5], 1.0 - 0.5 * fractions, [1.0])))
-    angle, step = (np.pi * v.ravel() for v in on_panels(cuts))
-    half = 0.5 * (b - a)[:, None]
-    left = angle < 0.5 * np.pi
-    offset = 2.0 * half * np.sin(0.5 * np.where(left, angle, np.pi - angle)) ** 2
-    anchor = np.where(left, a[:, None], b[:, None])
-    places = Points(anchor.ravel(), np.where(left, offset, -offset).ravel())
-    return places, (half * np.sin(angle) * step).ravel()
+        parts += pairwise([lo, *breaks[(breaks > lo) & (breaks < hi)].tolist(), hi])
+    return Rule.graded(np.array(parts), OF_RULES if len(parts) <= FEW else OF_SERIES)
