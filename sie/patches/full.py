@@ -195,7 +195,9 @@ class FullPressure(Density):
 
     @cached_property
     def at_rule(self) -> Array:
-        return self(self.rule.points.x)
+        """p on the rule; 0 on a jump of H, where the weight is rounding."""
+        p = self(self.rule.points.x)
+        return np.where(np.isfinite(p), p, 0.0)
 
     @cached_property
     def lowest(self) -> float:

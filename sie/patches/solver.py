@@ -20,6 +20,7 @@ from sie.profiles.pieces import Pieces
 from sie.progress_bar import reported
 
 from . import newton
+from .bounds import tensions
 from .gap import overlaps
 from .of_scene import COARSE, WIDENED, Problem, fitted_window, levels, whole_window, widened
 from .operator import Found, Operator, operator_of
@@ -27,7 +28,6 @@ from .panels import Patches
 from .repairs import after, apart, bounded, mended, one_period
 from .start import Grid, cells_of
 from .state import SAME, Event, Findings, Given, State, balances
-from .tension import tensions
 from .unknown import refuse_unknown_depths, refuse_unknown_ends, unsettled
 
 Array = NDArray[np.float64]

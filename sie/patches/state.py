@@ -10,13 +10,14 @@ from numpy.typing import NDArray
 
 from sie.profiles.pieces import Pieces
 
-from .bounds import CLOSED
 from .panels import Patches
 
 Array = NDArray[np.float64]
 
 MOST_EFFORT = 1500.0
 SAME = 1e-9  # half-widths: by which starts differ that do not lead to the same
+# half-widths of the narrower patch beside it: a gap that edges in doubles do not tell from none
+CLOSED = 2.5e-11
 # The most that an edge moves out: half-widths of its patch, widths of its gap
 OUTWARD, INTO_GAP = 2.0, 0.4
 TO_CORNER = 0.9  # of the way to a concave corner
