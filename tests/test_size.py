@@ -18,7 +18,7 @@ LINES = {
     "cauchy": 2170,
     "certificate": 1560,
     "cli": 980,
-    "contact": 2470,
+    "contact": 2460,
     "examples": 10,
     "friction": 11520,
     "inverse": 320,

@@ -217,13 +217,8 @@ def excess(
 def opposing(state: Slip, slip: Array, x: Array) -> float:
     """The smallest slip in its own direction since the last turning point, over the largest."""
     largest = float(np.abs(slip).max(initial=0.0))
-    lowest = min(
-        (
-            float((sign * slip[(x > lo) & (x < hi)]).min(initial=0.0))
-            for lo, hi, sign in state.slipped
-        ),
-        default=0.0,
-    )
+    along = [sign * slip[(x > lo) & (x < hi)] for lo, hi, sign in state.slipped]
+    lowest = min((float(slips.min(initial=0.0)) for slips in along), default=0.0)
     return lowest / largest if largest else 0.0
 
 

@@ -254,14 +254,9 @@ def relative_gaps(
     if not x.size:
         return x, x
     values = gap(x, density, slope, places=places)
-    scale = max(
-        float(
-            np.abs(values[np.minimum(np.abs(x - contact.x1), np.abs(x - contact.x2)) <= r]).max(
-                initial=0.0
-            )
-        ),
-        density.resultant / density.half_modulus * 1e-3,
-    )
+    close = np.minimum(np.abs(x - contact.x1), np.abs(x - contact.x2)) <= r
+    depth = density.resultant / density.half_modulus
+    scale = max(float(np.abs(values[close]).max(initial=0.0)), 1e-3 * depth)
     rounding = _rounding(x, values, contact.m)
     return x, np.where(np.abs(values) > rounding, values, np.maximum(values, 0.0)) / scale
 
@@ -290,15 +285,10 @@ def intervals_below(x: Array, values: Array) -> Intervals:
     starts, ends = np.flatnonzero(low[1:] & ~low[:-1]), np.flatnonzero(low[:-1] & ~low[1:]) - 1
 
     def crossing(inner: int, outer: int) -> float:
-        if (
-            not 0 <= outer < len(x)
-            or not np.isfinite(values[[inner, outer]]).all()
-            or values[outer] <= 0.0
-        ):
-            return float(x[inner])
-        return float(
-            x[inner] + (x[outer] - x[inner]) * values[inner] / (values[inner] - values[outer])
-        )
+        outer = min(max(outer, 0), len(x) - 1)
+        rise = values[outer] - values[inner]
+        crosses = values[outer] > 0.0 and np.isfinite(rise)
+        return float(x[inner] - ((x[outer] - x[inner]) * values[inner] / rise if crosses else 0.0))
 
     return tuple(
         (crossing(i, i - 1), crossing(j, j + 1))
