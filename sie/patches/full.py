@@ -46,7 +46,7 @@ CLOSED = 1e-12  # periods: a gap at a concave corner that is no wider is taken f
 # of the period: a break within rounding of an even cut leaves a panel without places between nodes
 NARROWEST = 1e-10
 PLACES, MIDWAY = 100, 0.443  # where the equation is measured, at this part of a panel
-SUSPECTS = 16  # places of lowest pressure on a grid: tension there rules full contact out
+CLEARLY = 4.0  # of the mean: so much tension on a grid rules full contact out
 CLOSE_BELOW = 0.9  # of the least pressure that was seen: a bound that is good enough
 OPENING = "note: full contact is about to end: a gap opens where the load falls by {:.0e} of it"
 
@@ -202,9 +202,9 @@ class FullPressure(Density):
     @cached_property
     def lowest(self) -> float:
         """A lower bound of p over its mean, not far below the least; negative where p is."""
-        suspected = float(self(self._suspects()).min())
-        if suspected < -TENSION * self.mean:
-            return suspected / self.mean
+        seen = self._lowest_on_a_grid()
+        if seen < -CLEARLY:
+            return seen
         (lo, hi), lowest, least = self.panels, np.inf, np.inf
         g, _ = chebyshev.gauss_legendre(NODES)
         for _ in range(DEEPEST):
@@ -219,12 +219,12 @@ class FullPressure(Density):
             lo, hi = halves(lo[~enough], hi[~enough])
         return lowest / self.mean
 
-    def _suspects(self) -> Array:
-        """The places of lowest pressure on a uniform grid, on which H has its conjugate by FFT."""
+    def _lowest_on_a_grid(self) -> float:
+        """The same, about: that on a uniform grid, on which H has its conjugate by FFT."""
         n = 1 << len(self.panels[0]).bit_length()
         x = np.asarray(self.start + (self.period / n) * np.arange(n), dtype=float)
         conjugate = np.fft.irfft(1j * np.fft.rfft(self.pieces.H(x)), n)
-        return np.asarray(x[np.argsort(conjugate)[:SUSPECTS]])
+        return 1.0 + self.half_modulus * float(conjugate.min()) / self.mean
 
 
 @dataclass(frozen=True, eq=False)

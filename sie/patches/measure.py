@@ -122,6 +122,13 @@ class Measure:
         return patch_panels(self.patches, self.pieces)
 
     @cached_property
+    def centred(self) -> Points:
+        """The nodes, counted from the middle of each panel."""
+        t = self.panels.points
+        middle = t.anchor + t.offset.mean(axis=1, keepdims=True)
+        return Points(middle, (t.anchor - middle) + t.offset)
+
+    @cached_property
     def weight(self) -> Array:
         """dt/W on each node, (p, n): the angle on the line."""
         k, P = self.panels, self.patches

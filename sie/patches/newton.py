@@ -34,6 +34,7 @@ from .repairs import after
 from .state import (
     INSISTS,
     INWARD,
+    QUADRATIC,
     Damping,
     Event,
     Given,
@@ -52,7 +53,6 @@ TINY = 1e-200
 MOST_STEPS = 60
 SETTLED = 1e-11  # half-widths of its patch: steps below, that stop shrinking, are rounding
 FINAL = 4e-15  # half-widths that the last step may have
-QUADRATIC = 1e-3  # half-widths: the steps decrease quadratically from here on
 ULPS = 8.0  # of an edge and of the load: no step tells less
 NARROW = 1e-5  # half-widths: steps are told from this width of a gap on
 # times that an edge is asked back, and the part of the mean: only clear tension counts from then on

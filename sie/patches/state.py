@@ -22,6 +22,7 @@ CLOSED = 2.5e-11
 OUTWARD, INTO_GAP = 2.0, 0.4
 TO_CORNER = 0.9  # of the way to a concave corner
 INWARD, WIDTHS = 0.4, 4.0  # most that it moves in: half-widths, widths of its gap
+QUADRATIC = 1e-3  # of its patch or a narrower gap: such steps decrease quadratically
 GROWTH = 3.0  # of moves after one that went too far: slower after every such one, so that it ends
 TOGETHER = 4  # steps in a row: both edges of a patch or of a gap ask for more
 CLEAR = 10.0  # times what is allowed: such a step outwards counts twice
@@ -178,7 +179,8 @@ class Damping(NamedTuple):
             np.minimum(np.minimum(OUTWARD * r, INTO_GAP * gaps), TO_CORNER * room(P, corners)),
             np.minimum(INWARD * r, WIDTHS * gaps),
         )
-        back = (asked * self.moved < 0.0) & (np.abs(asked) > 0.5 * np.abs(self.moved))
+        least = np.maximum(0.5 * np.abs(self.moved), QUADRATIC * P.narrower)
+        back = (asked * self.moved < 0.0) & (np.abs(asked) > least)
         turns, last = self.turns + back, np.abs(self.moved)
         growth = 1.0 + GROWTH / (1.0 + turns**2)
         trust = np.where(back, 0.5 * last, np.maximum(growth * last, self.trust))

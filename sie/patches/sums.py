@@ -97,13 +97,6 @@ def _summed(
     return total
 
 
-def steps(chord: Chord, t: Points, x: Points) -> Any:
-    """d(t, x) of sources (m, s) and places (m, n): (m, n, s)."""
-    return chord.apart(
-        t.anchor[:, None, :] - x.anchor[:, :, None], t.offset[:, None, :] - x.offset[:, :, None]
-    )
-
-
 def ranges(first: Index, count: Index) -> Index:
     """first, first + 1, ... of each run."""
     return np.repeat(first - (np.cumsum(count) - count), count) + np.arange(count.sum())

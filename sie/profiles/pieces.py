@@ -175,6 +175,13 @@ class Pieces:
             size = np.maximum(self.terms(k, x), self.terms(k + 1, x))
             return np.asarray(np.where(np.abs(step) > CORNER * size, step, 0.0))
 
+    def valleys(self, tilt: float, lo: float, hi: float) -> int:
+        """How often H + tilt rises through 0 on [lo, hi], as the ends of its pieces show."""
+        k = np.arange(int(self.locate(lo)), int(self.locate(hi, "left")) + 1)
+        ends = np.clip((self.breaks[k], self.breaks[k + 1]), lo, hi)
+        falls = self.value(k, ends, 0.0).T.ravel() < -tilt
+        return int(np.count_nonzero(falls[:-1] & ~falls[1:]))
+
     def terms(self, k: Index, x: Array) -> Array:
         """The sum of the magnitudes of what H of the pieces k at x is the sum of."""
         degree = np.arange(self.coefficients.shape[1])
