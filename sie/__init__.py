@@ -45,8 +45,8 @@ from .profiles.row import Periodic, Row
 from .profiles.sampled import Sampled
 from .profiles.shapes import Flat, Parabola, Power, RoundedFlat, Wedge
 from .solution import Solution, solve
-from .traction.base import ZERO, Density
-from .traction.combination import scaled, superposed
+from .traction.base import Density
+from .traction.combination import ZERO, scaled, superposed
 
 if TYPE_CHECKING:
     from .later import (

@@ -31,8 +31,8 @@ from .profiles.placed_traces import traces_in
 from .stages import changed_scene, kept_stages
 from .stages import stage as cached_property  # its first reading is logged
 from .stress_answers import StressAnswers
-from .traction.base import ZERO, Density, on_line
-from .traction.combination import scaled
+from .traction.base import Density, on_line
+from .traction.combination import ZERO, scaled
 from .traction.of_slope import SlopeDensity
 
 if TYPE_CHECKING:  # what a stage needs is imported when it is computed

@@ -18,7 +18,7 @@ LINES = {
     "cauchy": 2170,
     "certificate": 1560,
     "cli": 980,
-    "contact": 2460,
+    "contact": 2430,
     "examples": 10,
     "friction": 11520,
     "inverse": 320,
@@ -30,13 +30,13 @@ LINES = {
     "paths": 1040,
     "plots": 1030,
     "problem": 950,
-    "profiles": 5570,
+    "profiles": 5250,
     "sensitivity": 1350,
     "stress": 2490,
     "sweeps": 990,
-    "traction": 2660,
+    "traction": 2510,
 }
-FILES = 296
+FILES = 291
 
 
 def lines_of(folder):

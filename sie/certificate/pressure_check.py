@@ -9,7 +9,7 @@
 Equilibrium is measured separately, because with w = sqrt((x - x1)(x2 - x)) the residual does not
 show an error C/w(x). The integrals are composite Gauss-Legendre in the angle φ, graded towards the
 breaks of the slope; nothing of the closed forms is used. The resolution is compared at points of a
-low-discrepancy sequence (`profiles.unresolved`). An edge x2 that is off by δ carries ΔP = G r JR δ
+low-discrepancy sequence (`profiles.look`). An edge x2 that is off by δ carries ΔP = G r JR δ
 too much (`contact.edges`), and leaves ΔP/(π w(x)) in the pressure, like the load on a flat punch:
 next to the edge that is p(x) δ/(2 d), d the distance from it. δ is at least half an ulp of x2, if
 x2 is kept as a double. The rounding of ∫H dφ is a part of ΔP, and so is that of the terms of H.
@@ -30,10 +30,9 @@ from sie.contact.small_strains import notes, regular_points
 from sie.numerics.chord import Points
 from sie.numerics.interval import EPS, Interval
 from sie.patches.rule import principal_value
-from sie.profiles.look import FINER
+from sie.profiles.look import FINER, largest_misfit, start_of
 from sie.profiles.resolution import refined
 from sie.profiles.slope import Slope
-from sie.profiles.unresolved import largest_misfit, start_of
 from sie.progress_bar import reported
 from sie.traction.of_slope import SlopeDensity
 

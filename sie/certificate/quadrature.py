@@ -22,7 +22,7 @@ from sie.numerics.graded_rule import GRADING, NODES, balanced, graded, on_panels
 from sie.numerics.interval import EPS, Interval, angles, inner, position
 from sie.patches.panels import Patches
 from sie.patches.rule import Rule as PatchRule
-from sie.profiles.power_law import PowerLaw
+from sie.profiles.functions import PowerLaw
 from sie.profiles.resolution import refined
 from sie.profiles.slope import Slope
 

@@ -33,8 +33,8 @@ from sie.patches.newton import response
 from sie.problem.scene import Scene
 from sie.profiles.base import Profile
 from sie.profiles.fitting import Gap
+from sie.profiles.pieces import of_profile
 from sie.profiles.placed_traces import PlacedTrace, traces_in
-from sie.profiles.profile_pieces import of_profile
 from sie.profiles.sampled import Sampled
 from sie.profiles.splines import noise_level
 from sie.profiles.trace_values import Mended

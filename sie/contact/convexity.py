@@ -62,9 +62,8 @@ def _pieces_rise(slope: Slope) -> bool:
     length, degree = np.diff(ends, axis=1), slope.coefficients.shape[1] - 1
     inner = chebyshev.points(PER_DEGREE * degree) if degree > 2 else np.zeros(0)
     s = 0.5 * (1.0 + np.concatenate(([-1.0], inner, [1.0])))
-    start, offset, tail = ends[:, 0], length * s, np.zeros(len(k))
-    H = slope.local(k, start, tail, offset)
-    rise = slope.local_derivative(k, start, tail, offset) * length
+    at = k[:, None], ends[:, :1], length * s
+    H, rise = slope.value(*at), slope.derivative.value(*at) * length
     size = np.abs(H).max(axis=1, keepdims=True)
     # coefficients that are given about x = 0 are rounded there
     steep = np.abs(rise / length).max(axis=1)

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from sie.numerics import chebyshev
 from sie.numerics.interval import Interval
-from sie.profiles.slope import SEEN_JUMP, Row, Slope
+from sie.profiles.slope import Row, Slope
 from sie.traction.piece_quadrature import (
     NARROW_ANGLE,
     Geometry,
@@ -114,13 +114,32 @@ def edge_integrals(
     if not contact.r < math.inf:
         raise OverflowError("an edge of the contact is beyond all doubles")
     if slope.few and not keep_zero and not epsilon:
-        return _of_few(slope, contact, lower)
-    # A search may try a contact of 1e-300: what overflows there is not rising
-    with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
-        if not epsilon:
-            return _of_many(Geometry(slope, contact, lower, keep_zero))
-        g = SlidingGeometry(slope, contact, epsilon, keep_zero)
-        return _summed(g, quadrature_order(g.slope.degree))
+        found = _of_few(slope, contact, lower)
+    else:
+        # A search may try a contact of 1e-300: what overflows there is not rising
+        with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
+            if not epsilon:
+                found = _of_many(Geometry(slope, contact, lower, keep_zero))
+            else:
+                g = SlidingGeometry(slope, contact, epsilon, keep_zero)
+                found = _summed(g, quadrature_order(g.slope.degree))
+    return found if slope.continuous else _with_jumps(found, slope, contact, lower, epsilon)
+
+
+def _with_jumps(
+    found: EdgeIntegrals, slope: Slope, contact: Interval, lower: float | None, epsilon: float
+) -> EdgeIntegrals:
+    """JR and JL with what the jumps of H add, (1 ± s)/w of each; at `lower` half of one is in."""
+    b, rise = slope.breaks[1:-1], slope.steps
+    left, right = contact.from_left(b), contact.from_right(b)
+    there = (rise != 0.0) & (left > 0.0) & (right > 0.0)
+    if lower is not None:
+        there &= b >= lower
+        rise = np.where(b == lower, 0.5, 1.0) * rise
+    steep = np.sqrt(left[there]) / np.sqrt(right[there])
+    rise = rise[there] / contact.r * steep ** (-2.0 * epsilon)
+    JR, JL = found.JR + float(rise @ steep), found.JL + float(rise @ (1.0 / steep))
+    return found._replace(JR=JR, JL=JL)
 
 
 # -- arrays ----------------------------------------------------------------------------------------
@@ -145,11 +164,8 @@ def _summed(g: Geometry, order: int) -> EdgeIntegrals:
     near = 2.0 * np.sin(0.5 * angle) ** 2
     s, left = sign * (near - 1.0), np.asarray(sign > 0.0)
     plus, minus = np.where(left, near, 2.0 - near), np.where(left, 2.0 - near, near)
-    dJ = g.weighted_derivative(offset, angle, weight, H)
+    dJ = g.weighted_derivative(offset, weight)
     JR, JL = float(np.vdot(dJ, plus)), float(np.vdot(dJ, minus))
-    if not g.slope.continuous:
-        jump = _jumps(g)
-        JR, JL = JR + 2.0 * float(np.vdot(jump, g.left)), JL + 2.0 * float(np.vdot(jump, g.right))
     e = g.edge.epsilon
     C2 = float(np.vdot(WH, plus * minus - 2.0 * e * (e + s) if e else plus * minus))
     positive, negative = _sum(np.maximum(WH, 0.0)), -_sum(np.minimum(WH, 0.0))
@@ -169,33 +185,6 @@ def _sizes(g: Geometry, weight: Array, H: Array) -> tuple[float, float]:
         size += np.abs(H).max(axis=1)
     size *= weight.sum(axis=1)
     return 2.0 * float(size @ g.right[0]), 2.0 * float(size @ g.left[1])
-
-
-def _jumps(g: Geometry) -> Array:
-    """(2, K): H enters at lo and leaves at hi, over w there; an edge of the contact is no jump."""
-    series = g.chebyshev_slope(g.slope.degree + 1)
-    ends = np.stack((series @ (-1.0) ** np.arange(series.shape[1]), series.sum(axis=1)))
-    jump, w = _rises(ends, g.k), g.edge.root(g.root_left, g.root_right)
-    if g.cut_left:
-        jump[0, 0], w[0, 0] = 0.0, 1.0
-    if g.cut_right:
-        jump[1, -1], w[1, -1] = 0.0, 1.0
-    return jump / w
-
-
-def _rises(H: Array, k: NDArray[np.int64]) -> Array:
-    """The rises of H at both ends (2, K) of the pieces k, from its values there.
-
-    They are 0 where two pieces meet within rounding.
-
-    Rounding divided by the square root of a distance of 1e-222 from an edge would exceed all else.
-    """
-    enter, leave = H
-    size = SEEN_JUMP * np.maximum(np.abs(enter[1:]), np.abs(leave[:-1]))
-    met = (np.diff(k) == 1) & (np.abs(enter[1:] - leave[:-1]) <= size)
-    return np.stack(
-        (np.where(np.append(False, met), 0.0, enter), np.where(np.append(met, False), 0.0, -leave))
-    )
 
 
 def _sum(a: Array) -> float:
@@ -224,8 +213,7 @@ def _of_few(slope: Slope, contact: Interval, lower: float | None) -> EdgeIntegra
         if cut is not None:
             more = _integrals(row.coefficients, cut, width, degree)
             total = tuple(map(float.__add__, total, more)) if total else more
-    found = EdgeIntegrals(*total) if total else NOTHING
-    return found if slope.continuous else _with_jumps(found, slope, contact, lower)
+    return EdgeIntegrals(*total) if total else NOTHING
 
 
 def _cut(row: Row, contact: Interval, lower: float | None, width: float) -> _Cut | None:
@@ -291,23 +279,6 @@ def _integrals(c: tuple[float, ...], cut: _Cut, width: float, degree: int) -> tu
     _, right_of_lo, left_of_hi, _ = cut.roots
     size1, size2 = (2.0 * angle * size * root * root for root in (right_of_lo, left_of_hi))
     return I0, I1, C2, JR, JL, positive, negative, size1, size2
-
-
-def _with_jumps(
-    found: EdgeIntegrals, slope: Slope, contact: Interval, lower: float | None
-) -> EdgeIntegrals:
-    """JR and JL with what the jumps of H add, 1/(r cos φ) of each; at `lower` all of H enters."""
-    rises = slope.rises
-    if lower is not None:
-        rises = ((lower, slope.after(lower)), *((b, rise) for b, rise in rises if b > lower))
-    JR, JL = found.JR, found.JL
-    for b, rise in rises:
-        left, right = contact.from_left(b), contact.from_right(b)
-        if left > 0.0 and right > 0.0 and rise:
-            steep = math.sqrt(left) / math.sqrt(right)
-            JR += rise / contact.r * steep
-            JL += rise / contact.r / steep
-    return found._replace(JR=JR, JL=JL)
 
 
 @lru_cache(maxsize=32)

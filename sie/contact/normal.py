@@ -20,9 +20,10 @@ from sie.numerics.interval import Interval, interval_about
 from sie.problem.request import ECONOMY
 from sie.problem.scene import Scene
 from sie.profiles.base import Profile
-from sie.profiles.resolution import one_piece, refined, without_functions
+from sie.profiles.look import between_points
+from sie.profiles.pieces import without_functions
+from sie.profiles.resolution import refined
 from sie.profiles.slope import Slope
-from sie.profiles.unresolved import between_points
 
 from .edges import NEAR, Found, Search
 from .known_contact import NEARER, Edges, Normal, refuse_unresolved, with_breaks
@@ -255,8 +256,10 @@ def _unseen_by_series(found: Normal, profile: Profile, tol: float) -> bool:
     """Whether the slope has features that the series of the contact does not show."""
     assert found.series is not None
     contact = found.edges.contact
-    series = one_piece(contact.x1, contact.x2, found.series)
-    return bool(between_points(found.slope(profile), (series.H,), contact, resolution(tol)))
+    none = np.zeros(1)
+    ends = np.array([contact.x1, contact.x2])
+    series = Slope(ends, none, none[:, None], series=found.series[None])
+    return bool(between_points(found.slope(profile), (series,), contact, resolution(tol)))
 
 
 def _unseen(found: Normal, resolved: Slope, scene: Scene, tol: float) -> tuple[float, ...]:
@@ -268,7 +271,7 @@ def _unseen(found: Normal, resolved: Slope, scene: Scene, tol: float) -> tuple[f
     accuracy = resolution(tol)
     of_edges = without_functions(resolved.tilted(found.edges.tilt))
     of_pressure = without_functions(refined(slope, contact.x1, contact.x2, accuracy))
-    return between_points(slope, (of_edges.H, of_pressure.H), contact, accuracy)
+    return between_points(slope, (of_edges, of_pressure), contact, accuracy)
 
 
 def contact_under(

@@ -18,7 +18,7 @@ from sie.problem.scene import Scene
 from sie.profiles.resolution import refined
 from sie.profiles.slope import Slope
 from sie.traction.of_slope import SlopeDensity, TransformDensity
-from sie.traction.on_panels import PanelDensity, SlidingDensity
+from sie.traction.on_panels import PanelDensity
 from sie.traction.panels import Panels
 from sie.traction.piece_quadrature import Geometry, SlidingGeometry
 
@@ -45,7 +45,7 @@ def pressure(
         geometry = SlidingGeometry(
             slope, contact, scene.epsilon, keep_zero="zero panels" not in economy
         )
-        return SlidingDensity(*common, Panels(geometry, edges.I0))
+        return PanelDensity(*common, Panels(geometry, edges.I0))
     if "transform" in economy:
         series = slope_series(declared, contact)
         if series is not None:

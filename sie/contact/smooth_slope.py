@@ -92,8 +92,8 @@ class _Samples:
 
     def at(self, contact: Interval, offset: Array) -> Array:
         """H at x1 + offset."""
-        start, tail = np.array([contact.x1]), np.array([contact.tail1])
-        return self.slope.local(PIECE, start, tail, offset[None])[0]
+        H: Array = self.slope.value(np.array([0]), contact.x1, contact.tail1 + offset)
+        return H
 
     def inside(self, contact: Interval) -> Interval | None:
         """The contact if it ends within the domain."""
@@ -159,9 +159,6 @@ class _Samples:
             fraction = math.log(above / load) / math.log(above / below)
             return float(reach[k] * (reach[k - 1] / reach[k]) ** fraction)
         return float(reach[k])
-
-
-PIECE = np.zeros(1, dtype=np.int64)
 
 
 @lru_cache(maxsize=len(SIZES))

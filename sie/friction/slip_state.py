@@ -16,7 +16,8 @@ from sie.contact.known_contact import Normal
 from sie.numerics.interval import Interval
 from sie.problem.scene import Scene
 from sie.profiles.slope import Slope
-from sie.traction.base import ZERO, Density
+from sie.traction.base import Density
+from sie.traction.combination import ZERO
 from sie.traction.of_slope import SlopeDensity
 
 from .slip_zones import EdgeFrame, SlipZone, edge_frame, slip_zone

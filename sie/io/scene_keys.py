@@ -20,9 +20,9 @@ from sie.arguments import choices, nearest, suggestion
 from sie.problem.material import Plane
 from sie.problem.scene import COUPLINGS
 from sie.profiles.base import Parity, Profile
+from sie.profiles.functions import Vectorised
 from sie.profiles.kinds import KINDS
 from sie.profiles.sampled import Sampled
-from sie.profiles.slope import Vectorised
 from sie.profiles.trace_files import Column
 from sie.profiles.trace_units import SIDES, Side
 from sie.profiles.trace_values import Smoothing

@@ -36,8 +36,8 @@ from sie.numerics.zones import Zones, left_over, within
 from sie.problem.load_limit import remaining
 from sie.problem.scene import Scene
 from sie.profiles.base import Profile
-from sie.traction.base import ZERO, Density
-from sie.traction.combination import superposed
+from sie.traction.base import Density
+from sie.traction.combination import ZERO, superposed
 
 from .answer import SeveralPatches
 from .full import FullContact

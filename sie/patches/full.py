@@ -166,7 +166,7 @@ class FullPressure(Density):
     def steepness(self) -> FullPressure | None:
         """p', the pressure by the slope H'; None where H jumps, and p is infinite."""
         lo, hi = self.interval
-        if self.pieces.jumps(np.array([lo - EPS * self.period]), np.array([hi])).any():
+        if self.pieces.jump_within(np.array([lo - EPS * self.period]), np.array([hi])).any():
             return None
         return replace(self, pieces=self.pieces.derivative, load=0.0)
 
@@ -223,7 +223,7 @@ class FullPressure(Density):
         """The same, about: that on a uniform grid, on which H has its conjugate by FFT."""
         n = 1 << len(self.panels[0]).bit_length()
         x = np.asarray(self.start + (self.period / n) * np.arange(n), dtype=float)
-        conjugate = np.fft.irfft(1j * np.fft.rfft(self.pieces.H(x)), n)
+        conjugate = np.fft.irfft(1j * np.fft.rfft(self.pieces(x)), n)
         return 1.0 + self.half_modulus * float(conjugate.min()) / self.mean
 
 

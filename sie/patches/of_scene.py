@@ -15,10 +15,8 @@ from sie.errors import LoadError
 from sie.numerics.chord import Chord
 from sie.problem.scene import Scene
 from sie.profiles.base import Profile
-from sie.profiles.look import closer, may_touch, values
-from sie.profiles.look import falls as look_falls
-from sie.profiles.pieces import Pieces
-from sie.profiles.profile_pieces import of_profile
+from sie.profiles.look import closer, falls, may_touch, values
+from sie.profiles.pieces import Pieces, of_profile
 from sie.profiles.slope import Slope
 
 from .panels import Patches
@@ -193,12 +191,12 @@ def whole_window(problem: Problem) -> tuple[float, float]:
         def outward(away: Array, side: float = side) -> Array:
             return side * (values(problem.slope, middle + side * away) + problem.given.tilt)
 
-        away = closer(away, look_falls(outward(away)))
+        away = closer(away, falls(outward(away)))
         H = outward(away)
         low = np.flatnonzero(may_touch(away, H, NARROWEST * (last - first), problem.given.load))
-        falling = np.flatnonzero((H[:-1] <= 0.0) | look_falls(H))
-        falls = away[falling[falling <= low.max(initial=0)]]
-        reach = max(abs(end - middle), BEYOND * float(falls.max(initial=0.0)))
+        falling = np.flatnonzero((H[:-1] <= 0.0) | falls(H))
+        fallen = away[falling[falling <= low.max(initial=0)]]
+        reach = max(abs(end - middle), BEYOND * float(fallen.max(initial=0.0)))
         ends.append(min(max(middle + side * reach, lo), hi) if np.isinf(limit) else limit)
     return ends[0], ends[1]
 

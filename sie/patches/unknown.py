@@ -25,11 +25,12 @@ from sie.profiles.look import (
     closer,
     falls,
     may_touch,
+    misfit,
     narrow_parts,
+    start_of,
     turns,
     values,
 )
-from sie.profiles.unresolved import misfit, start_of
 
 from .gap import overlaps
 from .newton import conditions_of
@@ -179,6 +180,6 @@ def _misfit(found: Found, problem: Problem) -> float:
     largest = 0.0
     for a, b in zip(P.a.tolist(), P.b.tolist(), strict=True):
         if problem.domain[0] <= a and b <= problem.domain[1]:
-            _, missed = misfit(problem.slope, (pieces.H,), Interval(a, b), MISFIT)
+            _, missed = misfit(problem.slope, (pieces,), Interval(a, b), MISFIT)
             largest = max(largest, float(missed.max(initial=0.0)))
     return largest

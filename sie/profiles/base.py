@@ -20,7 +20,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from sie import arguments
 
-from .power_law import PowerLaw
+from .functions import PowerLaw
 from .slope import Slope
 
 Array = NDArray[np.float64]

@@ -19,8 +19,8 @@ from sie.arguments import with_middle_cut
 from sie.inheritance import override
 
 from .base import Profile, of_any_x
-from .power_law import PowerLaw
-from .profile_pieces import integral
+from .functions import PowerLaw
+from .pieces import integral
 from .slope import Slope
 
 Array = NDArray[np.float64]

@@ -1,14 +1,7 @@
-"""Properties of a trace: its gaps, its outliers, its line, and the nearest rounded flat.
-
-    h = c + t x + (|x - x0| - a)_+² / (2R)    flat |x - x0| <= a, arcs of radius R, tilt t
-
-c, t and 1/R enter linearly, so that only x0 and a are searched for (variable projection, Golub &
-Pereyra 1973). Both are scanned first, because a trace of a nearly flat pad has other minima.
-"""
+"""Properties of a trace: its gaps, its outliers, its line, and why contact reaches its end."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
@@ -30,9 +23,6 @@ LOOKED_AT = 30  # points on one side, among which the neighbours are chosen
 MOST_EXAMINED = 1000  # points
 STRAIGHT = 64.0 * EPS  # of the largest height: a trace that leaves its line by less is the line
 ARCHED = 0.5  # of the variance is explained by a downward parabola: the trace is upside down
-
-SCAN = 24  # values of x0 and of a in the scan
-MOST_SCANNED = 2000  # points of the trace
 
 
 class Gap(NamedTuple):
@@ -117,44 +107,6 @@ def _extrapolation(x: Array, target: Array, degree: int) -> Array:
     return weights
 
 
-@dataclass(frozen=True)
-class RoundedFlatFit:
-    """h ≈ offset + tilt x + (|x - centre| - half_flat)_+² / (2 radius), by least squares.
-
-    rms, largest    the residual of h: its root mean square, and its largest value
-    residuals       at every point of the trace
-
-    The profile is `sie.RoundedFlat(fit.half_flat,
-    fit.radius).shifted(fit.centre).tilted(fit.tilt)`.
-    """
-
-    half_flat: float
-    radius: float
-    centre: float
-    tilt: float
-    offset: float
-    residuals: tuple[float, ...]
-
-    @property
-    def rms(self) -> float:
-        """Root mean square of the residuals, a length."""
-        return float(np.sqrt(np.mean(np.square(self.residuals))))
-
-    @property
-    def largest(self) -> float:
-        """The largest residual without its sign, a length."""
-        return float(np.abs(self.residuals).max())
-
-    def __repr__(self) -> str:
-        numbers = ", ".join(
-            f"{name}={getattr(self, name):.6g}"
-            for name in ("half_flat", "radius", "centre", "tilt", "offset")
-        )
-        return (
-            f"RoundedFlatFit({numbers}; residuals {self.rms:.2g} rms, {self.largest:.2g} at most)"
-        )
-
-
 def line(x: Array, h: Array) -> tuple[float, float]:
     """(height at x = 0, slope) of the least-squares line."""
     m = float(x.mean())
@@ -191,52 +143,3 @@ def _arched(x: Array, left: Array) -> bool:
     bow = u * u - np.polyval(np.polyfit(u, u * u, 1), u)
     share = float(bow @ left)
     return share < 0.0 and share * share > ARCHED * float(bow @ bow) * float(left @ left)
-
-
-def rounded_flat(x: Array, h: Array) -> RoundedFlatFit:
-    """The nearest rounded flat. ValueError if the trace does not rise on both sides of a base."""
-    from scipy.optimize import least_squares  # noqa: PLC0415
-
-    m, r = 0.5 * float(x[0] + x[-1]), 0.5 * float(x[-1] - x[0])
-    scale = float(np.ptp(h)) or 1.0
-    s, y = (x - m) / r, (h - h.mean()) / scale
-    fit = least_squares(
-        lambda v: _nearest(s, y, *v)[1], _scanned(s, y), xtol=1e-14, ftol=1e-14, gtol=1e-14
-    )
-    s0, a = float(fit.x[0]), abs(float(fit.x[1]))
-    (c, t, curvature), misfit = _nearest(s, y, s0, a)
-    rises = np.abs(s - s0) > a
-    if curvature <= 0.0 or not (rises & (s < s0)).any() or not (rises & (s > s0)).any():
-        raise ValueError(
-            "no flat with rounded edges is near this trace: it must rise on both sides of a base; "
-            'a trace of surface heights is read by heights = "surface", or turned over as -h'
-        )
-    tilt = scale * t / r
-    return RoundedFlatFit(
-        half_flat=a * r,
-        radius=r * r / (scale * curvature),
-        centre=m + s0 * r,
-        tilt=tilt,
-        offset=scale * c + float(h.mean()) - tilt * m,
-        residuals=tuple((-scale * misfit).tolist()),
-    )
-
-
-def _nearest(s: Array, y: Array, s0: float, a: float) -> tuple[list[float], Array]:
-    """([c, t, 1/R] of the least squares for given s0 and a, the misfit)."""
-    arcs = 0.5 * np.maximum(np.abs(s - s0) - a, 0.0) ** 2
-    A = np.stack((np.ones_like(s), s, arcs), axis=1)
-    linear = np.linalg.lstsq(A, y, rcond=None)[0]
-    return linear.tolist(), A @ linear - y
-
-
-def _scanned(s: Array, y: Array) -> tuple[float, float]:
-    """(s0, a) with the least sum of squares on a grid, among arcs that rise."""
-    step = max(len(s) // MOST_SCANNED, 1)
-    best, place = np.inf, (0.0, 0.5)
-    for s0 in np.linspace(-0.8, 0.8, SCAN).tolist():
-        for a in np.linspace(0.0, 0.95, SCAN).tolist():
-            (_, _, curvature), misfit = _nearest(s[::step], y[::step], s0, a)
-            if curvature > 0.0 and misfit @ misfit < best:
-                best, place = float(misfit @ misfit), (s0, a)
-    return place

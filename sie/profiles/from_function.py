@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
@@ -15,7 +15,8 @@ from sie.inheritance import override
 
 from .base import Parity, Profile
 from .expression import Expression
-from .slope import FunctionTerm, Slope, Vectorised, polynomial_slope
+from .functions import Vectorised
+from .slope import Slope, function_slope
 
 Array = NDArray[np.float64]
 INF = float("inf")
@@ -136,9 +137,7 @@ class FromFunction(Profile):
     @cached_property
     def pieces(self) -> Slope:
         """H = slope(x) on its declared breaks, resolved when a contact is known."""
-        breaks = (self.ends[0], *self.declared, self.ends[1])
-        flat = polynomial_slope(breaks, [0.0] * (len(breaks) - 1), [(0.0,)] * (len(breaks) - 1))
-        return replace(flat, functions=(FunctionTerm(self.function),))
+        return function_slope((self.ends[0], *self.declared, self.ends[1]), self.function)
 
     @property
     @override

@@ -14,8 +14,7 @@ from sie.errors import LoadError
 from sie.numerics import chebyshev
 from sie.numerics.root_finding import false_position
 
-from .pieces import root_bound
-from .resolution import without_functions
+from .pieces import root_bound, without_functions
 from .slope import Slope
 
 Array = NDArray[np.float64]
@@ -23,7 +22,6 @@ Array = NDArray[np.float64]
 SAMPLES = 24  # per piece, besides its degree; a sign change between two samples is then bisected
 MANY, FEWER = 100, 3  # a slope of more polynomials than MANY is sampled at FEWER points each
 SHORTLIST = 16  # of the minima of a rough trace: the lowest by the samples
-HEIGHT_NODES = 16
 BEYOND = 1e-3
 ROUNDING = 8.0  # ulp
 NEXT = float(np.finfo(float).tiny)  # to the origin of a piece
@@ -48,8 +46,9 @@ def lowest_points(slope: Slope) -> tuple[float, float]:
     if len(candidates) == 1:
         z1, z2 = candidates[0]
         return float(z1), float(z2)
-    heights = [_height(slope, ends, z1) for z1, _ in candidates]
-    z1, z2 = candidates[int(np.argmin(heights))]
+    places = np.array([z1 for z1, _ in candidates])
+    rises = without_functions(slope).rises(np.full(len(places), places[0]), places)
+    z1, z2 = candidates[int(np.argmin(rises))]
     return float(z1), float(z2)
 
 
@@ -81,10 +80,10 @@ def finite_ends(slope: Slope) -> Array:
 def _samples(slope: Slope, ends: Array) -> tuple[Array, Array, NDArray[np.int64]]:
     """Points inside every piece, ascending, the slope there, and the pieces' indices."""
     samples = SAMPLES if slope.functions or len(ends) <= MANY else FEWER
-    s = 0.5 * (1.0 + chebyshev.points(samples + int(slope.degrees.max())))
+    s = 0.5 * (1.0 + chebyshev.points(samples + slope.degree))
     k = np.arange(len(ends))
     offset = (ends[:, 1] - ends[:, 0])[:, None] * s
-    H = slope.local(k, ends[:, 0], np.zeros(len(k)), offset)
+    H = slope.value(k[:, None], ends[:, :1], offset)
     H[slope.is_zero] = 0.0
     return (ends[:, :1] + offset).ravel(), H.ravel(), np.repeat(k, len(s))
 
@@ -133,29 +132,19 @@ def _change(
 
 def _root(slope: Slope, k: int, lo: float, hi: float) -> float:
     """The place in [lo, hi] where H of piece k changes sign; the end, if H jumps there."""
-    index, origin, zero = np.array([k]), np.array([float(slope.origins[k])]), np.zeros(1)
+    origin = float(slope.origins[k])
 
     def H(y: float) -> float:  # from the piece's own origin, so that a root there is met exactly
-        return float(slope.local(index, origin, zero, np.array([[y]]))[0, 0])
+        return float(slope.value(np.array([k]), origin, np.array([y]))[0])
 
-    a, b = lo - float(origin[0]), hi - float(origin[0])
+    a, b = lo - origin, hi - origin
     ends = H(a), H(b)
     if ends[0] >= 0.0 or ends[1] <= 0.0:
         return lo if ends[0] >= 0.0 else hi
     # At the origin, be it a root or a jump: else the bracket would shrink to the smallest doubles
     if a < -NEXT < NEXT < b and (H(0.0) == 0.0 or H(-NEXT) <= 0.0 <= H(NEXT)):
-        return float(origin[0])
-    return float(origin[0]) + false_position(H, a, b, ends, lambda *_: False)
-
-
-def _height(slope: Slope, ends: Array, z: float) -> float:
-    """h(z) - h(left end), by Gauss-Legendre on every piece; only to compare minima."""
-    degree = int(slope.degrees.max())
-    g, w = chebyshev.gauss_legendre(HEIGHT_NODES + degree if slope.functions else degree // 2 + 1)
-    lo, hi = np.minimum(ends[:, 0], z), np.minimum(ends[:, 1], z)
-    length = hi - lo
-    H = slope.local(np.arange(len(lo)), lo, np.zeros(len(lo)), length[:, None] * g)
-    return float((length * (H @ w)).sum())
+        return origin
+    return origin + false_position(H, a, b, ends, lambda *_: False)
 
 
 def raised(resolved: Slope, touch: tuple[float, float], x: Array) -> Array:

@@ -1,73 +1,67 @@
-"""A slope H on its pieces without functions: its values, divided differences and rises.
-
-On a piece H is a polynomial about an origin of its own, plus (where the profile has functions) a
-Chebyshev series. What the integrals ask for beside values are
+"""A slope H on its pieces without functions, and its height h: what several patches ask for.
 
     H[t, x]      = (H(t) - H(x)) / (t - x)       by Horner's scheme, by the recurrence of T_n[t, x]
     rise(x, y)   = h(y) - h(x)                   the same of the antiderivative, times y - x
 
-so that neither loses digits where the points come together. Between the indenters of a row there
-are pieces without indenter (`void`): H is 0 there, h infinite, and only the rise across is known.
+Neither loses digits where the points come together. Between the indenters of a row there are pieces
+without indenter (`void`): H is 0 there, h infinite, and only the rise across is known.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Any, Literal
+from itertools import pairwise
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from sie.inheritance import override
 from sie.numerics import chebyshev
 from sie.numerics.interval import EPS
 
+from .base import Profile
+from .look import across, narrow_parts
+from .resolution import TINY, refined
+from .slope import Index, Slope, chained
+
 Array = NDArray[np.float64]
-Index = NDArray[np.int64]
 
 GROWTH = 8.0  # a piece is continued beyond its ends while its polynomial grows by no more
 EASY = 1.5  # lengths: how far a polynomial of degree 3 or less is continued
 WAVES = 6.0  # of these lengths a panel may take in
 MISSED = 1e-9  # of the size of H: what differs by more from a function is not resolved
-CORNER = 1e-9  # of the terms of H: a jump that is no rounding
+CORNER = 1e-9  # of H': a jump that is no rounding
 # times the rounding of each term: what a series leaves out, and the sums over it, are as much
 ROUNDINGS = 4.0
+LEFT_OUT = 1e-15  # of the largest coefficient: what of a series is left out
+# Periods: patches are found from one cut to the next, wherever that is.
+COPIES = (-1.0, 0.0, 1.0, 2.0)
+FEW = 16  # ends of parts about narrow valleys: beyond, they are cut only where they are missed
 
 
 @dataclass(frozen=True, eq=False)
-class Pieces:
-    """H on K pieces.
+class Pieces(Slope):
+    """H on K pieces without functions, and the rises of h.
 
-    breaks     (K + 1,), ascending; the outer two may be infinite
-    origins    (K,) and coefficients (K, D): polynomials about them, low order first
-    series     (K, E): Chebyshev coefficients on [breaks[k], breaks[k + 1]], E = 0 without functions
-    void       (K,): whether there is no indenter there
-    across     (K,): h at the upper end less h at the lower one, of a void piece
+    across     (K,): h at the upper end less h at the lower one of a void piece; nan of others
     blur       (K,): the rounding of that
     """
 
-    breaks: Array
-    origins: Array
-    coefficients: Array
-    series: Array
-    void: NDArray[np.bool_]
-    across: Array
-    blur: Array
+    across: Array = field(default_factory=lambda: np.zeros(0))
+    blur: Array = field(default_factory=lambda: np.zeros(0))
 
-    @property
-    def domain(self) -> tuple[float, float]:
-        """The first and the last break, lengths."""
-        return float(self.breaks[0]), float(self.breaks[-1])
+    @override
+    def by_piece(self) -> dict[str, Any]:
+        return super().by_piece() | {"across": self.across, "blur": self.blur}
 
     @cached_property
-    def _centre(self) -> Array:
-        with np.errstate(invalid="ignore"):
-            return np.asarray(0.5 * (self.breaks[:-1] + self.breaks[1:]))
+    def void(self) -> NDArray[np.bool_]:
+        """Whether there is no indenter, (K,)."""
+        return np.isfinite(self.across)
 
-    @cached_property
-    def _half(self) -> Array:
-        return np.asarray(0.5 * np.diff(self.breaks))
+    # -- how far a piece may be continued, and how it bends ----------------------------------------
 
     @cached_property
     def reach(self) -> Array:
@@ -107,22 +101,46 @@ class Pieces:
         ]
         return np.union1d(self.breaks, np.concatenate(inner))
 
-    def locate(self, x: Any, side: Literal["left", "right"] = "right") -> Index:
-        """The piece at x; at a break the one on that side of it."""
-        k = np.searchsorted(self.breaks, x, side=side) - 1
-        return np.asarray(np.minimum(np.maximum(k, 0), len(self.origins) - 1))
+    def jump_within(self, lo: Array, hi: Array) -> NDArray[np.bool_]:
+        """Whether H jumps anywhere inside intervals."""
+        x = self.breaks[1:-1][self.steps != 0.0]
+        return np.asarray(np.searchsorted(x, hi) > np.searchsorted(x, lo, "right"))
 
-    def value(self, k: Any, anchor: Any, offset: Any) -> Any:
-        """H of the pieces k at anchor + offset, continued where that is outside."""
-        y = (anchor - self.origins[k]) + offset
-        column = self.coefficients.T
-        total = column[-1][k] + 0.0 * y
-        for c in column[-2::-1]:
-            total = total * y + c[k]
-        if self.series.shape[1]:
-            s = ((anchor - self._centre[k]) + offset) / self._half[k]
-            total = total + chebyshev.evaluate(self.series.T[:, k], s)
-        return total
+    def bends(self, k: Index, above: NDArray[np.bool_]) -> NDArray[np.bool_]:
+        """Whether H' jumps at the upper ends of pieces, or at the lower ones."""
+        other = np.clip(np.where(above, k + 1, k - 1), 0, len(self.origins) - 1)
+        x = self.breaks[k + above]
+        with np.errstate(invalid="ignore"):
+            own, theirs = self.curvature(k, x), self.curvature(other, x)
+            jump = np.abs(own - theirs) > CORNER * np.maximum(np.abs(own), np.abs(theirs))
+        return np.asarray(jump & np.isfinite(x))
+
+    def curvature(self, k: Any, x: Any) -> Any:
+        """H' of the pieces k at x."""
+        return self.derivative.value(k, x, 0.0)
+
+    # -- walls -------------------------------------------------------------------------------------
+
+    def solid_around(self, x: Array) -> tuple[Array, Array]:
+        """The ends of the interval without walls that each x is in."""
+        void = np.flatnonzero(self.void)
+        starts = np.concatenate((self.breaks[:1], self.breaks[void + 1]))
+        stops = np.concatenate((self.breaks[void], self.breaks[-1:]))
+        k = np.clip(np.searchsorted(starts, x, side="right") - 1, 0, len(starts) - 1)
+        return starts[k], stops[k]
+
+    @cached_property
+    def concave(self) -> Array:
+        """Concave corners, where H jumps down between two pieces of the indenter."""
+        return np.asarray(self.breaks[1:-1][(self.steps < 0.0) & ~(self.void[:-1] | self.void[1:])])
+
+    @cached_property
+    def never_closed(self) -> Array:
+        """Places that no contact covers: walls, and concave corners."""
+        walls = self.breaks[1:-1][self.void[:-1] | self.void[1:]]
+        return np.union1d(self.concave, walls)
+
+    # -- divided differences and rises -------------------------------------------------------------
 
     def divided(self, k: Any, t: tuple[Any, Any], x: tuple[Any, Any]) -> Any:
         """H[t, x] of the pieces k at two points (anchor, offset)."""
@@ -138,10 +156,6 @@ class Pieces:
             slope = slope + _divided_series(self.series.T, k, st, sx) / self._half[k]
         return slope
 
-    def rise(self, k: Any, x: tuple[Any, Any], y: tuple[Any, Any]) -> Any:
-        """h(y) - h(x) on the pieces k."""
-        return self._height.divided(k, y, x) * ((y[0] - x[0]) + (y[1] - x[1]))
-
     @cached_property
     def _height(self) -> Pieces:
         """h on the same pieces, each up to a constant of its own."""
@@ -152,29 +166,6 @@ class Pieces:
             series = chebyshev.antiderivative(series) * self._half[:, None]
         return replace(self, coefficients=power, series=series)
 
-    @cached_property
-    def derivative(self) -> Pieces:
-        """H' on the same pieces; jumps of H are not in it."""
-        width = self.coefficients.shape[1]
-        power = self.coefficients[:, 1:] * np.arange(1, width)
-        power = power if width > 1 else np.zeros_like(self.coefficients)
-        series = self.series
-        if series.shape[1] > 1:
-            series = np.polynomial.chebyshev.chebder(series, axis=1) / self._half[:, None]
-        elif series.shape[1]:
-            series = 0.0 * series
-        return replace(self, coefficients=power, series=series)
-
-    @cached_property
-    def steps(self) -> Array:
-        """By how much H jumps up at the inner ends, (K - 1,); 0 where that is rounding."""
-        k, x = np.arange(len(self.origins) - 1), self.breaks[1:-1]
-        with np.errstate(invalid="ignore"):
-            step = self.value(k + 1, x, 0.0) - self.value(k, x, 0.0)
-            # H itself may be next to nothing there
-            size = np.maximum(self.terms(k, x), self.terms(k + 1, x))
-            return np.asarray(np.where(np.abs(step) > CORNER * size, step, 0.0))
-
     def valleys(self, tilt: float, lo: float, hi: float) -> int:
         """How often H + tilt rises through 0 on [lo, hi], as the ends of its pieces show."""
         k = np.arange(int(self.locate(lo)), int(self.locate(hi, "left")) + 1)
@@ -182,16 +173,9 @@ class Pieces:
         falls = self.value(k, ends, 0.0).T.ravel() < -tilt
         return int(np.count_nonzero(falls[:-1] & ~falls[1:]))
 
-    def terms(self, k: Index, x: Array) -> Array:
-        """The sum of the magnitudes of what H of the pieces k at x is the sum of."""
-        degree = np.arange(self.coefficients.shape[1])
-        power = np.abs(self.coefficients[k]) * np.abs(x - self.origins[k])[:, None] ** degree
-        return np.asarray(power.sum(axis=1) + np.abs(self.series[k]).sum(axis=1))
-
-    def jumps(self, lo: Array, hi: Array) -> NDArray[np.bool_]:
-        """Whether H jumps anywhere inside intervals."""
-        x = self.breaks[1:-1][self.steps != 0.0]
-        return np.asarray(np.searchsorted(x, hi) > np.searchsorted(x, lo, "right"))
+    def rise(self, k: Any, x: tuple[Any, Any], y: tuple[Any, Any]) -> Any:
+        """h(y) - h(x) on the pieces k."""
+        return self._height.divided(k, y, x) * ((y[0] - x[0]) + (y[1] - x[1]))
 
     def rises(self, x: Array, y: Array, *, walls: bool = False) -> Array:
         """h(y) - h(x) for x <= y, over any number of pieces; `walls`: those at x and y as well."""
@@ -201,10 +185,9 @@ class Pieces:
         upper, lower = np.where(same, y, self.breaks[kx + 1]), np.where(same, y, self.breaks[ky])
         total = np.where(self.void[kx] & (y > x), self.across[kx], 0.0)
         total += np.where(self.void[ky] & ~same, self.across[ky], 0.0)
-        solid = ~self.void[kx]
-        total[solid] += self.rise(kx[solid], (x[solid], 0.0), (upper[solid], 0.0))
         last = ~same & ~self.void[ky]
-        total[last] += self.rise(ky[last], (lower[last], 0.0), (y[last], 0.0))
+        for k, a, b, some in ((kx, x, upper, ~self.void[kx]), (ky, lower, y, last)):
+            total[some] += self.rise(k[some], (a[some], 0.0), (b[some], 0.0))
         between = ky - kx > 1
         if between.any():
             cuts = np.stack((kx[between] + 1, ky[between]), axis=1).ravel()
@@ -226,54 +209,15 @@ class Pieces:
         It is that of the terms of H over the way; of a series that of its places as well, and of
         the place of a concave corner.
         """
-        kx, ky = self.locate(x), self.locate(y, "left")
-        ky = np.maximum(kx, ky)
-        total = np.zeros(x.shape)
-        for k, from_, to in (
-            (kx, x, np.where(kx == ky, y, self.breaks[kx + 1])),
-            (ky, np.where(kx == ky, y, self.breaks[ky]), y),
-        ):
-            total += self._rounding(k, from_, to)
-        until = np.concatenate(([0.0], np.cumsum(self._roundings)))
+        kx = self.locate(x)
+        ky = np.maximum(kx, self.locate(y, "left"))
+        same = kx == ky
+        total = self._rounding(kx, x, np.where(same, y, self.breaks[kx + 1]))
+        total += self._rounding(ky, np.where(same, y, self.breaks[ky]), y)
+        until = np.append(0.0, np.cumsum(self._roundings))
         total += np.maximum(until[ky] - until[np.minimum(kx + 1, ky)], 0.0)
-        corners = np.concatenate(([0.0], np.cumsum(np.abs(self.breaks[1:-1] * self._drops))))
-        total += corners[ky] - corners[kx]
-        return np.asarray(ROUNDINGS * EPS * total)
-
-    def H(self, x: Array) -> Array:
-        """H at places x, by the pieces that they are on."""
-        if len(self.origins) == 1 and not self.coefficients.any():  # of a function, and fast
-            return np.asarray(chebyshev.evaluate(self.series[0], (x - self._centre) / self._half))
-        return np.asarray(self.value(self.locate(x), x, 0.0))
-
-    def missed(self, slope: Callable[[Array], Array], x: Array) -> Array:
-        """The places among x of a window on which the pieces differ from a function.
-
-        What is narrower than the pieces that resolved it shows there.
-        """
-        inside = x[(x >= self.breaks[0]) & (x <= self.breaks[-1])]
-        with np.errstate(all="ignore"):
-            H, found = slope(inside), self.H(inside)
-            size = np.abs(self.series).sum(axis=1)[self.locate(inside)]
-        return np.asarray(inside[np.abs(H - found) > MISSED * np.maximum(size, np.abs(H))])
-
-    def horizon(self, tilt: float, c: Array) -> float:
-        """The distance from places c within which all valleys of h + tilt x are.
-
-        On the line: the finite ends, and the roots of the outer polynomials (Fujiwara's bound).
-        """
-        ends = self.breaks[np.isfinite(self.breaks)]
-        reach = [np.abs(ends[[0, -1], None] - c).max()] if ends.size else [0.0]
-        for k in {0, len(self.origins) - 1}:
-            power = self.coefficients[k].copy()
-            power[0] += np.copysign(tilt, power[0])
-            if power[1:].any() and not np.isfinite(self._half[k]):
-                reach.append(np.abs(self.origins[k] - c).max() + root_bound(power))
-        return float(max(reach))
-
-    @cached_property
-    def _drops(self) -> Array:
-        return np.minimum(self.steps, 0.0)
+        corners = np.append(0.0, np.cumsum(np.abs(self.breaks[1:-1] * np.minimum(self.steps, 0.0))))
+        return np.asarray(ROUNDINGS * EPS * (total + (corners[ky] - corners[kx])))
 
     @cached_property
     def _roundings(self) -> Array:
@@ -292,37 +236,150 @@ class Pieces:
             terms = terms + np.where(length > 0.0, bent * np.maximum(np.abs(x), np.abs(y)), 0.0)
         return np.where(self.void[k], np.where(length > 0.0, self.blur[k] / EPS, 0.0), terms)
 
-    def solid_around(self, x: Array) -> tuple[Array, Array]:
-        """The ends of the interval without walls that each x is in."""
-        void = np.flatnonzero(self.void)
-        starts = np.concatenate((self.breaks[:1], self.breaks[void + 1]))
-        stops = np.concatenate((self.breaks[void], self.breaks[-1:]))
-        k = np.clip(np.searchsorted(starts, x, side="right") - 1, 0, len(starts) - 1)
-        return starts[k], stops[k]
+    # -- beside a profile --------------------------------------------------------------------------
 
-    @cached_property
-    def concave(self) -> Array:
-        """Concave corners, where H jumps down between two pieces of the indenter."""
-        return np.asarray(self.breaks[1:-1][(self.steps < 0.0) & ~(self.void[:-1] | self.void[1:])])
+    def missed(self, slope: Slope, x: Array) -> Array:
+        """The places among x of a window on which the pieces differ from a function.
 
-    @cached_property
-    def never_closed(self) -> Array:
-        """Places that no contact covers: walls, and concave corners."""
-        walls = self.breaks[1:-1][self.void[:-1] | self.void[1:]]
-        return np.union1d(self.concave, walls)
+        What is narrower than the pieces that resolved it shows there.
+        """
+        inside = x[(x >= self.breaks[0]) & (x <= self.breaks[-1])]
+        with np.errstate(all="ignore"):
+            H, found = slope(inside), self(inside)
+            size = np.abs(self.series).sum(axis=1)[self.locate(inside)]
+        return np.asarray(inside[np.abs(H - found) > MISSED * np.maximum(size, np.abs(H))])
 
-    def bends(self, k: Index, above: NDArray[np.bool_]) -> NDArray[np.bool_]:
-        """Whether H' jumps at the upper ends of pieces, or at the lower ones."""
-        other = np.clip(np.where(above, k + 1, k - 1), 0, len(self.origins) - 1)
-        x = self.breaks[k + above]
-        with np.errstate(invalid="ignore"):
-            own, theirs = self.curvature(k, x), self.curvature(other, x)
-            jump = np.abs(own - theirs) > CORNER * np.maximum(np.abs(own), np.abs(theirs))
-        return np.asarray(jump & np.isfinite(x))
+    def horizon(self, tilt: float, c: Array) -> float:
+        """The distance from places c within which all valleys of h + tilt x are.
 
-    def curvature(self, k: Any, x: Any) -> Any:
-        """H' of the pieces k at x."""
-        return self.divided(k, (x, 0.0), (x, 0.0))
+        On the line: the finite ends, and the roots of the outer polynomials (Fujiwara's bound).
+        """
+        ends = self.breaks[np.isfinite(self.breaks)]
+        reach = [np.abs(ends[[0, -1], None] - c).max()] if ends.size else [0.0]
+        for k in {0, len(self.origins) - 1}:
+            power = self.coefficients[k].copy()
+            power[0] += np.copysign(tilt, power[0])
+            if power[1:].any() and not np.isfinite(self._half[k]):
+                reach.append(np.abs(self.origins[k] - c).max() + root_bound(power))
+        return float(max(reach))
+
+
+# -- the pieces of a profile -----------------------------------------------------------------------
+
+
+def without_functions(resolved: Slope) -> Pieces:
+    """The pieces of a slope whose functions are resolved: these become series."""
+    K, degree = len(resolved.origins), resolved.degree
+    none, lo, half = np.zeros((K, 1)), resolved.breaks[:-1], 0.5 * np.diff(resolved.breaks)
+    rows = resolved.by_piece() | {"across": np.full(K, np.nan), "blur": np.zeros(K)}
+    if resolved.functions:
+        plain = replace(resolved, coefficients=none)
+        u = half[:, None] * (1.0 + chebyshev.points(degree + 1))
+        series = chebyshev.transform(plain.value(np.arange(K)[:, None], lo[:, None], u))
+        series[np.abs(series) < LEFT_OUT * np.abs(series).max()] = 0.0
+        rows["series"] = series
+    return Pieces(resolved.breaks, **rows)
+
+
+def from_slope(slope: Slope, window: tuple[float, float], tol: float) -> Pieces:
+    """The pieces of a slope; its functions are resolved on the window."""
+    return without_functions(refined(slope, *window, tol))
+
+
+def integral(slope: Slope, start: float, x: Array) -> Array:
+    """∫ H from start to each x (any shape), by resolved pieces; inf beyond the indenter's ends."""
+    lo, hi = slope.domain
+    inside = np.clip(x, lo, hi)
+    out = np.zeros(np.shape(x))
+    for sign in (-1.0, 1.0):
+        ahead = sign * (inside - start)
+        if ahead.max(initial=0.0) <= TINY:  # half of it may be no double
+            continue
+        a, b = sorted((start, start + sign * float(ahead.max())))
+        pieces = from_slope(slope.within(a, b), (a, b), EPS)
+        places = inside[ahead > 0.0], np.full(np.count_nonzero(ahead > 0.0), start)
+        out[ahead > 0.0] = sign * pieces.rises(*places[:: int(-sign)])
+    return np.where((x < lo) | (x > hi), np.inf, out)
+
+
+def of_profile(
+    profile: Profile, window: tuple[float, float], tol: float, cuts: Array | None = None
+) -> Pieces:
+    """The slope of a profile with its walls, functions resolved on the window.
+
+    Between two of the `cuts` they are resolved to the rounding of the slopes there, and so they are
+    about their narrow valleys. Of a periodic profile there are several copies.
+    """
+    pieces = _with_walls(_resolved(profile.pieces, window, tol, cuts), profile)
+    if profile.period == np.inf:
+        return pieces
+    shifts = [turn * profile.period for turn in COPIES]
+    copies = ((pieces.breaks + shift, pieces.origins + shift) for shift in shifts)
+    return chained([replace(pieces, breaks=b, origins=o) for b, o in copies])
+
+
+def _resolved(slope: Slope, window: tuple[float, float], tol: float, cuts: Array | None) -> Pieces:
+    if not slope.functions:
+        return from_slope(slope, window, tol)
+    narrow = narrow_parts(slope, across(slope, window))
+    if len(narrow) > FEW:
+        pieces = _between(slope, window, tol, cuts)
+        if not pieces.missed(slope, narrow).size:
+            return pieces
+    return _between(slope, window, tol, narrow if cuts is None else np.union1d(cuts, narrow))
+
+
+def _between(slope: Slope, window: tuple[float, float], tol: float, cuts: Array | None) -> Pieces:
+    if cuts is None:
+        return from_slope(slope, window, tol)
+    ends = [window[0], *cuts[(cuts > window[0]) & (cuts < window[1])].tolist(), window[1]]
+    return chained([from_slope(slope, part, tol) for part in pairwise(ends)])
+
+
+def _with_walls(pieces: Pieces, profile: Profile) -> Pieces:
+    """The pieces with those that have no indenter, and the rise across each of these."""
+    (first_end, last_end), repeated = pieces.domain, profile.period < np.inf
+    crossed = []
+    for lo, hi in profile.walls:
+        if not repeated and (hi <= first_end or lo >= last_end):
+            continue  # beside the window
+        rest = repeated and hi > pieces.breaks[-1]  # of a period
+        if rest or lo == hi:
+            k = len(pieces.origins) if rest else int(np.searchsorted(pieces.breaks, lo))
+            at_end = k == len(pieces.origins)
+            pieces = _inserted(pieces, k, hi)
+            crossed.append((k, 0 if at_end else k + 1))
+            continue
+        first = max(int(np.searchsorted(pieces.breaks, lo, "right")) - 1, 0)
+        last = int(np.searchsorted(pieces.breaks, min(hi, last_end)))
+        pieces.across[first:last] = 0.0
+        # beyond, something solid has to be in the window
+        if first < last and lo >= first_end and hi <= last_end:
+            crossed.append((first, last))
+    if crossed:
+        first_of, last_of = np.array(crossed).T
+        after = _height_at(pieces, last_of, profile, 1.0)
+        before = _height_at(pieces, first_of, profile, -1.0)
+        pieces.across[first_of] = after - before
+        pieces.blur[first_of] = EPS * (np.abs(after) + np.abs(before))
+    return pieces
+
+
+def _inserted(pieces: Pieces, k: int, end: float) -> Pieces:
+    """A void piece before piece k, up to `end`."""
+    rows = {name: np.insert(v, k, 0.0, axis=0) for name, v in pieces.by_piece().items()}
+    rows["origins"][k] = end
+    return replace(
+        pieces, breaks=np.insert(pieces.breaks, min(k + 1, len(pieces.breaks)), end), **rows
+    )
+
+
+def _height_at(pieces: Pieces, k: Index, profile: Profile, side: float) -> Array:
+    """h at the lower ends of pieces k, from inside; of those before k at the upper ends (-1)."""
+    x = pieces.breaks[k]
+    k = k if side > 0.0 else k - 1
+    inner = x + side * np.minimum(pieces._half[k], 1.0)
+    return np.asarray(profile.height(inner) - pieces.rise(k, (x, 0.0), (inner, 0.0)))
 
 
 def root_bound(c: Array) -> float:

@@ -23,7 +23,6 @@ from sie.errors import ResolutionError
 from sie.numerics import chebyshev
 from sie.numerics.interval import EPS
 
-from .pieces import Pieces
 from .slope import Slope
 
 Array = NDArray[np.float64]
@@ -45,7 +44,6 @@ DEEP = 64  # levels, after which x = 0 is such a break
 # A piece at a declared break that has not settled after so many levels is singular there. It is
 # then halved so many times at once.
 PATIENCE, HALVINGS = 3, 8
-LEFT_OUT = 1e-15  # of the largest coefficient: what of a series is left out
 
 
 class Tolerance(NamedTuple):
@@ -213,37 +211,4 @@ def refined(slope: Slope, lo: float, hi: float, tol: float, cuts: Array | None =
     inner = slope.breaks[(slope.breaks > lo) & (slope.breaks < hi)]
     breaks, degrees = resolved(slope.inside, np.concatenate(([lo], inner, [hi])), tol, cuts)
     k = slope.locate(breaks[:-1])
-    return replace(slope.chosen(k, breaks), degrees=np.maximum(degrees, slope.degrees[k]))
-
-
-# -- the pieces, with these series ----------------------------------------------------------------
-
-
-def without_functions(resolved: Slope) -> Pieces:
-    """The pieces of a slope whose functions are resolved: these become series."""
-    K, none = len(resolved.origins), np.zeros((len(resolved.origins), 1))
-    series = none[:, :0]
-    if resolved.functions:
-        series = _series(replace(resolved, coefficients=none))
-        series[np.abs(series) < LEFT_OUT * np.abs(series).max()] = 0.0
-    return Pieces(
-        *(resolved.breaks, resolved.origins, resolved.coefficients),
-        series=series,
-        void=np.zeros(K, dtype=bool),
-        across=np.zeros(K),
-        blur=np.zeros(K),
-    )
-
-
-def one_piece(lo: float, hi: float, c: Array) -> Pieces:
-    """One piece by its Chebyshev coefficients."""
-    zero, solid = np.zeros(1), np.zeros(1, dtype=bool)
-    return Pieces(np.array([lo, hi]), zero, zero[:, None], c[None], solid, zero, zero)
-
-
-def _series(resolved: Slope) -> Array:
-    """The Chebyshev coefficients of H on each piece."""
-    lo, length = resolved.breaks[:-1], np.diff(resolved.breaks)
-    K, n = len(lo), int(resolved.degrees.max()) + 1
-    u = 0.5 * length[:, None] * (1.0 + chebyshev.points(n))
-    return chebyshev.transform(resolved.local(np.arange(K), lo, np.zeros(K), u))
+    return replace(slope.chosen(k, breaks), orders=degrees)

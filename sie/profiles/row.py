@@ -22,10 +22,10 @@ from sie.arguments import abridged
 from sie.inheritance import override
 
 from .base import Profile, of_any_x
-from .closed_trace import closed, open_seams
 from .derived import joined, parts_of
 from .lowest_profile import finite_ends, inside, lowest_of
-from .slope import FunctionTerm, Slope
+from .placed_traces import closed, open_seams
+from .slope import Slope, chained, function_slope, polynomial_slope
 
 Array = NDArray[np.float64]
 INF = float("inf")
@@ -106,33 +106,23 @@ class Row(Profile):
     def pieces(self) -> Slope:
         """The slope of whichever profile is lowest; 0 where there is none."""
         if any(self.profiles[k].pieces.functions for _, _, k in self.lowest if k >= 0):
-            return self._of_functions
-        parts = []
-        for lo, hi, k in self.lowest:
-            if k < 0:
-                flat = Slope(np.array([lo, hi]), np.array([lo]), np.zeros((1, 1)), np.zeros(1, int))
-                parts.append(flat)
-            else:
-                parts.append(self.profiles[k].pieces.within(lo, hi))
-        width = max(part.coefficients.shape[1] for part in parts)
-        c = [np.pad(s.coefficients, ((0, 0), (0, width - s.coefficients.shape[1]))) for s in parts]
-        return Slope(
-            np.concatenate([parts[0].breaks[:1], *(part.breaks[1:] for part in parts)]),
-            np.concatenate([part.origins for part in parts]),
-            np.concatenate(c),
-            np.concatenate([part.degrees for part in parts]),
-        )
+            ends = {x for run in self.lowest for x in run[:2]}
+            inner = {b for p in self.profiles for b in p.breaks if min(ends) < b < max(ends)}
+            return function_slope(sorted(ends | inner), self._lowest_slope)
+        none = polynomial_slope((-INF, INF), (0.0,), ((0.0,),))
+        slopes = [self.profiles[k].pieces if k >= 0 else none for _, _, k in self.lowest]
+        return chained([s.within(lo, hi) for s, (lo, hi, _) in zip(slopes, self.lowest)])
 
-    @cached_property
-    def _of_functions(self) -> Slope:
-        inner = [b for p in self.profiles for b in p.breaks]
-        ends = {x for lo, hi, _ in self.lowest for x in (lo, hi)}
-        lo, hi = self.lowest[0][0], self.lowest[-1][1]
-        breaks = np.array(sorted(ends | {b for b in inner if lo < b < hi}))
-        zeros = np.zeros(len(breaks) - 1)
-        origins = np.where(np.isfinite(breaks[:-1]), breaks[:-1], 0.0)
-        term = FunctionTerm(LowestSlope(self))
-        return Slope(breaks, origins, zeros[:, None], zeros.astype(np.int64), (term,))
+    def _lowest_slope(self, x: Array) -> Array:
+        """The slope of the lowest profile at x; 0 where there is none."""
+        ends = np.array([hi for _, hi, _ in self.lowest[:-1]])
+        which = np.array([k for _, _, k in self.lowest])[np.searchsorted(ends, x, side="right")]
+        values = np.zeros(x.shape)
+        for k, profile in enumerate(self.profiles):
+            here = which == k
+            if here.any():
+                values[here] = profile.pieces(x[here])
+        return values
 
     @of_any_x
     @override
@@ -154,25 +144,6 @@ class Row(Profile):
         left = [p.ends_are_corners[0] for p in self.profiles if p.domain[0] == lo]
         right = [p.ends_are_corners[1] for p in self.profiles if p.domain[1] == hi]
         return all(left), all(right)
-
-
-@dataclass(frozen=True)
-class LowestSlope:
-    """The slope of a row as a function, where one of its profiles is one."""
-
-    row: Row
-
-    def __call__(self, x: Array) -> Array:
-        """The slope of the lowest profile at x; 0 where there is none."""
-        x = np.asarray(x, dtype=float)
-        ends = np.array([hi for _, hi, _ in self.row.lowest[:-1]])
-        which = np.array([k for _, _, k in self.row.lowest])[np.searchsorted(ends, x, side="right")]
-        values = np.zeros(x.shape)
-        for k, profile in enumerate(self.row.profiles):
-            here = which == k
-            if here.any():
-                values[here] = profile.pieces(x[here])
-        return values
 
 
 @dataclass(frozen=True, init=False, repr=False)

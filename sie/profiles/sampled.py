@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import abstractmethod
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -11,9 +12,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from sie import arguments
+from sie.inheritance import override
 
 from . import fitting
-from .spline_profile import SplineProfile
+from .base import Profile, of_any_x
+from .slope import Slope
 from .splines import Spline, cross_validated, explains, interpolating_spline, smoothing_spline
 from .trace_files import Column, read_trace
 from .trace_units import Reading, Side, as_gap, factors, side_of, stated
@@ -21,6 +24,30 @@ from .trace_values import Mended, Smoothing, checked, scaled, smoothing_of
 
 Array = NDArray[np.float64]
 SHOWN = 60  # points that are printed; a longer trace is summarised
+
+
+class SplineProfile(Profile):
+    """A profile by its spline; nothing is known beyond the ends, which are no corners."""
+
+    @property
+    @abstractmethod
+    def _spline(self) -> Spline:
+        """The spline, computed once."""
+
+    @cached_property
+    def pieces(self) -> Slope:
+        """H of the spline, a parabola between neighbouring points."""
+        return self._spline.slope
+
+    @of_any_x
+    @override
+    def height(self, x: Array) -> Array:
+        return self._spline(x)
+
+    @property
+    @override
+    def ends_are_corners(self) -> tuple[bool, bool]:
+        return False, False
 
 
 @dataclass(frozen=True, init=False, repr=False, eq=False)
@@ -335,38 +362,6 @@ class Sampled(SplineProfile):
         offset, slope = fitting.line(self.points[part], self.heights[part])
         heights = self.heights - (offset + slope * self.points)
         return self._remade(self.points, heights, self.smoothing)
-
-    def fit_rounded_flat(self) -> fitting.RoundedFlatFit:
-        """The rounded flat nearest to the measured points, by least squares.
-
-        Returns
-        -------
-        RoundedFlatFit
-            `half_flat`, `radius`, `centre` (lengths), `tilt`, and what the fit leaves of the
-            heights.
-
-        Raises
-        ------
-        ValueError
-            If the trace does not rise on both sides of a base.
-
-        Notes
-        -----
-        h = c + t x + max(|x - centre| - half_flat, 0)²/(2 radius). c, t and 1/radius enter
-        linearly and are eliminated (variable projection).
-
-        References
-        ----------
-        G. H. Golub & V. Pereyra (1973), SIAM J. Numer. Anal. 10.
-
-        Examples
-        --------
-        >>> x = np.linspace(-2.0, 2.0, 101)
-        >>> fit = Sampled(x, np.maximum(np.abs(x) - 1.0, 0.0) ** 2 / 100.0).fit_rounded_flat()
-        >>> round(fit.half_flat, 6), round(fit.radius, 6)
-        (1.0, 50.0)
-        """
-        return fitting.rounded_flat(self.points, self.heights)
 
     def _remade(self, x: Array, h: Array, smoothing: Smoothing) -> Sampled:
         """Another trace that is made of this one."""

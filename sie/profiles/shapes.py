@@ -5,7 +5,7 @@ Each is symmetric about x = 0 and has h(0) = 0. Moved, tilted and added profiles
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
@@ -15,8 +15,8 @@ from sie import arguments
 from sie.inheritance import override
 
 from .base import Profile, of_any_x
-from .power_law import PowerLaw
-from .slope import FunctionTerm, Slope, polynomial_slope
+from .functions import PowerLaw
+from .slope import Slope, function_slope, polynomial_slope
 
 Array = NDArray[np.float64]
 INF = float("inf")
@@ -269,8 +269,7 @@ class Power(_Convex):
             if m % 2 == 0:
                 return polynomial_slope((-INF, INF), (0.0,), (row,))
             return polynomial_slope((-INF, 0.0, INF), (0.0, 0.0), ([-c for c in row], row))
-        smooth = polynomial_slope((-INF, 0.0, INF), (0.0, 0.0), ((0.0,), (0.0,)))
-        return replace(smooth, functions=(FunctionTerm(PowerLaw(m, A)),))
+        return function_slope((-INF, 0.0, INF), PowerLaw(m, A))
 
     @of_any_x
     @override

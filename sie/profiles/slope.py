@@ -1,9 +1,9 @@
 """The slope H = h' of an indenter, piece by piece: all that the numerics use of a profile.
 
 On each piece, between two neighbouring breaks, H is a polynomial about an origin of its own plus
-functions that are smooth there:
+functions that are smooth there, or the Chebyshev series that resolve them (`resolution`):
 
-    H(t) = Σ_j coefficients[k, j] (t - origins[k])^j + Σ functions(t),   breaks[k] < t < breaks[k+1]
+    H(t) = Σ_j coefficients[k, j] (t - origins[k])^j + Σ functions(t) + Σ_n series[k, n] T_n(s)
 
 The first and last break are the ends of the indenter and may be infinite. Each piece has its own
 origin because a profile is often small there and nowhere else: (t - a)/R on the rounded edge of a
@@ -12,44 +12,31 @@ punch must not be formed as t/R - a/R where that edge is 1e-12 of the width.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Any, Literal, NamedTuple
+from typing import Any, Literal, NamedTuple, Self, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from sie import arguments
+from sie.numerics import chebyshev
 from sie.numerics.interval import EPS, recentred, two_sum
+
+from .functions import FunctionTerm, Vectorised
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
-Vectorised = Callable[[Array], Any]
 
 # Up to so many pieces of so low a degree, a loop over floats is cheaper than NumPy's calls.
 FEW, LOW = 6, 4
 # A break carries a true jump of h' (and a logarithmic infinity of the pressure) when the jump
-# exceeds rounding by this factor.
+# exceeds the rounding of the terms of h' by this factor.
 JUMP = 256.0 * EPS
-# The same for a function: its pieces are resolved one by one, and do not match to rounding.
+# The same of functions and series: their pieces are resolved one by one, and do not match.
 SEEN_JUMP = 1e-9
-
-
-@dataclass(frozen=True)
-class FunctionTerm:
-    """The function sign f(sign (t - shift)): a user's f, moved and mirrored with its profile."""
-
-    function: Vectorised
-    shift: float = 0.0
-    sign: float = 1.0
-
-    def __call__(self, offset: Array) -> Array:
-        """Values at t, given offset = t - shift; `resolution` refuses those that are not finite."""
-        with np.errstate(all="ignore"):
-            if self.sign > 0.0:
-                return arguments.real_values("slope", self.function, offset)
-            return -arguments.real_values("slope", self.function, -offset)
+NO_SERIES = np.zeros((1, 0))
+Pieced = TypeVar("Pieced", bound="Slope")
 
 
 class Row(NamedTuple):
@@ -63,78 +50,59 @@ class Row(NamedTuple):
     origin: float
     coefficients: tuple[float, ...]
 
-    def at(self, x: float) -> float:
-        """H at x."""
-        value = 0.0
-        for c in self.coefficients:
-            value = value * (x - self.origin) + c
-        return value
-
 
 @dataclass(frozen=True, eq=False)
 class Slope:
     """H on its breaks.
 
-    breaks          (N + 1,), ascending
-    origins         (N,)
-    coefficients    (N, D), low order first
-    degrees         (N,)
-    tails           (N, 2), what rounding took from coefficients[:, :2]: a tilt may cancel the rest
-
-    `degrees` is the Chebyshev degree that resolves each piece; it equals the polynomial's degree
-    where there is no function.
+    breaks          (K + 1,), ascending
+    origins         (K,)
+    coefficients    (K, D), low order first
+    functions       what is added, of all pieces
+    tails           (K, 2), what rounding took from coefficients[:, :2]: a tilt may cancel the rest
+    orders          (K,), the Chebyshev degrees that resolve the functions; 0 where none is known
+    series          (K, E), Chebyshev coefficients on each piece, in place of functions
     """
 
     breaks: Array
     origins: Array
     coefficients: Array
-    degrees: NDArray[np.int64]
     functions: tuple[FunctionTerm, ...] = ()
     tails: Array | float = 0.0
+    orders: Index | int = 0
+    series: Array = field(default_factory=lambda: NO_SERIES)
+
+    # -- values ------------------------------------------------------------------------------------
 
     def locate(self, x: Any, side: Literal["left", "right"] = "right") -> Index:
         """The piece at x; at a break the one on that side of it."""
         k = np.searchsorted(self.breaks, x, side=side) - 1
         return np.asarray(np.minimum(np.maximum(k, 0), len(self.origins) - 1))
 
-    def local(self, k: Any, start: Array, tail: Array, u: Array) -> Array:
-        """H at t = (start + tail) + u on the pieces k, without rounding t.
-
-        start and tail (K,), u (K, n).
-        """
-        c = self.coefficients[k]
-        values: Array = c[:, -1:]
-        if c.shape[1] > 1:
-            y = ((start - self.origins[k]) + tail)[:, None] + u
-            for j in range(c.shape[1] - 2, -1, -1):
-                values = values * y + c[:, j : j + 1]
+    def value(self, k: Any, anchor: Any, offset: Any) -> Any:
+        """H of the pieces k at anchor + offset, which is not rounded; continued beyond the ends."""
+        y = (anchor - self.origins[k]) + offset
+        column = self.coefficients.T
+        total = column[-1][k]
+        for c in column[-2::-1]:
+            total = total * y + c[k]
+        if self.series.shape[1]:
+            s = ((anchor - self._centre[k]) + offset) / self._half[k]
+            total = total + chebyshev.evaluate(self.series.T[:, k], s)
         for f in self.functions:
-            values = values + f(((start - f.shift) + tail)[:, None] + u)
-        return values if values.shape == u.shape else values + np.zeros_like(u)
-
-    def local_derivative(self, k: Any, start: Array, tail: Array, u: Array) -> Array | float:
-        """H' of the polynomials at the same points; functions have no derivative here."""
-        c = self.coefficients[k]
-        degree = c.shape[1] - 1
-        if degree == 0:
-            return 0.0
-        values: Array = degree * c[:, -1:]
-        if degree > 1:
-            y = ((start - self.origins[k]) + tail)[:, None] + u
-            for j in range(degree - 1, 0, -1):
-                values = values * y + j * c[:, j : j + 1]
-        return values
+            total = total + f((anchor - f.shift) + offset)
+        return total if np.shape(total) == np.shape(y) else total + np.zeros_like(y)
 
     def __call__(self, x: Any) -> Array:
         """H(x): the mean of both sides at a break; -inf and inf beyond the ends."""
         flat = np.asarray(x, dtype=float).ravel()
-        right = np.searchsorted(self.breaks, flat, side="right") - 1
-        left = np.searchsorted(self.breaks, flat, side="left") - 1
-        last = len(self.origins) - 1
-        values = self._on(np.clip(right, 0, last), flat)
-        at_break = np.flatnonzero((left != right) & (left >= 0) & (right <= last))
-        if at_break.size:
-            values[at_break] = 0.5 * (values[at_break] + self._on(left[at_break], flat[at_break]))
+        # Beyond the ends the value is replaced; keep functions in their domain.
+        inside = np.clip(flat, self.breaks[0], self.breaks[-1])
+        left, right = self.locate(inside, "left"), self.locate(inside)
+        values: Array = self.value(right, inside, 0.0)
+        both = np.flatnonzero(left != right)
+        if both.size:
+            values[both] = 0.5 * (values[both] + self.value(left[both], inside[both], 0.0))
         values[flat < self.breaks[0]] = -np.inf
         values[flat > self.breaks[-1]] = np.inf
         return values.reshape(np.shape(x))
@@ -142,12 +110,27 @@ class Slope:
     def inside(self, x: Array) -> Array:
         """H at points x (K, n), each row inside one piece."""
         k = self.locate(x[:, x.shape[1] // 2])
-        return self.local(k, np.zeros(len(k)), np.zeros(len(k)), x)
+        return np.asarray(self.value(k[:, None], 0.0, x))
 
-    def _on(self, k: NDArray[np.int64], x: Array) -> Array:
-        # Beyond the ends the value is replaced; keep functions in their domain.
-        inside = np.clip(x, self.breaks[0], self.breaks[-1])
-        return self.local(k, inside, np.zeros_like(inside), np.zeros((len(inside), 1)))[:, 0]
+    @cached_property
+    def derivative(self) -> Self:
+        """H' on the same pieces, without jumps of H; functions have no derivative here."""
+        c, series = self.coefficients, self.series
+        power = c[:, 1:] * np.arange(1, c.shape[1]) if c.shape[1] > 1 else np.zeros_like(c)
+        if series.shape[1] > 1:
+            series = np.polynomial.chebyshev.chebder(series, axis=1) / self._half[:, None]
+        elif series.shape[1]:
+            series = 0.0 * series
+        return replace(self, coefficients=power, series=series, functions=(), tails=0.0)
+
+    @cached_property
+    def _centre(self) -> Array:
+        with np.errstate(invalid="ignore"):
+            return np.asarray(0.5 * (self.breaks[:-1] + self.breaks[1:]))
+
+    @cached_property
+    def _half(self) -> Array:
+        return np.asarray(0.5 * np.diff(self.breaks))
 
     @property
     def _tails(self) -> Array:
@@ -158,7 +141,7 @@ class Slope:
         """Whether each piece is flat and needs no work."""
         if self.functions:
             return np.zeros(len(self.origins), dtype=bool)
-        return np.logical_not(self.coefficients.any(axis=1))
+        return np.logical_not(self.coefficients.any(axis=1) | self.series.any(axis=1))
 
     @property
     def is_flat_punch(self) -> bool:
@@ -171,9 +154,15 @@ class Slope:
         return bool(self.is_zero.any())
 
     @cached_property
+    def degrees(self) -> Index:
+        """The degree that resolves each piece, (K,)."""
+        least = max(self.coefficients.shape[1], self.series.shape[1]) - 1
+        return np.maximum(least, np.broadcast_to(self.orders, self.origins.shape))
+
+    @cached_property
     def degree(self) -> int:
-        """The largest degree that resolves a piece."""
-        return int(self.degrees.max()) if self.functions else self.coefficients.shape[1] - 1
+        """The largest of them."""
+        return int(self.degrees.max())
 
     @cached_property
     def rows(self) -> tuple[Row, ...]:
@@ -206,58 +195,59 @@ class Slope:
         """The polynomial part of H."""
         return replace(self, functions=())
 
+    # -- jumps -------------------------------------------------------------------------------------
+
+    @cached_property
+    def steps(self) -> Array:
+        """By how much H jumps up at the inner breaks, (K - 1,); 0 where that is rounding.
+
+        Functions are seen one ulp beside a break, where a power law may seem to jump.
+        """
+        k, x = np.arange(len(self.origins) - 1), self.breaks[1:-1]
+        ulp = np.spacing(np.abs(x)) if self.functions else 0.0
+        with np.errstate(invalid="ignore"):
+            below, above = self.value(k, x, -ulp), self.value(k + 1, x, ulp)
+            size = np.maximum(self.terms(k, x), self.terms(k + 1, x))
+            if self.functions or self.series.shape[1]:
+                least = SEEN_JUMP * np.maximum(size, np.maximum(np.abs(below), np.abs(above)))
+            else:  # a break is rounded too
+                steep = np.maximum(*(self.derivative.terms(j, x) for j in (k, k + 1)))
+                least = JUMP * (size + np.abs(x) * steep)
+            return np.where(np.abs(above - below) > least, above - below, 0.0)
+
+    def terms(self, k: Index, x: Array) -> Array:
+        """The sum of the magnitudes of what H of the pieces k at x is the sum of."""
+        y, total = np.abs(x - self.origins[k]), np.zeros(np.shape(x))
+        for c in np.abs(self.coefficients[k]).T[::-1]:
+            total = total * y + c
+        return total + np.abs(self.series[k]).sum(axis=1) if self.series.shape[1] else total
+
     @cached_property
     def continuous(self) -> bool:
         """Whether H is known to be continuous, up to rounding.
 
         A function may jump at declared breaks.
         """
-        if self.functions:
-            return False
-        below, above = self.at_breaks
-        rounding = JUMP * max(map(abs, below + above), default=0.0)
-        return all(abs(a - b) <= rounding for a, b in zip(below, above, strict=True))
+        return not self.functions and not self.steps.any()
 
     @cached_property
-    def at_breaks(self) -> tuple[tuple[float, ...], tuple[float, ...]]:
-        """The polynomials' H from the left and from the right of every inner break."""
-        ends = self.breaks[1:-1]
-        if self.few:  # a flat piece has no row
-            below = {row.hi: row.at(row.hi) for row in self.rows}
-            above = {row.lo: row.at(row.lo) for row in self.rows}
-            left, right = ([H.get(b, 0.0) for b in ends.tolist()] for H in (below, above))
-        else:
-            k, zero = np.arange(len(ends)), np.zeros(len(ends))
-            both = (self.local(j, ends, zero, zero[:, None])[:, 0] for j in (k, k + 1))
-            left, right = (H.tolist() for H in both)
-        return tuple(left), tuple(right)
-
-    @cached_property
-    def rises(self) -> tuple[tuple[float, float], ...]:
-        """(break, rise of H) for each inner break where H jumps by more than rounding."""
-        sides = zip(self.breaks[1:-1].tolist(), *self.at_breaks, strict=True)
-        return tuple(
-            (b, above - below)
-            for b, below, above in sides
-            if abs(above - below) > JUMP * max(abs(below), abs(above))
-        )
+    def jumps(self) -> tuple[tuple[float, float], ...]:
+        """(break, rise of H) for each inner break where H jumps."""
+        there = np.flatnonzero(self.steps)
+        return tuple(zip(self.breaks[1:-1][there].tolist(), self.steps[there].tolist()))
 
     def corner(self, x: float) -> tuple[float, float]:
-        """Jumps of H and H' at a break x; of functions only that of H, one ulp beside it."""
-        j = int(np.searchsorted(self.breaks, x))
-        if not 0 < j < len(self.origins):
+        """Jumps of H and H' at a break x; of functions only that of H."""
+        j = int(np.searchsorted(self.breaks, x)) - 1
+        if not 0 <= j < len(self.steps):
             return 0.0, 0.0
-        k, start, tail = np.array([j - 1, j]), np.array([x, x]), np.zeros(2)
-        ulp = np.spacing(abs(x)) if self.functions else 0.0
-        below, above = self.local(k, start, tail, np.array([[-ulp], [ulp]]))[:, 0].tolist()
-        steep = self.local_derivative(k, start, tail, np.zeros((2, 1)))
-        kink = float(steep[1, 0] - steep[0, 0]) if isinstance(steep, np.ndarray) else 0.0
-        rounding = (SEEN_JUMP if self.functions else JUMP) * max(abs(below), abs(above))
-        return (float(above - below) if abs(above - below) > rounding else 0.0), kink
+        return float(self.steps[j]), float(self._kinks[j])
 
-    def after(self, x: float) -> float:
-        """H just right of x, of few pieces."""
-        return next((row.at(x) for row in self.rows if row.lo <= x < row.hi), 0.0)
+    @cached_property
+    def _kinks(self) -> Array:
+        k, x = np.arange(len(self.origins) - 1), self.breaks[1:-1]
+        steep = self.derivative
+        return np.asarray(steep.value(k + 1, x, 0.0) - steep.value(k, x, 0.0))
 
     @cached_property
     def corners(self) -> Array:
@@ -277,6 +267,8 @@ class Slope:
         """The first and the last break, lengths."""
         return float(self.breaks[0]), float(self.breaks[-1])
 
+    # -- other slopes ------------------------------------------------------------------------------
+
     def tilted(self, tilt: float) -> Slope:
         """The slope of h(x) + tilt x."""
         if tilt == 0.0:
@@ -294,10 +286,10 @@ class Slope:
         lo, hi = self.breaks[:-1], self.breaks[1:]
         bent = (c[:, 1] != 0.0) & (origins != lo) & (origins != hi)
         zeros = np.clip(origins - c[:, 0] / np.where(bent, c[:, 1], 1.0), lo, hi)
-        return self._recentred(np.where(bent, zeros, origins)) if bent.any() else self
-
-    def _recentred(self, origins: Array) -> Slope:
-        c, tails = self.about(np.arange(len(origins)), origins, self.coefficients.shape[1])
+        if not bent.any():
+            return self
+        origins = np.where(bent, zeros, origins)
+        c, tails = self.about(np.arange(len(origins)), origins, c.shape[1])
         return replace(self, origins=origins, coefficients=c, tails=tails)
 
     def split_at(self, x: float) -> Slope:
@@ -308,16 +300,21 @@ class Slope:
         twice = np.insert(np.arange(len(self.origins)), k, k - 1)
         return self.chosen(twice, np.insert(self.breaks, k, x))
 
-    def chosen(self, k: NDArray[Any], breaks: Array) -> Slope:
+    def by_piece(self) -> dict[str, Any]:
+        """The fields that have a row for each piece."""
+        K = len(self.origins)
+        return {
+            "origins": self.origins,
+            "coefficients": self.coefficients,
+            "tails": self._tails,
+            "orders": np.broadcast_to(self.orders, K),
+            "series": np.broadcast_to(self.series, (K, self.series.shape[1])),
+        }
+
+    def chosen(self, k: NDArray[Any], breaks: Array) -> Self:
         """These pieces, on other breaks."""
-        return replace(
-            self,
-            breaks=breaks,
-            origins=self.origins[k],
-            coefficients=self.coefficients[k],
-            degrees=self.degrees[k],
-            tails=self._tails[k],
-        )
+        rows = {name: values[k] for name, values in self.by_piece().items()}
+        return replace(self, breaks=breaks, **rows)
 
     def within(self, lo: float, hi: float) -> Slope:
         """The same slope on [lo, hi], whose ends become the ends of the indenter."""
@@ -338,10 +335,13 @@ class Slope:
 
     def mirrored(self) -> Slope:
         """The slope of h(-x), that is -H(-x)."""
-        c = -self.coefficients[::-1] * (-1.0) ** np.arange(self.coefficients.shape[1])
+        back = self.chosen(np.arange(len(self.origins))[::-1], -self.breaks[::-1])
+        c = -back.coefficients * (-1.0) ** np.arange(self.coefficients.shape[1])
         functions = tuple(replace(f, shift=-f.shift, sign=-f.sign) for f in self.functions)
-        origins, tails = -self.origins[::-1], self._tails[::-1] * (-1.0, 1.0)
-        return Slope(-self.breaks[::-1], origins, c, self.degrees[::-1], functions, tails)
+        tails = back._tails * (-1.0, 1.0)
+        return replace(
+            back, origins=-back.origins, coefficients=c, functions=functions, tails=tails
+        )
 
     def __add__(self, other: Slope) -> Slope:
         """The sum on the intersection of both domains, broken where either is."""
@@ -363,8 +363,21 @@ class Slope:
         c += more
         tails = tails + other_tails
         c[:, :2], tails[:, :width] = two_sum(both, rest + tails[:, :width])
-        degrees = np.maximum(self.degrees[mine], other.degrees[theirs])
-        return Slope(breaks, origins, c, degrees, self.functions + other.functions, tails)
+        return Slope(breaks, origins, c, self.functions + other.functions, tails)
+
+
+def chained(parts: Sequence[Pieced]) -> Pieced:
+    """Slopes on intervals that follow each other, as one."""
+    rows = [part.by_piece() for part in parts]
+    whole: dict[str, Any] = {}
+    for name in rows[0]:
+        arrays = [row[name] for row in rows]
+        if arrays[0].ndim == 2:
+            width = max(a.shape[1] for a in arrays)
+            arrays = [np.pad(a, ((0, 0), (0, width - a.shape[1]))) for a in arrays]
+        whole[name] = np.concatenate(arrays)
+    breaks = np.concatenate([parts[0].breaks[:1], *(part.breaks[1:] for part in parts)])
+    return replace(parts[0], breaks=breaks, **whole)
 
 
 def polynomial_slope(
@@ -376,9 +389,13 @@ def polynomial_slope(
     """A Slope from rows of polynomial coefficients of unequal length, and their tails."""
     width = max(len(row) for row in coefficients)
     c = np.array([[*row, *[0.0] * (width - len(row))] for row in coefficients], dtype=float)
-    degrees = np.array([max(len(row) - 1, 0) for row in coefficients], dtype=np.int64)
-    ends, origin = np.asarray(breaks, dtype=float), np.asarray(origins, dtype=float)
-    return Slope(ends, origin, c, degrees, tails=tails)
+    return Slope(np.asarray(breaks, dtype=float), np.asarray(origins, dtype=float), c, tails=tails)
+
+
+def function_slope(breaks: Sequence[float], function: Vectorised) -> Slope:
+    """The slope that is a function on its breaks."""
+    none = np.zeros(len(breaks) - 1)
+    return Slope(np.asarray(breaks, dtype=float), none, none[:, None], (FunctionTerm(function),))
 
 
 def _distance(origins: Array, breaks: Array) -> Array:
@@ -389,6 +406,5 @@ def _distance(origins: Array, breaks: Array) -> Array:
     """
     lo, hi = breaks[:-1], breaks[1:]
     outside = np.maximum(np.maximum(lo - origins, origins - hi), 0.0)
-    one_end = np.where(np.isfinite(lo), np.abs(origins - lo), np.abs(origins - hi))
-    without_ends = np.where(np.isinf(one_end), np.abs(origins), one_end)
-    return np.where(np.isfinite(lo) & np.isfinite(hi), outside, without_ends)
+    end = np.where(np.isfinite(lo), lo, np.where(np.isfinite(hi), hi, 0.0))
+    return np.where(np.isfinite(lo) & np.isfinite(hi), outside, np.abs(origins - end))

@@ -77,7 +77,7 @@ class Spline:
     def slope(self) -> Slope:
         """f', a parabola between neighbouring breaks."""
         slopes, tails = self.c[:, 1:] * np.arange(1.0, 4.0), np.outer(self.tails, (1.0, 0.0))
-        return Slope(self.breaks, self.breaks[:-1], slopes, np.full(len(slopes), 2), tails=tails)
+        return Slope(self.breaks, self.breaks[:-1], slopes, tails=tails)
 
     def tilted(self, slope: float) -> Spline:
         """f + slope (x - the first break)."""

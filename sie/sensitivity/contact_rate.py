@@ -34,7 +34,7 @@ from sie.patches.answer import SeveralPatches
 from sie.patches.density import PatchPressure
 from sie.patches.newton import response as response_of_patches
 from sie.profiles.base import Profile
-from sie.profiles.profile_pieces import of_profile
+from sie.profiles.pieces import of_profile
 from sie.profiles.resolution import refined
 from sie.profiles.slope import Slope, polynomial_slope
 from sie.traction.base import Density
@@ -199,7 +199,7 @@ def _refuse_corners(slope: Slope, edges: Edges) -> None:
     """ContactError where an edge stands at a corner of the profile: it moves to one side only."""
     contact = edges.contact
     for x, held in zip((contact.x1, contact.x2), edges.sharp, strict=True):
-        for e, _ in () if held or slope.functions else slope.rises:
+        for e, _ in () if held or slope.functions else slope.jumps:
             if abs(x - e) <= CORNER * contact.r:
                 raise ContactError(
                     f"the edge at x = {x:.6g} stands at a corner of the profile, where "

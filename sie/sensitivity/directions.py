@@ -195,7 +195,7 @@ class OfOne(Profile):
         middle = both.breaks[:-1] + 0.5 * np.diff(np.clip(both.breaks, -1e300, 1e300))
         run = np.clip(np.searchsorted(ends, middle) - 1, 0, len(masks) - 1)
         kept = np.array(masks)[run]
-        return Slope(both.breaks, both.origins, both.coefficients * kept, both.degrees)
+        return Slope(both.breaks, both.origins, both.coefficients * kept)
 
     @of_any_x
     @override

@@ -16,7 +16,6 @@ from __future__ import annotations
 import math
 from abc import ABC, abstractmethod
 from collections.abc import Callable
-from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
@@ -24,7 +23,6 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from sie import arguments
-from sie.inheritance import override
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -337,45 +335,3 @@ class Density(ABC):
         """
         left, right = self.hilbert(np.array(self.interval)).tolist()
         return left, right
-
-
-@dataclass(frozen=True)
-class Zero(Density):
-    """No traction."""
-
-    resultant: float = 0.0
-    moment: float = 0.0
-
-    @property
-    @override
-    def interval(self) -> tuple[float, float]:
-        return 0.0, 0.0
-
-    @override
-    def __call__(self, x: ArrayLike) -> Array:
-        return on_line(np.zeros_like, x)
-
-    @override
-    def cauchy(self, z: ArrayLike, side: int = 1) -> Complex:
-        return self._in_plane(np.zeros_like, z, side)
-
-    @override
-    def cauchy_derivative(self, z: ArrayLike, side: int = 1) -> Complex:
-        return self._in_plane(np.zeros_like, z, side)
-
-    @property
-    @override
-    def bases(self) -> tuple[tuple[float, Density], ...]:
-        return ()
-
-    @property
-    @override
-    def breaks(self) -> tuple[float, ...]:
-        return ()
-
-    @override
-    def hilbert(self, x: ArrayLike) -> Array:
-        return on_line(np.zeros_like, x)
-
-
-ZERO = Zero()

@@ -19,7 +19,7 @@ from sie import arguments
 from sie.arguments import abridged
 from sie.inheritance import override
 
-from .base import ZERO, Density
+from .base import Density, refuse_side, zero_or_nan
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -34,13 +34,14 @@ CANCELLED = 1e-9  # a sum of strengths below this fraction of their sizes is rou
 class Combination(Density):
     """Σ factor × density, each zero outside its own interval.
 
-    `resultant` and `moment` are theirs, summed. `superposed` builds it.
+    `resultant` and `moment` are theirs, summed. `superposed` builds it; without terms it is no
+    traction, `ZERO`.
 
     >>> Combination(((2.0, ZERO),)).resultant
     0.0
     """
 
-    terms: tuple[tuple[float, Density], ...]
+    terms: tuple[tuple[float, Density], ...] = ()
 
     def __repr__(self) -> str:
         return f"Combination(({abridged(self.terms)}))"
@@ -48,18 +49,19 @@ class Combination(Density):
     @cached_property
     def resultant(self) -> float:  # type: ignore[override]
         """∫p dx, the sum of those of the terms."""
-        return sum(factor * density.resultant for factor, density in self.terms)
+        return sum((factor * density.resultant for factor, density in self.terms), 0.0)
 
     @cached_property
     def moment(self) -> float:  # type: ignore[override]
         """∫p x dx, the sum of those of the terms."""
-        return sum(factor * density.moment for factor, density in self.terms)
+        return sum((factor * density.moment for factor, density in self.terms), 0.0)
 
     @property
     @override
     def interval(self) -> tuple[float, float]:
-        lows, highs = zip(*(density.interval for _, density in self.terms), strict=True)
-        return min(lows), max(highs)
+        ends = [density.interval for _, density in self.terms]
+        lo, hi = min((a for a, _ in ends), default=0.0), max((b for _, b in ends), default=0.0)
+        return lo, hi
 
     @property
     @override
@@ -102,18 +104,15 @@ class Combination(Density):
         x = arguments.reals("x", x)
         flat = x.ravel()
         with np.errstate(invalid="ignore"):  # infinities that cancel are treated below
-            total: Array = self._total([density(flat) for _, density in self.terms])
+            total: Array = self._total([density(flat) for _, density in self.terms], flat)
         for k in np.flatnonzero(~np.isfinite(total) & ~np.isnan(flat)):
             total[k] = self._at_infinity(float(flat[k]))
         return total.reshape(x.shape)
 
     def _at_infinity(self, x: float) -> float:
         """The sum where terms are infinite: finite where their strengths cancel."""
-        total = self.strength(x)
-        size = sum(abs(factor * density.strength(x)) for factor, density in self.terms)
-        if abs(total) > CANCELLED * size:
-            return math.copysign(math.inf, total)
-        return float(np.mean(self(self._beside(x))))
+        infinite = [factor * density.strength(x) for factor, density in self.terms]
+        return self._cancelled(infinite, self, x)
 
     def _steepness(self, x: float) -> float:
         """The derivative where those of terms are infinite.
@@ -129,36 +128,43 @@ class Combination(Density):
             for factor, strength, slope in steep
             if math.isinf(slope)
         ]
+        return self._cancelled(infinite, lambda y: self.cauchy_derivative(y).imag, x)
+
+    def _cancelled(
+        self, infinite: list[float], function: Callable[[Array], Array], x: float
+    ) -> float:
+        """The sum of infinite terms at x; where they cancel, the mean of a function beside x."""
         if abs(sum(infinite)) > CANCELLED * sum(map(abs, infinite)):
             return math.copysign(math.inf, sum(infinite))
-        return float(np.mean(self.cauchy_derivative(self._beside(x)).imag))
-
-    def _beside(self, x: float) -> Array:
         lo, hi = self.interval
         step = BESIDE * (hi - lo)
-        return np.array([y for y in (x - step, x + step) if lo < y < hi])
+        return float(np.mean(function(np.array([y for y in (x - step, x + step) if lo < y < hi]))))
 
     @override
     def strength(self, x: float) -> float:
-        return sum(factor * density.strength(x) for factor, density in self.terms)
+        return sum((factor * density.strength(x) for factor, density in self.terms), 0.0)
 
     @override
     def hilbert(self, x: ArrayLike) -> Array:
-        total: Array = self._total([density.hilbert(x) for _, density in self.terms])
+        values = [density.hilbert(x) for _, density in self.terms]
+        total: Array = self._total(values, arguments.reals("x", x))
         return total
 
     @override
     def cauchy(self, z: ArrayLike, side: int = 1) -> Complex:
+        refuse_side(side)
         values = [density.cauchy(z, side) for _, density in self.terms]
         return self._without_nan(values, z, lambda x: -side * float(self(x)))
 
     @override
     def cauchy_derivative(self, z: ArrayLike, side: int = 1) -> Complex:
+        refuse_side(side)
         values = [density.cauchy_derivative(z, side) for _, density in self.terms]
         return self._without_nan(values, z, lambda x: side * self._steepness(x))
 
     @override
     def potentials(self, z: ArrayLike, side: int = 1) -> tuple[Complex, Complex]:
+        refuse_side(side)
         pairs = [density.potentials(z, side) for _, density in self.terms]
         F = self._without_nan([F for F, _ in pairs], z, lambda x: -side * float(self(x)))
         return F, self._without_nan([dF for _, dF in pairs], z, lambda x: side * self._steepness(x))
@@ -171,7 +177,7 @@ class Combination(Density):
         At real z where terms are infinite, its imaginary part comes from `imaginary`.
         """
         with np.errstate(invalid="ignore"):
-            total: Complex = self._total(values)
+            total: Complex = self._total(values, arguments.complexes("z", z))
         lost = np.isnan(total)
         if lost.any():
             for place in zip(*np.nonzero(np.atleast_1d(lost & ~np.isnan(z))), strict=True):
@@ -180,9 +186,9 @@ class Combination(Density):
                 )
         return total
 
-    def _total(self, values: list[Any]) -> Any:
+    def _total(self, values: list[Any], z: Any) -> Any:
         """Σ factor × value, part by part: a real factor times inf + 0j would be nan."""
-        total = np.zeros_like(values[0])
+        total = zero_or_nan(z)
         for (factor, _), value in zip(self.terms, values, strict=True):
             if np.iscomplexobj(value):
                 total.real += factor * value.real
@@ -190,6 +196,9 @@ class Combination(Density):
             else:
                 total += factor * value
         return total
+
+
+ZERO = Combination()
 
 
 def superposed(*terms: tuple[float, Density]) -> Density:

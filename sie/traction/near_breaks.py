@@ -17,7 +17,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -68,28 +68,22 @@ class ContinuousBreaks:
             for pieces, end in ((slice(-1), 1.0), (slice(1, None), -1.0))
         ]
 
-    def near(self, x: Array) -> NearBreaks | None:
-        """The ascending points x that are near a break; None if there are none."""
+    def near(self, x: Array) -> tuple[Index, Index]:
+        """The indices of the ascending points x that are near a break, and of these breaks."""
         first, last = x.searchsorted(self.e - self.d), x.searchsorted(self.e + self.d, "right")
-        some = np.flatnonzero((first < last) & (self.d > 0.0))
-        if not len(some):
-            return None
-        i = np.concatenate([np.arange(*ends) for ends in zip(first[some], last[some], strict=True)])
-        return NearBreaks(self, i, np.repeat(some, (last - first)[some]), len(x))
+        count = np.where(self.d > 0.0, last - first, 0)
+        which = np.repeat(np.arange(len(count)), count)
+        if not which.size:
+            return which, which
+        start = np.cumsum(count) - count
+        return first[which] + np.arange(len(which)) - start[which], which
 
-
-class NearBreaks(NamedTuple):
-    """The points near a break: their indices i among `size` points, and those of the breaks."""
-
-    breaks: ContinuousBreaks
-    i: Index
-    which: Index
-    size: int
-
-    def levelled(self, function_of: BreakFunction) -> BreakFunction:
-        """The function of a break, with its level at the points that are near it."""
-        e, level = np.full((2, self.size), np.nan)
-        e[self.i], level[self.i] = self.breaks.e[self.which], self.breaks.level[self.which]
+    def levelled(
+        self, function_of: BreakFunction, near: tuple[Index, Index], size: int
+    ) -> BreakFunction:
+        """The function of a break, with its level at those of `size` points that are near it."""
+        e, level = np.full((2, size), np.nan)
+        e[near[0]], level[near[0]] = self.e[near[1]], self.level[near[1]]
 
         def other(of: Any, of_left: Any, of_right: Any, at: Any) -> Any:
             L = function_of(of, of_left, of_right, at)
@@ -99,15 +93,15 @@ class NearBreaks(NamedTuple):
 
         return other
 
-    def left_out(self, function_of: BreakFunction, x: Array) -> Array:
-        """(x - e)(D_left - D_right)(L_e - level) at those points."""
-        b, k = self.breaks, self.which
-        offset = x[self.i] - b.e[k]
+    def left_out(self, function_of: BreakFunction, near: tuple[Index, Index], x: Array) -> Array:
+        """(x - e)(D_left - D_right)(L_e - level) at the points near breaks."""
+        i, k = near
+        offset = x[i] - self.e[k]
         difference = np.zeros(len(k))
-        for (D, half), end in zip(b.divided, (1.0, -1.0), strict=True):
+        for (D, half), end in zip(self.divided, (1.0, -1.0), strict=True):
             if len(D):
                 in_s = offset / half[k]
                 difference += end * in_s * chebyshev.evaluate(D[:, k], end + in_s)
-        L = function_of(b.e[k], b.e_left[k], b.e_right[k], self.i)
-        added: Array = difference * (L - b.level[k])
+        L = function_of(self.e[k], self.e_left[k], self.e_right[k], i)
+        added: Array = difference * (L - self.level[k])
         return added

@@ -2,8 +2,11 @@
 
 `SlopeDensity` is the common part of all such densities. Where H is smooth the Chebyshev series of
 `TransformDensity` solves the equation; where it has breaks the pieces of `on_panels` do. Both take
-the square-root singular ends of a sharp-edged punch apart, as
-k1/2 sqrt((1-s)/(1+s)) + k2/2 sqrt((1+s)/(1-s)), so that a smooth edge stays smooth.
+the singular ends of a sharp-edged punch apart, so that a smooth edge stays smooth:
+
+    k1/2 ((x2-x)/(x-x1))^(1/2-ε) + k2/2 ((x-x1)/(x2-x))^(1/2+ε)
+
+with ε = 0 unless dissimilar bodies slide.
 
 Muskhelishvili, Singular Integral Equations (1953), §§ 107-115; Hills, Nowell & Sackfield, Mechanics
 of Elastic Contacts (1993), ch. 2.
@@ -11,6 +14,7 @@ of Elastic Contacts (1993), ch. 2.
 
 from __future__ import annotations
 
+import math
 from abc import abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -22,11 +26,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from sie import arguments
 from sie.inheritance import override
-from sie.numerics import chebyshev
+from sie.numerics import chebyshev, lerch
 from sie.numerics.interval import Interval
 
 from .base import Density, in_order, on_surface, reflected, refuse_side, shallow, zero_or_nan
-from .outer_series import FAR_FIELD, outer_series
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -34,6 +37,9 @@ Complex = NDArray[np.complex128]
 # A Chebyshev series is continued beyond its interval only next to it, while it grows by less than
 # this factor.
 CONTINUATION = 4.0
+# Beyond so many widths from the centre of a contact |ρ| is less than
+# 1/(2 FAR_FIELD + sqrt(4 FAR_FIELD² - 1)) = 0.172.
+FAR_FIELD = 1.5
 
 
 @dataclass(frozen=True, eq=False)
@@ -143,29 +149,17 @@ class SlopeDensity(Density):
     def _inside(self, x: Array, left: Array, right: Array) -> Array:
         p = self.half_modulus * in_order(self._regular, x)
         if self.k1 or self.k2:
-            for k, near, far in ((self.k1, left, right), (self.k2, right, left)):
+            a, b = self._exponents
+            for k, near, far, power in ((self.k1, left, right, b), (self.k2, right, left, a)):
                 edge = near == 0.0
                 ratio = far / np.where(edge, 1.0, near)
-                p += np.where(
-                    edge, np.inf if k else 0.0, 0.5 * k * self._edge(ratio, on_left=near is left)
-                )
+                p += np.where(edge, np.inf if k else 0.0, 0.5 * k * _power(ratio, power))
         return p
 
-    def _edge(self, ratio: Array, on_left: bool) -> Array:
-        """A singular end as a function of the distance from the other end over that from it."""
-        return np.sqrt(ratio)
-
-    def _singular_outside(self, left: Any, right: Any) -> Any:
-        """k2/2 sqrt((s+1)/(s-1)) - k1/2 sqrt((s-1)/(s+1)), from z - x1 and z - x2.
-
-        These are complex (Im > 0), or real beside the contact.
-        """
-        root = (
-            np.sqrt(left) / np.sqrt(right)
-            if np.iscomplexobj(left)
-            else np.sqrt(np.abs(left / right))
-        )
-        return 0.5 * (self.k2 * root - self.k1 / root)
+    @property
+    def _exponents(self) -> tuple[float, float]:
+        """1/2 + ε and 1/2 - ε."""
+        return 0.5 + self.epsilon, 0.5 - self.epsilon
 
     def gap_excess(self, x: Array) -> tuple[Array, Array]:
         """(G, continued) of `_beside` in true units (a slope), singular ends included.
@@ -174,11 +168,10 @@ class SlopeDensity(Density):
         """
         G, continued = in_order(self._beside, x)
         if self.k1 or self.k2:
-            G = (
-                G
-                - self._singular_outside(self.contact.from_left(x), -self.contact.from_right(x))
-                / self.half_modulus
-            )
+            ratio = np.abs(self.contact.from_left(x) / self.contact.from_right(x))
+            a, b = self._exponents
+            ends = self.k2 * _power(ratio, a) - self.k1 / _power(ratio, b)
+            G = G - 0.5 * ends / (math.cos(math.pi * self.epsilon) * self.half_modulus)
         return G, continued
 
     @override
@@ -202,7 +195,12 @@ class SlopeDensity(Density):
         return out
 
     def _hilbert_inside(self, x: Array) -> Array:
-        return self.half_modulus * self._slope(x)
+        H = self.half_modulus * self._slope(x)
+        if not self.epsilon:
+            return H
+        # Where p is infinite so is this; only the slope's part is given there, as for ε = 0
+        p = self(x)
+        return H - math.tan(math.pi * self.epsilon) * np.where(np.isfinite(p), p, 0.0)
 
     @override
     def cauchy(self, z: ArrayLike, side: int = 1) -> Complex:
@@ -282,16 +280,14 @@ class SlopeDensity(Density):
         `far` leaves out the limit (k2 - k1)/2 of the first.
         """
         left, right, r = self.contact.from_left(z), -self.contact.from_right(z), self.contact.r
-        root1, root2 = np.sqrt(left), np.sqrt(right)
-        root, inverse = root1 / root2, root2 / root1
-        sum_of_roots = root1 + root2
-        ends = (
-            (self.k2 / root2 + self.k1 / root1)
-            * (r / sum_of_roots)  # root - 1 = 2r / (root2 (root1 + root2))
-            if far
-            else 0.5 * (self.k2 * root - self.k1 * inverse)
-        )
-        return np.array([ends, -0.5 * (r / left) * ((self.k2 * root + self.k1 * inverse) / right)])
+        (a, b), half = self._exponents, 0.5 / math.cos(math.pi * self.epsilon)
+        up, down = _power(left / right, a), 1.0 / _power(left / right, b)
+        ends = self.k2 * up - self.k1 * down
+        if far:
+            logarithm = lerch.log1p(2.0 * r / right)
+            ends = self.k2 * np.expm1(a * logarithm) - self.k1 * np.expm1(-b * logarithm)
+        steep = (r / left) * ((self.k2 * a * up + self.k1 * b * down) / right)
+        return np.array([half * ends, -2.0 * half * steep])
 
     def _on_surface(self, x: Array, side: int) -> Complex:
         """F' at real x: from the body's side, just below the surface; infinite where p' is."""
@@ -310,6 +306,11 @@ class SlopeDensity(Density):
         dF.imag[outside] = 0.0
         dF.imag = side * dF.imag if side else 0.0
         return dF
+
+
+def _power(ratio: Any, exponent: float) -> Any:
+    """ratio^exponent; a root is faster."""
+    return np.sqrt(ratio) if exponent == 0.5 else ratio**exponent
 
 
 @dataclass(frozen=True, eq=False)
@@ -367,3 +368,25 @@ class TransformDensity(SlopeDensity):
 
     def _far_pair(self, z: Complex) -> tuple[Complex, Complex]:
         return outer_series(self.series, self.contact, z)
+
+
+def outer_series(series: Array, contact: Interval, z: Any) -> tuple[Any, Any]:
+    """Σ_{n>0} g_n ρ^n and its derivative, ρ = 1/(s + sqrt(s - 1) sqrt(s + 1)), off the contact.
+
+    That is 1/π∫p/(z - t) dt of p = sqrt(1 - s²) Σ g_{n+1} U_n(s). The other form of ρ,
+    s - sqrt(s² - 1), cancels. As dρ/dz = -ρ/R, the derivative is -Σ n g_n ρ^n / R.
+    """
+    left, right = contact.from_left(z), -contact.from_right(z)
+    on_line, side = not np.iscomplexobj(z), 1.0
+    if on_line:
+        side = np.sign(left)
+        left, right = np.abs(left), np.abs(right)
+    root = side * (np.sqrt(left) * np.sqrt(right))
+    rho = 2.0 * contact.r / (side * (left + right) + 2.0 * root)
+    F, steep = np.zeros_like(rho), np.zeros_like(rho)
+    for n in range(len(series) - 1, 0, -1):
+        F += series[n]
+        F *= rho
+        steep += n * series[n]
+        steep *= rho
+    return F, -steep / root

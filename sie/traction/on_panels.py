@@ -2,8 +2,8 @@
 
     p = E*/2 cos²(πε)/π V on the contact,        F = -E*/2 cos(πε)/π V elsewhere
 
-with V of `potential`; ε = 0 unless dissimilar bodies slide. In full sliding, `SlidingDensity`,
-q = f p acts back on the pressure, and the exponents leave 1/2:
+with V of `potential`; ε = 0 unless dissimilar bodies slide. In full sliding q = f p
+acts back on the pressure, and the exponents leave 1/2:
 
     1/π PV∫ p(t)/(x - t) dt + tan(πε) p(x) = E*/2 H(x),        tan πε = -β f
 
@@ -11,8 +11,7 @@ f with the sign of sliding. With w(x) = (x - x1)^(1/2+ε) (x2 - x)^(1/2-ε) the 
 
     p = E*/2 cos²(πε) (w/π PV∫ H/(w (t - x)) dt + tan(πε) H)
 
-and V gives both terms at once. Singular ends add k1/2 ((x2-x)/(x-x1))^(1/2-ε) +
-k2/2 ((x-x1)/(x2-x))^(1/2+ε).
+and V gives both terms at once. The singular ends are in `of_slope`.
 
 References: Galin, Contact Problems (1961); Hills, Nowell & Sackfield (1993) § 2.5; Muskhelishvili
 (1953) §§ 107-110 for the edges.
@@ -23,15 +22,15 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any, Self
+from typing import Self
 
 import numpy as np
 from numpy.typing import NDArray
 
 from sie.inheritance import override
-from sie.numerics import chebyshev, lerch
+from sie.numerics import chebyshev
 from sie.numerics.interval import Interval
-from sie.profiles.power_law import PowerLaw
+from sie.profiles.functions import PowerLaw
 
 from . import potential
 from .of_slope import SlopeDensity
@@ -171,36 +170,3 @@ class PanelDensity(SlopeDensity):
         breaks[0], breaks[-1] = min(breaks[0], contact.x1), max(breaks[-1], contact.x2)
         panels = Panels(Geometry(replace(slope, breaks=breaks), contact), old.I0)
         return replace(self, contact=contact, panels=panels)
-
-
-class SlidingDensity(PanelDensity):
-    """The pressure in full sliding."""
-
-    def _singular_pair(self, z: Complex, far: bool) -> Complex:
-        left, right, r = self.contact.from_left(z), -self.contact.from_right(z), self.contact.r
-        at_left, half = 0.5 + self.epsilon, 0.5 / self.panels.edge.cos
-        logarithm = lerch.log1p(2.0 * r / right) if far else np.log(left / right)
-        power = np.expm1 if far else np.exp
-        ends = self.k2 * power(at_left * logarithm) - self.k1 * power((at_left - 1.0) * logarithm)
-        steep = self.k2 * at_left * np.exp(at_left * logarithm) - self.k1 * (
-            at_left - 1.0
-        ) * np.exp((at_left - 1.0) * logarithm)
-        return np.array([half * ends, -2.0 * half * r * steep / (left * right)])
-
-    def _hilbert_inside(self, x: Array) -> Array:
-        # Where p is infinite so is this; only the slope's part is given there, as for similar
-        # bodies
-        p = self(x)
-        return self.half_modulus * self._slope(x) - math.tan(math.pi * self.epsilon) * np.where(
-            np.isfinite(p), p, 0.0
-        )
-
-    def _edge(self, ratio: Array, on_left: bool) -> Array:
-        out: Array = ratio ** (0.5 - self.epsilon if on_left else 0.5 + self.epsilon)
-        return out
-
-    def _singular_outside(self, left: Any, right: Any) -> Any:
-        ratio = left / right if np.iscomplexobj(left) else np.abs(left / right)
-        return (0.5 / self.panels.edge.cos) * (
-            self.k2 * ratio ** (0.5 + self.epsilon) - self.k1 * ratio ** (self.epsilon - 0.5)
-        )

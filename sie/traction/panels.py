@@ -24,8 +24,8 @@ from numpy.typing import NDArray
 from sie.numerics import chebyshev
 from sie.numerics.cauchy_sums import SEPARATED, KernelSums
 from sie.numerics.interval import EPS
-from sie.profiles.power_law import PowerLaw
-from sie.profiles.slope import JUMP, SEEN_JUMP, Slope
+from sie.profiles.functions import PowerLaw
+from sie.profiles.slope import JUMP, SEEN_JUMP
 
 from .near_breaks import ContinuousBreaks
 from .piece_quadrature import Geometry, quadrature_order
@@ -41,7 +41,7 @@ MANY = 24
 CHOP = 0.5 * EPS
 # Part of a piece that is next to a break: there the logarithm is more than 7 (`near_breaks`).
 NEXT_TO_BREAK = 1e-3
-TERMS = 23  # of the series beyond FAR_FIELD (`outer_series`), where |ρ|^22 <= 0.172^22 is rounding
+TERMS = 23  # of `of_slope.outer_series` beyond FAR_FIELD, where |ρ|^22 <= 0.172^22 is rounding
 
 
 class Series(NamedTuple):
@@ -73,13 +73,11 @@ class Panels:
         self.half_length = 0.5 * g.length
         self.series = g.chebyshev_slope(g.slope.degree + 1)
         self.degree = self.series.shape[1] - 1
-        self.lengths = [self.degree + 1] * len(g.k)
         if g.slope.functions:
             matters = np.abs(self.series) > CHOP * self.scale
             matters[:, 0] = True
             lengths = self.degree + 1 - matters[:, ::-1].argmax(axis=1)
             self.series[np.arange(self.degree + 1) >= lengths[:, None]] = 0.0
-            self.lengths = lengths.tolist()
         self.many = len(g.k) > MANY
 
     @cached_property
@@ -160,16 +158,13 @@ class Panels:
         return [list(zip(*of_end, strict=True)) for of_end in zip(*rows, strict=True)]
 
     def slope_and_Q(self, k: Any) -> tuple[Array, Array]:
-        """H and Q of one piece, as short as they are; of several as columns."""
-        if isinstance(k, int):
-            n = self.lengths[k]
-            return self.series[k, :n], self.continuation[k, : n - 1]
+        """H and Q of one piece, or of several as columns."""
         return self.series.T[:, k], self.continuation.T[:, k]
 
     def polynomials(self, k: Any) -> Series:
-        """All polynomials of one piece, as short as they are; of several as columns."""
+        """All polynomials of one piece, or of several as columns."""
         if isinstance(k, int):
-            return self._short_polynomials[k]
+            return self._of_each[k]
         return Series(*(c[:, k] for c in self._polynomials))
 
     @cached_property
@@ -185,14 +180,9 @@ class Panels:
         return Series(self.series.T, dH.T, ends.T, self.continuation.T, dQ.T)
 
     @cached_property
-    def _short_polynomials(self) -> list[Series]:
-        H, dH, ends, Q, dQ = (np.ascontiguousarray(c.T) for c in self._polynomials)
-        return [
-            Series(
-                H[k, :n], dH[k, : n - 1], ends[k, : max(n - 1, 1)], Q[k, : n - 1], dQ[k, : n - 2]
-            )
-            for k, n in enumerate(self.lengths)
-        ]
+    def _of_each(self) -> list[Series]:
+        columns = [np.ascontiguousarray(c.T) for c in self._polynomials]
+        return [Series(*rows) for rows in zip(*columns, strict=True)]
 
     # -- the breaks --------------------------------------------------------------------------------
 
@@ -205,28 +195,14 @@ class Panels:
     @cached_property
     def jumps(self) -> list[tuple[float, float]]:
         """(break, ±inf) inside the contact where H jumps: there the pressure is infinite."""
-        g = self.geometry
-        if g.slope.continuous:
-            return []
-        rise: dict[float, float] = {}
-        least = SEEN_JUMP if g.slope.functions else JUMP
-        # Rounding of coefficients that are given about x = 0 grows with the distance from there.
-        # The pieces beside a break decide: others may be as steep as a cusp.
-        steepness = np.abs(self.series[:, 1:]).sum(axis=1) / self.half_length
-        rounding: dict[float, float] = {}
-        for k, (lo, hi) in enumerate(g.ends.T.tolist()):
-            entering, leaving = self._slope_at_ends[:, k].tolist()
-            for e, jump, cut in (
-                (lo, entering, g.cut_left and k == 0),
-                (hi, -leaving, g.cut_right and k == len(self.series) - 1),
-            ):
-                if not cut:
-                    rise[e] = rise.get(e, 0.0) + jump
-                    rounding[e] = max(rounding.get(e, self.scale), abs(e) * float(steepness[k]))
+        slope, c = self.geometry.slope, self.contact
+        # on its axis a power law is steep, but without a corner p is finite there
+        steep = [f.shift for f in slope.functions if isinstance(f.function, PowerLaw)]
         return [
-            (e, math.copysign(math.inf, jump))
-            for e, jump in rise.items()
-            if abs(jump) > least * rounding[e] and not _is_cusp(g.slope, e)
+            (e, math.copysign(math.inf, rise))
+            for e, rise in slope.jumps
+            if c.from_left(e) > 0.0 < c.from_right(e)
+            and not (e in steep and not slope.without_functions.corner(e)[0])
         ]
 
     @cached_property
@@ -264,22 +240,16 @@ class Panels:
         """(break, ±inf) where p' ~ -[H']/π ln|x - e| is infinite; -inf where p itself is."""
         g, dH = self.geometry, self._polynomials.dH
         n = np.arange(1.0, len(dH) + 1.0)  # U_m(±1) = (±1)^m (m + 1)
-        slopes: dict[float, list[float]] = {}
-        bounds: dict[float, float] = {}  # of |H'| on the pieces beside a break
-        bound = n @ np.abs(dH)
-        for side, at_ends in ((1, (n * (-1.0) ** (n - 1.0)) @ dH), (0, n @ dH)):
-            for k, slope in enumerate(at_ends.tolist()):
-                if not (g.cut_left and k == 0 if side else g.cut_right and k == len(at_ends) - 1):
-                    e = float(g.ends[1 - side, k])
-                    slopes.setdefault(e, [0.0, 0.0])[side] = slope
-                    bounds[e] = max(bounds.get(e, 0.0), float(bound[k]))
-        least = SEEN_JUMP if g.slope.functions else JUMP
-        infinite = {e for e, _ in self.jumps}
-        return tuple(
-            (e, -math.inf if e in infinite else math.copysign(math.inf, before - after))
-            for e, (before, after) in slopes.items()
-            if e in infinite or abs(after - before) > least * bounds[e]
-        )
+        inside = np.ones(g.ends.shape, dtype=bool)
+        inside[0, :1], inside[1, -1:] = not g.cut_left, not g.cut_right
+        e, which = np.unique(g.ends[inside], return_inverse=True)
+        rises = np.stack(((n * (-1.0) ** (n - 1.0)) @ dH, -n @ dH))[inside]
+        rise, bound = np.bincount(which, rises, len(e)), np.zeros(len(e))
+        np.maximum.at(bound, which, np.broadcast_to(n @ np.abs(dH), inside.shape)[inside])
+        infinite = np.isin(e, [at for at, _ in self.jumps])
+        sign = np.where(infinite, -np.inf, np.copysign(np.inf, -rise))
+        found = infinite | (np.abs(rise) > (SEEN_JUMP if g.slope.functions else JUMP) * bound)
+        return tuple(zip(e[found].tolist(), sign[found].tolist(), strict=True))
 
     # -- quadrature beyond the reach ---------------------------------------------------------------
 
@@ -318,12 +288,6 @@ class Panels:
         from_right = np.where(sign > 0.0, np.pi - angle, angle)  # T_n(cos ψ) = cos nψ
         WH = weight * g.slopes(offset)
         return np.array([2.0 * np.vdot(WH, np.cos(n * from_right)) for n in range(TERMS)])
-
-
-def _is_cusp(slope: Slope, x: float) -> bool:
-    """Whether x is the axis of a power law, so steep that it seems to jump, without a corner."""
-    steep = (f.shift for f in slope.functions if isinstance(f.function, PowerLaw))
-    return x in steep and not slope.without_functions.corner(x)[0]
 
 
 def _order_beyond(reach_in_s: Array) -> Index:

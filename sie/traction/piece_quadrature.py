@@ -26,7 +26,7 @@ from numpy.typing import NDArray
 from sie.inheritance import override
 from sie.numerics import chebyshev
 from sie.numerics.gauss_jacobi import gauss_jacobi
-from sie.numerics.interval import EPS, Interval
+from sie.numerics.interval import Interval
 from sie.profiles.slope import SEEN_JUMP, Slope
 
 from .edge_functions import Powers, SquareRoot
@@ -111,12 +111,9 @@ class Geometry:
     def part(self, chosen: NDArray[np.bool_]) -> Geometry:
         """Some of the pieces; quadrature only."""
         part = copy(self)
-        part.k = self.k[chosen]
-        part.ends = self.ends[:, chosen]
-        part.tails = self.tails[:, chosen]
-        part.length = self.length[chosen]
-        part.left, part.right = self.left[:, chosen], self.right[:, chosen]
-        part.root_left, part.root_right = self.root_left[:, chosen], self.root_right[:, chosen]
+        part.k, part.length = self.k[chosen], self.length[chosen]
+        for name in ("ends", "tails", "left", "right", "root_left", "root_right"):
+            setattr(part, name, getattr(self, name)[:, chosen])
         part.cut_left = self.cut_left and bool(chosen[0])
         part.cut_right = self.cut_right and bool(chosen[-1])
         from_edge, sign, length = self.angles
@@ -159,20 +156,24 @@ class Geometry:
 
     def slopes(self, offset: Array) -> Array:
         """H at lo + offset, (K, n)."""
-        return self.slope.local(self.k, self.ends[0], self.tails[0], offset)
+        lo, tail = self.ends[0][:, None], self.tails[0][:, None]
+        H: Array = self.slope.value(self.k[:, None], lo, tail + offset)
+        return H
 
-    def weighted_derivative(self, offset: Array, angle: Array, weight: Array, H: Array) -> Array:
-        """H' times the weights at the nodes, which are at these angles from the nearer edge."""
-        slope, lo, tail = self.slope, self.ends[0], self.tails[0]
-        dH: Array = weight * slope.local_derivative(self.k, lo, tail, offset)
+    def weighted_derivative(self, offset: Array, weight: Array) -> Array:
+        """H' times the weights at the nodes; where there are functions, of the pieces' series."""
+        slope, lo, tail = self.slope, self.ends[0][:, None], self.tails[0][:, None]
         if not slope.functions:
+            dH: Array = weight * slope.derivative.value(self.k[:, None], lo, tail + offset)
             return dH
-        # H' dφ = dH / (r cos φ), with dH from the interpolant at the nodes
-        functions = H - slope.without_functions.local(self.k, lo, tail, offset)
-        functions[np.ptp(functions, axis=1) <= SEEN_JUMP * np.abs(H).max(axis=1)] = 0.0
-        n = H.shape[1]
-        steep = chebyshev.gauss_legendre(n)[1] * (functions @ chebyshev.differentiation(n)[0].T)
-        return dH + steep / (self.contact.r * np.sin(angle))
+        half = np.maximum(0.5 * self.length[:, None], SHORTEST)
+        series = self.chebyshev_slope(max(slope.degree + 1, 2))
+        # what a function's values are rounded by
+        rounding = np.abs(series[:, 1:]).sum(axis=1) <= SEEN_JUMP * np.abs(series[:, 0])
+        series[rounding] = 0.0
+        slopes = np.polynomial.chebyshev.chebder(series, axis=1)
+        T = chebyshev.polynomials(slopes.shape[1], offset / half - 1.0)
+        return np.asarray(weight * np.einsum("nkm,kn->km", T, slopes) / half)
 
     def chebyshev_slope(self, n: int) -> Array:
         """Chebyshev coefficients of H on every piece, from n points: (K, n)."""
@@ -286,18 +287,6 @@ class SlidingGeometry(Geometry):
         offset = 2.0 * self.contact.r * np.sin(0.5 * swept) * np.sin(0.5 * swept + other)
         smooth = (np.tan(0.5 * angle) / g) ** sign if whole else 1.0
         return offset, angle, whole * w * smooth
-
-    def weighted_derivative(self, offset: Array, angle: Array, weight: Array, H: Array) -> Array:
-        """The same from each piece's Chebyshev series; only Newton's steps depend on it."""
-        half = np.maximum(0.5 * self.length[:, None], SHORTEST)
-        series = self.chebyshev_slope(max(self.slope.degree + 1, 2))
-        # rounding on a piece that short
-        straight = np.abs(series[:, 1:]).sum(axis=1) <= 4.0 * EPS * np.abs(series[:, 0])
-        series[straight] = 0.0
-        slopes = np.polynomial.chebyshev.chebder(series, axis=1)
-        T = chebyshev.polynomials(slopes.shape[1], offset / half - 1.0)
-        dH: Array = weight * np.einsum("nkm,kn->km", T, slopes) / half
-        return dH
 
 
 def quadrature_order(degree: int) -> int:

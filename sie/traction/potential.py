@@ -34,7 +34,7 @@ from sie.numerics import chebyshev
 from sie.numerics.cauchy_sums import CHUNK, add_pairs, chunks
 
 from .edge_functions import BreakFunction
-from .outer_series import FAR_FIELD, outer_series
+from .of_slope import FAR_FIELD, outer_series
 from .panels import Panels
 
 Array = NDArray[np.float64]
@@ -70,11 +70,13 @@ def on_contact(p: Panels, x: Array) -> Array:
     if p.many and len(x) > CHUNK:
         return np.concatenate([on_contact(p, x[part]) for part in chunks(len(x))])
     w, function_of = p.edge.on_contact(x, p.geometry.slope.continuous and not p.many)
-    near = p.continuous_breaks.near(x)
-    levelled = near.levelled(function_of) if near else function_of
+    breaks, levelled = p.continuous_breaks, function_of
+    near = breaks.near(x)
+    if near[0].size:
+        levelled = breaks.levelled(function_of, near, len(x))
     V, _ = _on_line(p, x, w, levelled, served=p.serves_contact)
-    if near:
-        V[near.i] += near.left_out(function_of, x)
+    if near[0].size:
+        V[near[0]] += breaks.left_out(function_of, near, x)
     for e, infinite in p.jumps:
         V[x == e] = infinite
     return V
@@ -114,7 +116,7 @@ def _on_line(
         S, k, i = p.sums.far(x)
         V, blocks = X * S, _pairs(p, x, k, i)
     else:
-        V, blocks = np.zeros_like(X), _ranges(p, x, served)
+        V, blocks = np.zeros_like(X), _regions(p, x, served)
     continued = np.zeros_like(V)
     shared: dict[float, Any] = {}
     for block in blocks:
@@ -132,21 +134,6 @@ def _on_line(
         elif edge >= 0:
             continued[i[k == edge]] = slope[k == edge]
     return V, continued
-
-
-def _ranges(p: Panels, x: Array, served: bool) -> list[Block]:
-    """Every piece with the ascending points within its reach, and with those beyond."""
-    if served:
-        return [Block(k, WHOLE, p.s(k, x)) for k in range(len(p.series))]
-    g = p.geometry
-    middle, reach = g.ends[0] + (g.tails[0] + p.half_length), p.reach_in_s * p.half_length
-    first, last = x.searchsorted(middle - reach), x.searchsorted(middle + reach, side="right")
-    return [
-        Block(k, slice(start, stop), p.s(k, x[start:stop]) if closed else None)
-        for k, (i, j) in enumerate(zip(first.tolist(), last.tolist(), strict=True))
-        for start, stop, closed in ((0, i, False), (j, len(x), False), (i, j, True))
-        if start < stop
-    ]
 
 
 # -- in the upper half-plane -----------------------------------------------------------------------
@@ -213,14 +200,14 @@ def _near(p: Panels, z: Complex) -> tuple[Complex, Complex]:
     return V, dV
 
 
-def _regions(p: Panels, z: Complex) -> list[Block]:
+def _regions(p: Panels, z: Any, served: bool = False) -> list[Block]:
     """Every piece with the points in the ellipse of its reach, and with those beyond."""
     blocks = []
     for k, rho in enumerate(p.reach.tolist()):
         s = p.s(k, z)
         # A square inside the ellipse is tried first
         square = 0.5 * (rho - 1.0 / rho) / math.sqrt(2.0)
-        if max(s.real.max(), -s.real.min(), s.imag.max()) <= square:
+        if served or not z.size or max(s.real.max(), -s.real.min(), s.imag.max()) <= square:
             blocks.append(Block(k, WHOLE, s))
             continue
         inside = 0.5 * (np.abs(s - 1.0) + np.abs(s + 1.0)) <= 0.5 * (rho + 1.0 / rho)

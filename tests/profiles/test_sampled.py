@@ -4,8 +4,6 @@ import sys
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 from scipy.interpolate import CubicSpline, make_smoothing_spline
 from traces import H, X, pressed
 
@@ -227,26 +225,3 @@ def test_levelling_takes_out_the_line_and_nothing_else():
     assert flat.heights[np.abs(X) < 0.9] == pytest.approx(0.0, abs=1e-14)
     with pytest.raises(ValueError, match="0 points of the trace"):
         tilted.levelled((5.0, 6.0))
-
-
-@given(
-    a=st.floats(0.1, 0.7),
-    R=st.floats(0.5, 200.0),
-    centre=st.floats(-0.1, 0.1),
-    tilt=st.floats(-1e-3, 1e-3),
-    offset=st.floats(-1.0, 1.0),
-)
-def test_the_flat_with_rounded_edges_in_a_trace_is_found(a, R, centre, tilt, offset):
-    x = np.linspace(-1.0, 1.0, 301)
-    fit = sie.Sampled(
-        x, offset + tilt * x + np.maximum(np.abs(x - centre) - a, 0.0) ** 2 / (2.0 * R)
-    ).fit_rounded_flat()
-    assert (fit.half_flat, fit.radius, fit.centre) == pytest.approx(
-        (a, R, centre), rel=1e-4, abs=1e-5
-    )
-    assert fit.largest <= 1e-6 * max(0.01 / R, 1e-3)
-
-
-def test_a_trace_of_heights_upside_down_fits_no_pad():
-    with pytest.raises(ValueError, match='heights = "surface"'):
-        sie.Sampled(X, -H).fit_rounded_flat()

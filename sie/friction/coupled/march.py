@@ -100,8 +100,7 @@ class Edge:
     def values(self, rise: Array) -> Array:
         """E*/2 h' ahead, as it rises outwards."""
         u = self.sign * (self.since + rise)
-        at = np.array([self.entered])
-        found = self.slope.local(np.array([self.piece]), at, np.zeros(1), u.reshape(1, -1))
+        found = self.slope.value(np.array([self.piece]), self.entered, u.ravel())
         values: Array = self.sign * self.half_modulus * found.reshape(rise.shape)
         return values
 
@@ -137,8 +136,7 @@ def _minimum(slope: Slope, pieces: list[int], within: tuple[float, float]) -> fl
     """The place where h' changes sign."""
 
     def value(x: float, k: int) -> float:
-        at = np.array([x])
-        return float(slope.local(np.array([k]), at, np.zeros(1), np.zeros((1, 1)))[0, 0])
+        return float(slope.value(np.array([k]), np.array([x]), 0.0)[0])
 
     for k in pieces:
         lo, hi = max(within[0], float(slope.breaks[k])), min(within[1], float(slope.breaks[k + 1]))

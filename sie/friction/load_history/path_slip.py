@@ -22,8 +22,8 @@ from sie.numerics import chebyshev
 from sie.numerics.graded_panels import Pieces, Rule
 from sie.numerics.interval import Interval
 from sie.numerics.zones import within
-from sie.traction.base import ZERO, Density
-from sie.traction.combination import superposed
+from sie.traction.base import Density
+from sie.traction.combination import ZERO, superposed
 
 from .load_steps import Followable, TurningPoint, sheared_all_over
 

@@ -1,14 +1,19 @@
-"""A power law h = A |x - c|^m, which is no polynomial unless m is whole."""
+"""Slopes that are functions: those of a user, and power laws h = A |x - c|^m."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from sie import arguments
+
 Array = NDArray[np.float64]
+Vectorised = Callable[[Array], Any]
 
 
 @dataclass(frozen=True)
@@ -31,3 +36,19 @@ class PowerLaw:
         """
         a = self.exponent - 1.0
         return self.exponent * self.coefficient * y**a / math.tan(0.5 * math.pi * a)
+
+
+@dataclass(frozen=True)
+class FunctionTerm:
+    """The function sign f(sign (t - shift)): a user's f, moved and mirrored with its profile."""
+
+    function: Vectorised
+    shift: float = 0.0
+    sign: float = 1.0
+
+    def __call__(self, offset: Array) -> Array:
+        """Values at t, given offset = t - shift; `resolution` refuses those that are not finite."""
+        with np.errstate(all="ignore"):
+            if self.sign > 0.0:
+                return arguments.real_values("slope", self.function, offset)
+            return -arguments.real_values("slope", self.function, -offset)
