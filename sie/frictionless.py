@@ -14,7 +14,7 @@ import numpy as np
 
 from .contact.convexity import may_have_merged, rises, rises_beside, turns_away
 from .contact.known_contact import Normal
-from .contact.normal import normal_contact, not_one_patch, of_one_patch, one_series
+from .contact.normal import by_pieces, not_one_patch, of_one_patch, one_series
 from .contact.pressure import pressure
 from .contact.window import window_of
 from .errors import ContactError
@@ -201,7 +201,7 @@ class Frictionless:
     @cached_property
     def unverified(self) -> Normal:
         """The contact that carries the load and the moment if it is one patch."""
-        return self._of_one_series or normal_contact(self.scene, self.tol, self.economy)
+        return self._of_one_series or by_pieces(self.scene, self.tol, self.economy)
 
     @cached_property
     def density(self) -> SlopeDensity:

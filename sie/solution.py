@@ -105,7 +105,7 @@ class Solution(Frictionless, StressAnswers, DerivativeAnswers):
         if not self.scene.epsilon:
             return super()._not_convex
         from .certificate.pressure_check import certificate
-        from .contact.least_gaps import TOLERATED, shown
+        from .contact.gap import TOLERATED, shown
 
         found = self.unverified
         density = pressure(found, self.scene, self.tol, self.economy)

@@ -25,13 +25,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie.contact.edge_integrals import edge_integrals
-from sie.contact.least_gaps import intervals_below, relative_gaps
+from sie.contact.gap import intervals_below, relative_gaps
 from sie.contact.small_strains import notes, regular_points
+from sie.numerics.chord import Points
 from sie.numerics.interval import EPS, Interval
+from sie.patches.rule import principal_value
 from sie.profiles.look import FINER, largest_misfit, start_of
 from sie.profiles.resolution import refined
 from sie.profiles.slope import Slope
-from sie.progress_bar import reported, step_done
+from sie.progress_bar import reported
 from sie.traction.of_slope import SlopeDensity
 
 from .quadrature import Rule, composite_rule, finite
@@ -45,7 +47,6 @@ WELL_POSED = 0.05  # smaller singular values belong to errors that the points do
 # error of the pressure near a misplaced edge, over the constant that it leaves in the residual,
 # about
 MISPLACED = 4.0
-TOGETHER = 2**17  # entries of a matrix that are computed at once
 
 
 @reported("certificate")
@@ -63,7 +64,8 @@ def _measured(density: SlopeDensity, slope: Slope, tol: float) -> Certificate:
     p = finite(density(rule.x))
     root = _of_sharp_edges(density, rule.x)
     if density.k1 or density.k2:  # p dx = p root r dφ, both at x as it is rounded
-        rule = rule._replace(weight=rule.weight * root / np.sin(rule.angle))
+        weight = rule.weight * root / np.sin(rule.angle)
+        rule = rule._replace(on=rule.on._replace(weight=weight))
     peak = float((p * root).max())
     H, H_beside, H_at_edges = _slopes(slope, contact, rule.between)
     residual = _residual(density, H, rule, p)
@@ -153,30 +155,10 @@ def _slopes(slope: Slope, contact: Interval, at: Array) -> tuple[Array, Array, A
 
 
 def _residual(density: SlopeDensity, H: Array, rule: Rule, p: Array) -> Array:
-    """1/π PV∫p/(x - t) - E*/2 H between the nodes, by subtracting p there.
-
-    What is left of the integrand is smooth.
-    """
-    at, x = rule.between, rule.x
-    values = density(at)
-    taken_out = np.ones(1) if rule.inner == slice(None) else np.zeros(len(x))
-    taken_out[rule.inner] = 1.0
-    integral = values * np.log(rule.ends.from_left(at) / rule.ends.from_right(at))
-    rows = max(TOGETHER // len(x), 1)
-    for k in range(0, len(at), rows):
-        step_done(0)
-        some = slice(k, k + rows)
-        integrand = p - values[some, None] * taken_out
-        distance = at[some, None] - x
-        integrand /= distance
-        summed = integrand @ rule.weight
-        if not np.isfinite(summed).all():
-            integrand[distance == 0.0] = 0.0  # the node is the point: on a panel of a few ulp
-            summed = integrand @ rule.weight
-        integral[some] += summed
-    return (
-        integral / np.pi + math.tan(math.pi * density.epsilon) * values - density.half_modulus * H
-    )
+    """1/π PV∫p/(x - t) - E*/2 H between the nodes."""
+    at, values = Points(rule.between, 0.0 * rule.between), density(rule.between)
+    found = principal_value(rule.line, rule.on, p, (at, np.zeros(len(values), int)), values)
+    return found + math.tan(math.pi * density.epsilon) * values - density.half_modulus * H
 
 
 def _implied(residual: Array, contact: Interval, at: Array) -> float:

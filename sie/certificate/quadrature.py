@@ -16,9 +16,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie.numerics import chebyshev
+from sie.numerics.chord import Chord, Points
 from sie.numerics.gauss_jacobi import gauss_jacobi
 from sie.numerics.graded_rule import GRADING, NODES, balanced, graded, on_panels
 from sie.numerics.interval import EPS, Interval, angles, inner, position
+from sie.patches.panels import Patches
+from sie.patches.rule import Rule as PatchRule
 from sie.profiles.functions import PowerLaw
 from sie.profiles.resolution import refined
 from sie.profiles.slope import Slope
@@ -41,19 +44,27 @@ POINTS = 48  # at which the residual is measured: between the longest panels, wh
 
 
 class Rule(NamedTuple):
-    """Nodes x at angles from the right edge, weights of ∫ dx, and ends of large panels.
+    """A rule on one contact, angles from the right edge, and places between its points.
 
-    No node is near the ends of large panels.
-
-    `inner` nodes, in `ends`, are not next to an edge.
+    on         nodes and weights of ∫ dx; the patch of those next to an edge in sliding is -1
+    line       the rest of the contact, as a patch
+    between    ends of large panels, where no node is near
     """
 
-    x: Array
+    on: PatchRule
+    line: Patches
     angle: Array
-    weight: Array
     between: Array
-    inner: slice
-    ends: Interval
+
+    @property
+    def x(self) -> Array:
+        """The nodes."""
+        return np.asarray(self.on.points.x)
+
+    @property
+    def weight(self) -> Array:
+        """Those of ∫ dx."""
+        return self.on.weight
 
 
 def finite(values: Array) -> Array:
@@ -96,18 +107,13 @@ def composite_rule(
     x = position(contact, angle)
     _count_from_breaks(x, contact, edges, np.union1d(inner(contact, resolution.breaks), also))
     x, weight, angle = x.ravel(), (weight * contact.r * np.sin(angle)).ravel(), angle.ravel()
-    if not epsilon:
-        return Rule(x, angle, weight, position(contact, large), slice(None), contact)
-    large = large[(large > edges[1]) & (large < edges[-2])]
-    x2, x1 = position(contact, edges[[1, -2]]).tolist()
-    return Rule(
-        x,
-        angle,
-        weight,
-        position(contact, large),
-        slice(NODES, -NODES),
-        Interval(x1, x2),
-    )
+    ends, patch = contact[:2], np.zeros(len(x), dtype=int)
+    if epsilon:
+        large = large[(large > edges[1]) & (large < edges[-2])]
+        x2, x1 = position(contact, edges[[1, -2]]).tolist()
+        ends, patch[:NODES], patch[-NODES:] = (x1, x2), -1, -1
+    on = PatchRule(Points(x, np.zeros(len(x))), patch, np.zeros(0, dtype=int), weight)
+    return Rule(on, Patches.of((ends,), Chord()), angle, position(contact, large))
 
 
 def _count_from_breaks(x: Array, contact: Interval, edges: Array, breaks: Array) -> None:

@@ -10,7 +10,7 @@ from html import escape
 from typing import Any
 
 from sie.arguments import as_numbers
-from sie.contact.least_gaps import TOLERATED, Intervals, shown
+from sie.contact.gap import TOLERATED, Intervals, shown
 from sie.numerics.interval import EPS
 
 PROMISE = (

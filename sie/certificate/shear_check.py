@@ -31,6 +31,7 @@ from sie.profiles.resolution import refined
 from sie.profiles.slope import Slope
 from sie.traction.base import Density
 
+from .quadrature import Rule as OneRule
 from .quadrature import composite_rule, finite
 from .result import EXPLAINED, ShearCertificate
 
@@ -48,7 +49,6 @@ MANY = 12
 # The end of a zone is known to this part of the contact: there |q| falls from f p like a root.
 ENDS = 32.0 * EPS
 SLIPS = 400  # places at which the direction of slip is measured, about
-LINE = Chord()
 
 
 class Term(NamedTuple):
@@ -78,13 +78,9 @@ class Term(NamedTuple):
         return Points(x, 0.0 * x), np.zeros(len(x), dtype=np.int64)
 
 
-def on_contact(
-    factor: float, density: Callable[[Array], Array], rule: Any, contact: Interval
-) -> Term:
+def on_contact(factor: float, density: Callable[[Array], Array], rule: OneRule) -> Term:
     """A term on one patch, by a composite rule."""
-    x = rule.x
-    points = Rule(Points(x, 0.0 * x), np.zeros(len(x), dtype=int), np.zeros(0, int), rule.weight)
-    return Term(factor, density, Patches.of((contact[:2],), LINE), points, finite(density(x)))
+    return Term(factor, density, rule.line, rule.on, finite(density(rule.x)))
 
 
 def shear_certificate(
@@ -153,7 +149,7 @@ def _term(density: Any, slope: Slope, resolution: Slope | None) -> Term:
     """A pressure on its patches, or on its contact."""
     if not hasattr(density, "patches"):
         rule = composite_rule(density.contact, slope, resolution=resolution)
-        return on_contact(1.0, density, rule, density.contact)
+        return on_contact(1.0, density, rule)
     patches = Patches.of(density.patches, Chord(density.period))
     return Term(1.0, density, patches, density.rule, finite(density.at_rule), exact=True)
 
@@ -163,7 +159,7 @@ def on_own_rule(
 ) -> Term:
     """A shear on one contact, by a rule that shrinks towards the marks in it as well."""
     inside = np.array([x for x in marks if contact.x1 < x < contact.x2])
-    return on_contact(1.0, density, composite_rule(contact, slope, inside), contact)
+    return on_contact(1.0, density, composite_rule(contact, slope, inside))
 
 
 def _at_rule(term: Term, own: Term) -> Array:
@@ -221,13 +217,8 @@ def excess(
 def opposing(state: Slip, slip: Array, x: Array) -> float:
     """The smallest slip in its own direction since the last turning point, over the largest."""
     largest = float(np.abs(slip).max(initial=0.0))
-    lowest = min(
-        (
-            float((sign * slip[(x > lo) & (x < hi)]).min(initial=0.0))
-            for lo, hi, sign in state.slipped
-        ),
-        default=0.0,
-    )
+    along = [sign * slip[(x > lo) & (x < hi)] for lo, hi, sign in state.slipped]
+    lowest = min((float(slips.min(initial=0.0)) for slips in along), default=0.0)
     return lowest / largest if largest else 0.0
 
 

@@ -1,48 +1,51 @@
 """The error of the pressure by the noise of a trace: an estimate beside the certificate.
 
 The contact is that of a trace's spline f; the surface without noise is another one. The error of
-the slope has two parts, and the change of the pressure by each is linear in it (`patches.noise`, in
-one patch or several):
+the slope has two parts, and the changes of pressure and edges by each are linear in it
+(`patches.newton.response`):
 
 - the spline in use less the reference (`Sampled.reference`), a spline through the trace without its
   outliers, smoothed by cross validation: this part is known;
 - the reference less the surface: draws of independent noise, smoothed as the reference is, whose
   size is that of the misfit about the contact (`splines.noise_level`).
 
-The report states |δp| of the first part and SPREAD standard deviations of the second. It assumes
-noise that is independent from point to point. Roughness that is correlated over several points is
-taken for a part of the surface, as cross validation takes it, unless the trace was smoothed so much
-further that the misfit shows it: then all that was smoothed away counts as an error. A wrong scale
-and the radius of the stylus are not covered.
+The report states |δp| of the first part and SPREAD standard deviations of the second. Next to a
+smooth edge that moves by δ the pressure changes as that at the distance δ from it, which is no
+first order. The noise is assumed to be independent from point to point. Roughness that is
+correlated over several points is taken for a part of the surface, as cross validation takes it,
+unless the trace was smoothed so much further that the misfit shows it: then all that was smoothed
+away counts as an error. A wrong scale and the radius of the stylus are not covered.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import asdict, dataclass
-from typing import TYPE_CHECKING, Any
+from dataclasses import asdict, dataclass, replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from sie.arguments import named_rows
-from sie.contact.known_contact import Edges
+from sie.patches.answer import SeveralPatches
+from sie.patches.density import PatchPressure
+from sie.patches.newton import response
 from sie.problem.scene import Scene
+from sie.profiles.base import Profile
 from sie.profiles.fitting import Gap
+from sie.profiles.pieces import of_profile
 from sie.profiles.placed_traces import PlacedTrace, traces_in
 from sie.profiles.sampled import Sampled
 from sie.profiles.splines import noise_level
 from sie.profiles.trace_values import Mended
-
-if TYPE_CHECKING:
-    from sie.patches.answer import SeveralPatches
-    from sie.patches.noise import PatchErrors
 
 Array = NDArray[np.float64]
 
 SPREAD = 2.5  # standard deviations: of some dozens of independent points few contacts have a larger
 DRAWS = 12  # of the noise
 NAMED = 3  # outliers or gaps that a row names
+INNER, PLACES = 0.9, 16  # of each patch: the part where the pressure is compared, and at how many
+TOLERANCE = 1e-15  # to which an error that is a function is resolved
 
 
 @dataclass(frozen=True)
@@ -157,72 +160,75 @@ def _listed(shown: Iterable[str], count: int, after: str = "") -> str:
 
 def trace_reports(scene: Scene, several: SeveralPatches) -> tuple[TraceReport, ...]:
     """A report for each trace in the profile of a scene that was solved."""
-    reports = []
-    for placed in traces_in(scene.profile):
-        extent = placed.extent(*several.edges.contact[:2])
-        if scene.profile.period < np.inf:
-            points = placed.trace.points
-            extent = float(points[0]), float(points[-1])
-        reference = placed.trace.reference(extent)
-        errors = _errors(placed, reference, scene, several)
-        reports.append(_report(placed, several.edges, reference, errors, scene.profile.period))
-    return tuple(reports)
+    return tuple(_report(placed, scene, several) for placed in traces_in(scene.profile))
 
 
-def _errors(
-    placed: PlacedTrace, reference: Sampled, scene: Scene, several: SeveralPatches
-) -> PatchErrors:
-    """What the known error and draws of the noise change."""
-    from sie.patches.noise import changes  # noqa: PLC0415 -- for traces only
-
-    trace, period = placed.trace, scene.profile.period
-    x = reference.points
-    contact = placed.direction * np.array(several.edges.contact[:2]) + placed.origin
-    lo, hi = (x[0], x[-1]) if period < np.inf else np.sort(np.clip(contact, x[0], x[-1]))
-    noise = noise_level(x, reference.heights, reference.lam, (float(lo), float(hi)))
-    known = placed.misfits(reference, period) - placed.misfits(trace, period)
-    draws = np.random.default_rng(0).normal(scale=noise, size=(DRAWS, len(x)))
-    return changes(
-        several.found,
-        several.pressure,
-        [
-            placed.with_heights(trace.points, known, 0.0, period),
-            *(placed.with_heights(x, draw, reference.lam, period) for draw in draws),
-        ],
-        SPREAD,
-        scene.moment is not None,
-    )
-
-
-def _report(
-    placed: PlacedTrace,
-    edges: Edges,
-    reference: Sampled,
-    errors: PatchErrors,
-    period: float,
-) -> TraceReport:
-    trace, contact = placed.trace, edges.contact
-    x = placed.x(trace.points)
+def _report(placed: PlacedTrace, scene: Scene, several: SeveralPatches) -> TraceReport:
+    trace, edges, period = placed.trace, several.edges, scene.profile.period
+    x, contact = placed.x(trace.points), edges.contact
+    ends = float(trace.points[0]), float(trace.points[-1])
+    if period == np.inf:
+        ends = placed.extent(*contact[:2])
+    reference = trace.reference(ends)
     tilt = placed.direction * trace.line[1] + placed.tilt + edges.tilt
     middle = 0.5 * float(x[0] + x[-1])
-    over = placed.misfits(reference, period)
+    misfits, over = (placed.misfits(spline, period) for spline in (trace, reference))
     return TraceReport(
         points=len(x),
         smoothing=trace.lam,
         averaged=trace.averaged,
         separated=reference.averaged > 1.0,
-        misfit=_rms(placed.misfits(trace, period)),
+        misfit=float(np.sqrt(np.mean(misfits**2))),
         outliers=tuple((float(x[k]), float(over[k])) for k in trace.outliers),
         gaps=placed.gaps(),
         mended=trace.mended,
         tilt=tilt,
         aside=period == np.inf and (middle - contact.m) * tilt > 0.5 * contact.r * abs(tilt),
-        pressure_error=errors.pressure,
-        inner_error=errors.inner,
-        edge_errors=errors.edges,
-        unsure_patches=errors.unsure,
+        **_implied(_errors(placed, reference, over - misfits, ends, period), scene, several),
     )
 
 
-def _rms(misfits: Array) -> float:
-    return float(np.sqrt(np.mean(misfits**2)))
+def _errors(
+    placed: PlacedTrace, reference: Sampled, known: Array, ends: tuple[float, float], period: float
+) -> list[Profile]:
+    """The known error of the heights, and draws of the noise about the contact."""
+    x = reference.points
+    lo, hi = np.clip(ends, x[0], x[-1]).tolist()
+    noise = noise_level(x, reference.heights, reference.lam, (lo, hi))
+    draws = np.random.default_rng(0).normal(scale=noise, size=(DRAWS, len(x)))
+    return [
+        placed.with_heights(placed.trace.points, known, 0.0, period),
+        *(placed.with_heights(x, draw, reference.lam, period) for draw in draws),
+    ]
+
+
+def _implied(errors: list[Profile], scene: Scene, several: SeveralPatches) -> dict[str, Any]:
+    """The errors of pressure and edges by those of the profile, as a report names them."""
+    found, pressure, G = several.found, several.pressure, several.pressure.half_modulus
+    if scene.moment is not None:
+        found = replace(found, given=found.given._replace(moment=scene.moment / G))
+    P, domain = found.state.patches, found.operator.pieces.domain
+    angle = np.pi * (np.arange(PLACES) + 0.5) / PLACES
+    places = P.c[:, None] - INNER * P.r[:, None] * np.cos(angle)
+    changes, moves = [], []
+    for error in errors:
+        pieces = of_profile(error, domain, TOLERANCE)
+        operator, tilt, moved = response(found, pieces, np.zeros(2 * P.number + 1))
+        changes.append(PatchPressure(operator, G, tilt, 0.0)(places))
+        moves.append(np.abs(moved).reshape(-1, 2))
+    p, edges = _together(changes), _together(moves)
+    capped = np.where(edges > 0.0, np.minimum(edges, P.r[:, None]), 0.0)
+    beside = pressure(np.stack((P.a, P.b), axis=1) + capped * (1, -1))
+    inner, peak = float(p.max()), float(pressure(places).max())
+    outer = float(np.where(edges > 0.0, beside, 0.0).max())
+    return {
+        "pressure_error": max(inner, outer) / peak,
+        "inner_error": inner / peak,
+        "edge_errors": (float(edges[0, 0]), float(edges[-1, 1])),
+        "unsure_patches": int((edges.max(axis=1) > P.r).sum()),
+    }
+
+
+def _together(changes: list[Array]) -> Array:
+    """The change by the first error, and SPREAD standard deviations of those by the draws."""
+    return np.abs(changes[0]) + SPREAD * np.sqrt(np.mean(np.square(changes[1:]), axis=0))

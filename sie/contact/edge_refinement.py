@@ -81,7 +81,6 @@ class Polish:
         z1, z2 = ((z, 0.0) if z in breaks else None for z in touch)
         left = Bracket((lo, 0.0), z1 or (contact.x2, contact.tail2))
         right = Bracket(z2 or (contact.x1, contact.tail1), (hi, 0.0))
-        earlier = [math.inf, math.inf]
         for _ in range(MAX_POLISHING):
             k, r = self.evaluate(contact), contact.r
             over1, over2 = r * (k.I1 - k.I0) - target, r * (k.I1 + k.I0) - target
@@ -102,13 +101,11 @@ class Polish:
                 right.cut((contact.x2, contact.tail2), above=over2 < 0.0)
             if abs(over1) > rounding1 and not left_sharp and (not askew or (k.I0 < 0.0) == outside):
                 left.cut((contact.x1, contact.tail1), above=over1 > 0.0)
-            slow = missed > 0.5 * earlier[-2]
-            earlier.append(missed)
             x1, tail1 = contact.x1, contact.tail1
             if not left_sharp:
-                x1, tail1 = left.place((wanted.x1, wanted.tail1), slow, (x1, tail1))
+                x1, tail1 = left.place((wanted.x1, wanted.tail1), missed, (x1, tail1))
             here = contact.x2, contact.tail2
-            x2, tail2 = right.place((wanted.x2, wanted.tail2), slow, here)
+            x2, tail2 = right.place((wanted.x2, wanted.tail2), missed, here)
             moved = _kept_apart(contact, Interval(x1, x2, tail1, tail2))
             if moved == contact:
                 break
@@ -127,7 +124,6 @@ class Polish:
         """
         exact = not self.slope.functions
         bracket = Bracket((z, 0.0), (self.slope.domain[1], 0.0))
-        earlier = [math.inf, math.inf]
         for _ in range(most):
             k, r = self.evaluate(contact), contact.r
             over, rise = r * k.I1 - target, r * k.JR
@@ -145,8 +141,7 @@ class Polish:
             if missed <= 1.0 or (exact and 2.0 * abs(out) <= room and left <= room):
                 return wanted, True
             bracket.cut((contact.x2, contact.tail2), above=over < 0.0)
-            place = bracket.place((wanted.x2, wanted.tail2), missed > 0.5 * earlier[-2])
-            earlier.append(missed)
+            place = bracket.place((wanted.x2, wanted.tail2), missed)
             if place != (wanted.x2, wanted.tail2):
                 out = (place[0] - contact.x2) + (place[1] - contact.tail2)
                 wanted = contact.moved(-out, out)
@@ -161,7 +156,7 @@ class Polish:
         The centre is between low and high.
         """
         bracket, r = Bracket((low, 0.0), (high, 0.0), (True, True)), contact.r
-        m, earlier = (contact.m, 0.0), [math.inf, math.inf]
+        m = contact.m, 0.0
         for _ in range(MAX_POLISHING):
             k = self.evaluate(contact)
             over, rise = r * k.I0, 0.5 * r * (k.JR + k.JL)
@@ -172,8 +167,7 @@ class Polish:
                 return (contact.moved(step, step), k.balanced(contact.r)) if rises else (contact, k)
             bracket.cut(m, above=over < 0.0)
             wanted = two_sum(m[0], step + m[1]) if math.isfinite(step) else (math.inf, 0.0)
-            place = bracket.place(wanted, missed > 0.5 * earlier[-2])
-            earlier.append(missed)
+            place = bracket.place(wanted, missed)
             if place == m:
                 break
             step = (place[0] - m[0]) + (place[1] - m[1])

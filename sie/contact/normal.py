@@ -52,8 +52,54 @@ def normal_contact(
     `seen` are the breaks found in a larger contact of the same profile, which need not be looked
     for again.
     """
-    found = _within_scale(scene, tol, economy, seen)
-    ends = zip(found.edges.sharp, scene.profile.ends_are_corners, scene.profile.domain, strict=True)
+    return one_series(scene, tol, economy, seen) or by_pieces(scene, tol, economy, seen)
+
+
+def one_series(
+    scene: Scene, tol: float, economy: Collection[str], seen: tuple[float, ...] | None = None
+) -> Normal | None:
+    """The contact in which one series resolves the slope of a function; None if none does."""
+    profile = scene.profile
+    if not profile.pieces.functions or "transform" not in economy or seen:
+        return None
+    with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
+        try:
+            found = _smooth(scene, profile.pieces, tol, "symmetry" in economy)
+        except ArithmeticError:
+            return None
+    known = profile.convex or seen is not None
+    if found is None or (not known and _unseen_by_series(found, profile, tol)):
+        return None
+    refuse_unresolved(found.edges, scene)
+    return found
+
+
+def by_pieces(
+    scene: Scene, tol: float, economy: Collection[str], seen: tuple[float, ...] | None = None
+) -> Normal:
+    """The contact by the pieces of the slope, and LoadError where doubles cannot hold it.
+
+    Its places are then too few, or its squares are no doubles.
+    """
+    profile, load = scene.profile, scene.normal_load
+    if load is not None and not 1.0 / arguments.LARGEST <= load / scene.Estar <= arguments.LARGEST:
+        raise LoadError(
+            f"normal_load = {load:g} over E* = {scene.Estar:g} is a length out of range: "
+            f"{arguments.REMEDY}"
+        )
+    try:
+        # What that leaves is refused below.
+        with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
+            if profile.pieces.functions:
+                found = _in_window(scene, tol, economy, seen)
+            else:
+                found = _searched(scene, profile.pieces, economy)
+    except ArithmeticError:
+        raise LoadError(
+            f"the search for the contact left the range of doubles, under {_asked(scene)}: {NEARER}"
+        ) from None
+    refuse_unresolved(found.edges, scene)
+    ends = zip(found.edges.sharp, profile.ends_are_corners, profile.domain, strict=True)
     for end in [end for is_sharp, is_corner, end in ends if is_sharp and not is_corner]:
         raise LoadError(
             f"the contact reaches the end of the trace at x = {end:.6g}, and what the indenter is "
@@ -101,87 +147,30 @@ def _closer(edges: Edges, scene: Scene, slope: Slope, economy: Collection[str]) 
     return tilt_of_moment(edges_at, scene.moment, search, edges.tilt)
 
 
-def one_series(scene: Scene, tol: float, economy: Collection[str]) -> Normal | None:
-    """The contact in which one series resolves the slope of a function; None if none does."""
-    profile = scene.profile
-    if not profile.pieces.functions or "transform" not in economy:
-        return None
-    with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
-        try:
-            found = _smooth(scene, profile.pieces, tol, "symmetry" in economy)
-        except ArithmeticError:
-            return None
-    if found is None or (not profile.convex and _unseen_by_series(found, profile, tol)):
-        return None
-    refuse_unresolved(found.edges, scene)
-    return found
-
-
-def _within_scale(
-    scene: Scene, tol: float, economy: Collection[str], seen: tuple[float, ...] | None
-) -> Normal:
-    """`_contact`, and LoadError where doubles cannot hold it.
-
-    Its places are then too few, or its squares are no doubles.
-    """
-    if (
-        scene.normal_load is not None
-        and not 1.0 / arguments.LARGEST <= scene.normal_load / scene.Estar <= arguments.LARGEST
-    ):
-        raise LoadError(
-            f"normal_load = {scene.normal_load:g} over E* = {scene.Estar:g} is a length out of "
-            f"range: {arguments.REMEDY}"
-        )
-    try:
-        # What that leaves is refused below.
-        with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
-            found = _contact(scene, tol, economy, seen)
-    except ArithmeticError:
-        raise LoadError(
-            f"the search for the contact left the range of doubles, under {_asked(scene)}: {NEARER}"
-        ) from None
-    refuse_unresolved(found.edges, scene)
-    return found
-
-
 def _asked(scene: Scene) -> str:
     names = ("normal_load", "half_width", "moment", "tilt")
     return ", ".join(f"{name} = {value:g}" for name in names if (value := getattr(scene, name)))
 
 
-def _contact(
-    scene: Scene, tol: float, economy: Collection[str], seen: tuple[float, ...] | None
-) -> Normal:
-    profile = scene.profile
-    if not profile.pieces.functions:
-        return _searched(scene, profile.pieces, economy)
-    looks = 0 if profile.convex or seen is not None else LOOKS
-    if "transform" in economy:
-        slope = with_breaks(profile.pieces, seen or ())
-        smooth = _smooth(scene, slope, tol, "symmetry" in economy)
-        if smooth is not None and not (looks and _unseen_by_series(smooth, profile, tol)):
-            return smooth
-    try:
-        return _in_window(scene, tol, economy, seen or (), looks)
-    except LoadError:
-        _refuse_infinite_ends(profile.pieces)
-        raise
-
-
 def _in_window(
-    scene: Scene, tol: float, economy: Collection[str], seen: tuple[float, ...], looks: int
+    scene: Scene, tol: float, economy: Collection[str], seen: tuple[float, ...] | None
 ) -> Normal:
     """The contact of a slope that is a function, resolved on a window about it.
 
-    After that `looks` times the places are sought where the slope needs another break.
+    If breaks are not known the places are sought, LOOKS times, where the slope needs another.
     """
     profile, window, tilt = scene.profile, window_of(scene), 0.0
+    looks, seen = 0 if profile.convex or seen is not None else LOOKS, seen or ()
     while True:
         while not window.holds(_lever(scene)) and window.may_grow:
             window.grow()
-        slope = with_breaks(profile.pieces, seen)
-        resolved = refined(slope, window.lo, window.hi, resolution(tol))
-        found = _searched(scene, resolved, economy, tilt)
+        resolved = with_breaks(profile.pieces, seen)
+        resolved = refined(resolved, window.lo, window.hi, resolution(tol))
+        try:
+            found = _searched(scene, resolved, economy, tilt)
+        except LoadError:
+            _refuse_infinite_ends(profile.pieces)
+            raise
         edges = found.edges
         if any(sharp and is_open for sharp, is_open in zip(edges.sharp, window.is_open)):
             _refuse_wider(window, scene)

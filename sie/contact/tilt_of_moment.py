@@ -24,27 +24,20 @@ def refuse_outside(moment: float, load: float, search: Search, domain: tuple[flo
     That is beyond the window on which the slope is resolved, beyond the indenter, or where the
     rounding of the slope carries the load in the narrowest contact that doubles show.
     """
-    window, lever = search.slope.domain, moment / load
-    if window[0] < lever < window[1]:
-        narrowest = PLACES * math.ulp(lever)
-        rounding = EPS * abs(float(search.slope(lever))) * narrowest * search.half_modulus
-        if rounding < load:
-            return
+    (lo, hi), lever = search.slope.domain, moment / load
+    acts = f"the moment {moment:.6g} puts the load at x = M/P = {lever:.6g}"
+    if not lo < lever < hi:
+        lo, hi = (lo, hi) if domain[0] < lever < domain[1] else domain
         raise LoadError(
-            f"the moment {moment:.6g} puts the load at x = M/P = {lever:.6g}, where rounding of "
-            "the slope is more than the load shows: lower the moment, or move the profile to where "
-            "the load acts (shifted)"
+            f"{acts}, not within the indenter ({lo:.6g}, {hi:.6g}), or not where its slope was "
+            "resolved: lower the moment to below the load times that length"
         )
-    acts = f"the moment {moment:.6g} puts the load at x = M/P = {moment / load:.6g}, "
-    if domain[0] < moment / load < domain[1]:
+    narrowest = PLACES * math.ulp(lever)
+    if EPS * abs(float(search.slope(lever))) * narrowest * search.half_modulus >= load:
         raise LoadError(
-            f"{acts}beyond [{window[0]:.6g}, {window[1]:.6g}], where the slope was resolved: "
-            "lower the moment"
+            f"{acts}, where rounding of the slope is more than the load shows: lower the moment, "
+            "or move the profile to where the load acts (shifted)"
         )
-    raise LoadError(
-        f"{acts}not within the indenter ({domain[0]:.6g}, {domain[1]:.6g}): lower the moment to "
-        "below the load times that length"
-    )
 
 
 def tilt_of_moment(
@@ -59,7 +52,7 @@ def tilt_of_moment(
     """
     bracket = Bracket((-math.inf, 0.0), (math.inf, 0.0))
     edges = best = edges_at(tilt)
-    left, missed = MAX_TILTS, [math.inf, math.inf]
+    left = MAX_TILTS
     while left > 0:
         excess = edges.moment - moment
         if abs(excess) <= abs(best.moment - moment):
@@ -68,10 +61,8 @@ def tilt_of_moment(
         if abs(excess) <= 2.0 * EPS * _reach(edges):
             break
         falls = _fall_of_moment(edges, search)
-        missed.append(abs(excess))
-        astray = missed[-1] > 0.5 * missed[-3]  # to and fro across a part that is nearly flat
         wanted = tilt + excess / falls if falls > 0.0 else math.inf
-        new, _ = bracket.place((wanted, 0.0), astray)
+        new, _ = bracket.place((wanted, 0.0), abs(excess))
         (low, _), (high, _) = bracket.low, bracket.high
         settled = high - low <= 4.0 * EPS * min(max(abs(low), abs(high)), HUGE)
         if new == tilt or settled or not math.isfinite(new):

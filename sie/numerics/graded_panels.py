@@ -21,6 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import chebyshev
+from .chord import Points
 
 Array = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -122,10 +123,16 @@ class Rule:
         return Rule(self.ends if ends is None else ends, *(a[at] for a in arrays))
 
     @cached_property
-    def x(self) -> Array:
-        """The places."""
+    def points(self) -> Points:
+        """The places, from the nearer mark."""
         near_lo = self.from_lo < self.from_hi
-        return np.where(near_lo, self.lo + self.from_lo, self.hi - self.from_hi)
+        anchor, offset = (self.lo, self.hi), (self.from_lo, -self.from_hi)
+        return Points(np.where(near_lo, *anchor), np.where(near_lo, *offset))
+
+    @property
+    def x(self) -> Array:
+        """The places, rounded."""
+        return np.asarray(self.points.x)
 
     def apart(self, e: float) -> Array:
         """x - e for a place e that lies in none of the intervals."""

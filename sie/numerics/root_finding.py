@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
@@ -213,11 +213,15 @@ Place = tuple[float, float]  # a sum of two doubles; such pairs are ordered as t
 
 @dataclass
 class Bracket:
-    """low < root < high; `cuts` marks the bounds that a value has confirmed."""
+    """low < root < high; `cuts` marks the bounds that a value has confirmed.
+
+    `missed` are the sizes of what the steps before have missed.
+    """
 
     low: Place
     high: Place
     cuts: tuple[bool, bool] = (False, False)
+    missed: list[float] = field(default_factory=lambda: [math.inf, math.inf])
 
     def cut(self, at: Place, above: bool) -> None:
         """Use that the root is above `at`, or below."""
@@ -226,13 +230,15 @@ class Bracket:
         else:
             self.high, self.cuts = min(self.high, at), (self.cuts[0], True)
 
-    def place(self, wanted: Place, slow: bool, here: Place | None = None) -> Place:
+    def place(self, wanted: Place, missed: float, here: Place | None = None) -> Place:
         """The place itself, or the middle of the bracket.
 
-        It is the middle if the place is out of bounds, or if the steps are slow and both bounds
-        known. Where one bound is infinite, it is the middle between the other one and `here`.
+        It is the middle if the place is out of bounds, or if two steps have not halved what is
+        missed and both bounds are known. Where one bound is infinite, it is the middle between the
+        other one and `here`.
         """
-        low, high = self.low, self.high
+        low, high, slow = self.low, self.high, missed > 0.5 * self.missed[-2]
+        self.missed.append(missed)
         inside = low < wanted < high
         if inside and not (slow and all(self.cuts)):
             return wanted

@@ -26,7 +26,7 @@ from .of_scene import Problem, problem_of
 from .operator import Found, Operator
 from .result import PatchCertificate
 from .solver import contact
-from .unseen import unseen
+from .unknown import unseen
 
 Array = NDArray[np.float64]
 

@@ -6,7 +6,7 @@ equilibrium   |∫p dx - P| / P, |∫p x dx - M| / (P r)
 gap           h + θx - 2/(πE*) ∫p ln|x - t| dt less the gap is constant in each gap: what it varies
               by beyond rounding, over the largest gap, or change of the integral, at these places
 inequalities  the lowest bound of D over the largest D, and places where the gap would be negative
-resolution    E*/2 |h' - its resolution| / peak of a function, at places of its own (`unseen`)
+resolution    E*/2 |h' - its resolution| / peak of a function, at places of its own (`unknown`)
 condition     relative change of the narrowest patch or gap per relative change of the load; it is
               large where a patch is about to appear, or two to merge
 """
@@ -83,37 +83,33 @@ def certificate(
         overlap=tuple((v.lo, v.hi) for v in (*found.findings.overlap, *missed.overlap)),
         resolution=G * missed.resolution / peak,
         lowest_gap=missed.lowest_gap,
-        notes=(*_notes(condition), *_notes_on_heights(found, linear)),
+        notes=_notes(found, linear, condition),
     )
 
 
-def _notes(condition: float) -> tuple[str, ...]:
-    if condition < CLOSE:
-        return ()
-    sentence = (
-        f"note: a patch of contact is about to appear, or two to merge: a change of the load by "
-        f"1e-9 changes the narrowest patch or gap by {1e-9 * condition:.0e} of its width"
-    )
-    return (sentence,)
-
-
-def _notes_on_heights(found: Found, linear: Linear) -> tuple[str, ...]:
-    """What the rounding of h leaves open: the loads of patches, and whether there is another."""
+def _notes(found: Found, linear: Linear, condition: float) -> tuple[str, ...]:
+    """Of patches about to appear or merge, and of what the rounding of h leaves open."""
     P, doubt = found.state.patches, found.findings.doubt
     moved = linear.rounded_moves(found.state) / np.repeat(P.r, 2)
     share = 2.0 * float(np.nan_to_num(np.abs(moved)).max())
-    notes = []
-    if share > SHARED:
-        notes.append(
-            "note: the depths of the valleys are known to the rounding of h, and the loads of the "
-            f"patches to {share:.0e} of them"
-        )
-    if doubt:
-        notes.append(
-            f"note: doubles of h tell {doubt:.0e} of a depth, and do not tell whether the bodies "
-            f"touch at x = {found.findings.place:.6g}"
-        )
-    return tuple(notes)
+    notes = (
+        (
+            condition >= CLOSE,
+            "a patch of contact is about to appear, or two to merge: a change of the load by 1e-9 "
+            f"changes the narrowest patch or gap by {1e-9 * condition:.0e} of its width",
+        ),
+        (
+            share > SHARED,
+            "the depths of the valleys are known to the rounding of h, and the loads of the "
+            f"patches to {share:.0e} of them",
+        ),
+        (
+            doubt > 0.0,
+            f"doubles of h tell {doubt:.0e} of a depth, and do not tell whether the bodies touch "
+            f"at x = {found.findings.place:.6g}",
+        ),
+    )
+    return tuple(f"note: {sentence}" for holds, sentence in notes if holds)
 
 
 def conditioning(found: Found, linear: Linear) -> float:

@@ -13,6 +13,9 @@ has one sign everywhere. A bulk stress tilts the profile of p* by ∓2τ/(f E*) 
 the step -dp* is then the pressure of a tilted flat punch on the stick zones. If that presses
 everywhere on the patches of p it does so on all that lie within (sweeping a positive charge inwards
 leaves it positive), and the stick zones only shrink; otherwise the answer is verified.
+
+The energy that slip dissipates at constant load is f² E, E = ∫ p_b gap_a dx for two loads a <= b,
+p_b the pressure under b and gap_a under a: all that is integrated is positive.
 """
 
 from __future__ import annotations
@@ -21,26 +24,31 @@ import math
 from collections.abc import Callable
 from dataclasses import replace
 from functools import cached_property
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
 from sie.errors import ContactError
 from sie.friction.slip_state import Slip
+from sie.numerics.graded_panels import OF_RULES, OF_SERIES, Rule
 from sie.numerics.zones import Zones, left_over, within
 from sie.problem.load_limit import remaining
 from sie.problem.scene import Scene
+from sie.profiles.base import Profile
 from sie.traction.base import Density
-from sie.traction.combination import superposed
+from sie.traction.combination import ZERO, superposed
 
 from .answer import SeveralPatches
-from .dissipation import Untouched, slip_rule, work
 from .full import FullContact
 from .measure import edge_ratio
 from .newton import edge_charges, loaded
 
 Array = NDArray[np.float64]
 
+FEW = 32  # parts of the patches, whose rule is graded as closely as any
+SHRUNK = 14  # times an interval about a minimum: to the root of rounding, which is enough
+SAMPLES, LOWEST = 65, 8  # heights on a patch, and how many of their minima are refined
 SCANNED = 40  # places on each stick zone
 WITHIN = 1e-9  # of the width of all patches, and of the peak: by less p* may exceed 2p
 Contact = SeveralPatches | FullContact
@@ -180,8 +188,8 @@ class PatchSlip(Slip):
 
         `strain` is E*/2 times the tilt.
         """
-        points, weight = slip_rule(self.full, self.stick, self.period)
-        slip = self.slip(points.x)
+        rule = slip_rule(self.full, self.stick, self.period)
+        points, weight, slip = rule.points, rule.weight, self.slip(rule.x)
         if isinstance(self.full, FullContact):
             return load * float(weight @ slip) / self.period
         o = self.full.found.operator
@@ -228,3 +236,57 @@ def _places(zones: Zones) -> Array:
     lo, hi = np.array(zones).T[..., None]
     share = np.sin(0.5 * np.pi * (np.arange(SCANNED) + 0.5) / SCANNED) ** 2
     return np.asarray((lo + (hi - lo) * share).ravel())
+
+
+# -- the energy that slip dissipates --------------------------------------------------------------
+
+
+class Untouched:
+    """The profile under no load: the gap is its height above its lowest point on some zones."""
+
+    patches: tuple[tuple[float, float], ...] = ()
+    pressure: Density = ZERO
+
+    def __init__(self, profile: Profile, tilt: float, zones: Zones) -> None:
+        self.profile, self.tilt = profile, tilt
+        self.lowest = min(self._lowest(lo, hi) for lo, hi in zones)
+
+    def gap(self, x: Array) -> Array:
+        return np.maximum(self._height(x) - self.lowest, 0.0)
+
+    def _height(self, x: Array) -> Array:
+        return np.asarray(self.profile.height(x) + self.tilt * x)
+
+    def _lowest(self, lo: float, hi: float) -> float:
+        breaks = [b for b in self.profile.breaks if lo < b < hi]
+        even = 0.5 * (lo + hi) - 0.5 * (hi - lo) * np.cos(np.linspace(0.0, np.pi, SAMPLES))
+        x = np.unique(np.concatenate((even, breaks)))
+        h = self._height(x)
+        inner = np.flatnonzero((h[1:-1] <= h[:-2]) & (h[1:-1] <= h[2:])) + 1
+        inner = inner[np.argsort(h[inner])][:LOWEST, None]
+        lowest, first, last = float(h.min()), x[inner - 1], x[inner + 1]
+        # between two places with one minimum: an interval of a quarter each time
+        for _ in range(SHRUNK if inner.size else 0):
+            x = first + (last - first) * np.linspace(0.0, 1.0, 9)
+            h = self._height(x)
+            lowest, k = min(lowest, float(h.min())), h.argmin(axis=1)[:, None]
+            first = np.take_along_axis(x, np.maximum(k - 1, 0), 1)
+            last = np.take_along_axis(x, np.minimum(k + 1, 8), 1)
+        return lowest
+
+
+def work(lower: Contact | Untouched, upper: Contact, period: float) -> float:
+    """E: the pressure of the upper level times the gap of the lower one."""
+    rule = slip_rule(upper, lower.patches, period)
+    p = upper.pressure(rule.x)
+    # a node that rounding puts on a sharp edge
+    return float(np.where(np.isfinite(p), rule.weight * p, 0.0) @ lower.gap(rule.x))
+
+
+def slip_rule(upper: Contact, stick: Zones, period: float) -> Rule:
+    """A rule on the patches beside the stick zones, graded to neighbouring ends and breaks."""
+    breaks = np.array(upper.pressure.breaks)
+    parts: list[tuple[float, float]] = []
+    for lo, hi in left_over(upper.patches, stick, period):
+        parts += pairwise([lo, *breaks[(breaks > lo) & (breaks < hi)].tolist(), hi])
+    return Rule.graded(np.array(parts), OF_RULES if len(parts) <= FEW else OF_SERIES)

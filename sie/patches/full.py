@@ -24,7 +24,7 @@ from sie import arguments
 from sie.contact.known_contact import Edges
 from sie.numerics import chebyshev
 from sie.numerics.chord import Chord, Points
-from sie.numerics.graded_rule import graded, on_panels
+from sie.numerics.graded_panels import Rule as GradedRule
 from sie.numerics.interval import EPS, Interval
 from sie.profiles.pieces import Pieces
 from sie.traction.base import Density, refuse_side
@@ -43,13 +43,10 @@ FEWEST = 8  # panels on which p is bounded
 APART = 0.25  # of a period: the least distance of the places where the ends of patches meet
 SLIT = 1e-9  # periods: the gap there, of which the square counts
 CLOSED = 1e-12  # periods: a gap at a concave corner that is no wider is taken for none
-# how often the panels of the certificate are graded towards breaks, and where H jumps at some:
-# p is infinite there like a logarithm, of which the last panel has to hold next to nothing
-LEVELS, DEEP = 8, 20
 # of the period: a break within rounding of an even cut leaves a panel without places between nodes
 NARROWEST = 1e-10
-PLACES, MIDWAY = 100, 0.45  # where the equation is measured, at this part of a panel
-SUSPECTS = 16  # places of lowest pressure on a grid: tension there rules full contact out
+PLACES, MIDWAY = 100, 0.443  # where the equation is measured, at this part of a panel
+CLEARLY = 4.0  # of the mean: so much tension on a grid rules full contact out
 CLOSE_BELOW = 0.9  # of the least pressure that was seen: a bound that is good enough
 OPENING = "note: full contact is about to end: a gap opens where the load falls by {:.0e} of it"
 
@@ -181,16 +178,12 @@ class FullPressure(Density):
 
         Both count from the ends of the panels: next to a jump of H, p is that of the exact place.
         """
-        (lo, hi), steep = self.panels, self.steepness is None
-        near = 0.5 * graded(DEEP if steep else LEVELS)
-        cuts = np.concatenate(([0.0], near, [0.5], 1.0 - near[::-1], [1.0]))
-        part, weight = (v.ravel() for v in on_panels(cuts))
+        lo, hi = self.panels
+        every = GradedRule.graded(np.stack((lo, hi), axis=1))
         wide = np.flatnonzero(hi - lo > NARROWEST * self.period)
         some = wide[:: max(len(wide) // PLACES, 1)]
-        x = (lo[:, None] + (hi - lo)[:, None] * part).ravel()
-        weights = ((hi - lo)[:, None] * weight).ravel()
         between = lo[some] + MIDWAY * (hi - lo)[some]
-        return self._ruled(x, weights), self._ruled(between, np.zeros(len(some)))
+        return self._ruled(every.x, every.weight), self._ruled(between, np.zeros(len(some)))
 
     def _ruled(self, x: Array, weight: Array) -> Rule:
         piece = self.pieces.locate(x)
@@ -202,14 +195,16 @@ class FullPressure(Density):
 
     @cached_property
     def at_rule(self) -> Array:
-        return self(self.rule.points.x)
+        """p on the rule; 0 on a jump of H, where the weight is rounding."""
+        p = self(self.rule.points.x)
+        return np.where(np.isfinite(p), p, 0.0)
 
     @cached_property
     def lowest(self) -> float:
         """A lower bound of p over its mean, not far below the least; negative where p is."""
-        suspected = float(self(self._suspects()).min())
-        if suspected < -TENSION * self.mean:
-            return suspected / self.mean
+        seen = self._lowest_on_a_grid()
+        if seen < -CLEARLY:
+            return seen
         (lo, hi), lowest, least = self.panels, np.inf, np.inf
         g, _ = chebyshev.gauss_legendre(NODES)
         for _ in range(DEEPEST):
@@ -224,12 +219,12 @@ class FullPressure(Density):
             lo, hi = halves(lo[~enough], hi[~enough])
         return lowest / self.mean
 
-    def _suspects(self) -> Array:
-        """The places of lowest pressure on a uniform grid, on which H has its conjugate by FFT."""
+    def _lowest_on_a_grid(self) -> float:
+        """The same, about: that on a uniform grid, on which H has its conjugate by FFT."""
         n = 1 << len(self.panels[0]).bit_length()
         x = np.asarray(self.start + (self.period / n) * np.arange(n), dtype=float)
         conjugate = np.fft.irfft(1j * np.fft.rfft(self.pieces(x)), n)
-        return np.asarray(x[np.argsort(conjugate)[:SUSPECTS]])
+        return 1.0 + self.half_modulus * float(conjugate.min()) / self.mean
 
 
 @dataclass(frozen=True, eq=False)

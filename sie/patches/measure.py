@@ -26,11 +26,11 @@ from numpy.typing import NDArray
 
 from sie.numerics import chebyshev
 from sie.numerics.chord import Points
+from sie.numerics.tree import Level, Tree
 from sie.profiles.pieces import Pieces
 
 from .panels import Patches, PatchPanels, patch_panels
 from .sums import Groups, far_sums, multiply, parts
-from .tree import Level, Tree
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
@@ -120,6 +120,13 @@ class Measure:
     @cached_property
     def panels(self) -> PatchPanels:
         return patch_panels(self.patches, self.pieces)
+
+    @cached_property
+    def centred(self) -> Points:
+        """The nodes, counted from the middle of each panel."""
+        t = self.panels.points
+        middle = t.anchor + t.offset.mean(axis=1, keepdims=True)
+        return Points(middle, (t.anchor - middle) + t.offset)
 
     @cached_property
     def weight(self) -> Array:

@@ -28,11 +28,22 @@ from sie.profiles.pieces import Pieces
 from sie.progress_bar import step_done
 
 from .edge_charges import EdgeCharges
-from .edge_moves import INSISTS, INWARD, Damping, event_of, moved, turning_smooth
 from .measure import edge_ratio
 from .operator import Found, Operator, at_edges, gap_values, operator_of
 from .repairs import after
-from .state import Event, Given, State, balances
+from .state import (
+    INSISTS,
+    INWARD,
+    QUADRATIC,
+    Damping,
+    Event,
+    Given,
+    State,
+    balances,
+    event_of,
+    moved,
+    turning_smooth,
+)
 from .sums import parts
 
 Array = NDArray[np.float64]
@@ -42,7 +53,6 @@ TINY = 1e-200
 MOST_STEPS = 60
 SETTLED = 1e-11  # half-widths of its patch: steps below, that stop shrinking, are rounding
 FINAL = 4e-15  # half-widths that the last step may have
-QUADRATIC = 1e-3  # half-widths: the steps decrease quadratically from here on
 ULPS = 8.0  # of an edge and of the load: no step tells less
 NARROW = 1e-5  # half-widths: steps are told from this width of a gap on
 # times that an edge is asked back, and the part of the mean: only clear tension counts from then on
@@ -129,9 +139,8 @@ def relative_size(state: State, y: Array, told: Array) -> float:
     Moves are divided by the half-width or a narrower gap, changes by the largest charge.
     """
     P, sharp = state.patches, state.sharp
-    gaps = np.stack((np.concatenate((P.gaps[-1:], P.gaps[:-1])), P.gaps), axis=1).ravel()
     r = np.repeat(P.r, 2)
-    size = np.clip(gaps, NARROW * r, r)
+    size = np.clip(P.beside, NARROW * r, r)
     change = y[: len(sharp)][sharp]
     largest = np.abs(state.charge[sharp] + change).max(initial=0.0)
     return max(
@@ -251,18 +260,37 @@ def conditions_of(found: Found) -> Linear:
     return conditions(found.state, found.operator, found.given)
 
 
-def missed(state: State, o: Operator, given: Given, linear: Linear) -> Array:
-    """What the conditions miss, (2N + 1,)."""
+def response(found: Found, pieces: Pieces, changes: Array) -> tuple[Operator, float, Array]:
+    """The changes of an answer by those of H, of P and of M, or of the tilt where that is given.
+
+    They are the operator of the change of p, that of the tilt, and the moves of the edges (2N,).
+    All conditions are linear in H and in the charges at the edges: those make up for what the
+    inversion of the change of H misses, beside `changes` (2N + 1,).
+    """
+    state, P, linear = found.state, found.state.patches, conditions_of(found)
+    inverted = Operator(P, pieces, np.zeros(2 * P.number))
+    left = changes - values(inverted, 0.0, linear, found.given.moment is not None)
+    y = linear.charged(left[:, None])[:, 0]
+    return Operator(P, pieces, y[:-1]), float(y[-1]), linear.moves(state, y)
+
+
+def values(o: Operator, tilt: float, linear: Linear, moment: bool) -> Array:
+    """C, K, P and M, or 0 where that is not given, (2N + 1,)."""
     N, K = o.patches.number, closed(o)
     C, plain = o.closures
-    load, moment = o.resultants(state.tilt)
-    turned = 0.0 if given.moment is None else moment - given.moment
+    load, turned = o.resultants(tilt)
     # D contains what charges change in the gaps
-    changes = C + (state.tilt + o.H0) * plain, K[: N - 1], (load - given.load, turned)
-    out = np.concatenate(changes)
+    out = np.concatenate((C + (tilt + o.H0) * plain, K[: N - 1], (load, turned if moment else 0.0)))
     if o.patches.closing:
         out[linear.replaced[0]] = K[-1]
-    if (linear.slack[N:] > BLURRED * given.load).any():
+    return out
+
+
+def missed(state: State, o: Operator, given: Given, linear: Linear) -> Array:
+    """What the conditions miss, (2N + 1,)."""
+    out = values(o, state.tilt, linear, given.moment is not None)
+    out[-2:] -= given.load, given.moment or 0.0
+    if (linear.slack[o.patches.number :] > BLURRED * given.load).any():
         # else rounding moves the edges to and fro, and with them the load
         out[np.abs(out) <= linear.slack] = 0.0
     return out

@@ -23,13 +23,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie.numerics.chord import Points
+from sie.numerics.tree import Level, Separation, Tree
 from sie.profiles.pieces import Pieces
 
 from .measure import Measure, Targets, close, integrals
 from .panels import GapPanels, gap_panels
 from .state import Findings, Given, State
-from .sums import Groups, add, far_sums, parts, ranges, steps
-from .tree import Level, Separation, Tree
+from .sums import Groups, add, far_sums, parts, ranges
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
@@ -111,7 +111,7 @@ class Operator(Measure):
             # only differences of H count: about a local value the sums of both lose nothing
             local = np.real(t.reference[row, :1])
             nu = self.measure(t.i[row], q)
-            step = steps(chord, k.points[q], t.x[row])
+            step = chord.beyond(self.centred[q], t.x[row])
             pair, place = np.nonzero(close(self, q, t.x[row]))
             step[pair, place] = np.inf
             kernel = np.reciprocal(step, out=step)

@@ -89,10 +89,14 @@ class Patches:
         return np.asarray(following - self.b)
 
     @cached_property
+    def beside(self) -> Array:
+        """The width of the gap beside each edge, (2N,)."""
+        return np.stack((np.roll(self.gaps, 1), self.gaps), axis=1).ravel()
+
+    @property
     def narrower(self) -> Array:
         """The half-width of its patch or the gap beside it, the shorter, of each edge (2N,)."""
-        beside = np.stack((np.append(self.gaps[-1], self.gaps[:-1]), self.gaps), axis=1).ravel()
-        return np.minimum(np.repeat(self.r, 2), beside)
+        return np.minimum(np.repeat(self.r, 2), self.beside)
 
     @property
     def closing(self) -> bool:
@@ -158,10 +162,8 @@ def _graded(rule: Rule, nearest: Array, end: Array, breaks: tuple[Index, Array])
 def patch_panels(patches: Patches, pieces: Pieces) -> PatchPanels:
     rule = patches.rule(pieces)
     a, b, r, N = patches.a, patches.b, patches.r, patches.number
-    behind = np.concatenate((patches.gaps[-1:], patches.gaps[:-1]))
     # rows: both halves of each patch, counted from a and from b
-    gaps = np.stack((behind, patches.gaps), axis=1).ravel()
-    nearest = 2.0 * np.arcsinh(np.sqrt(gaps / (2.0 * np.repeat(r, 2))))
+    nearest = 2.0 * np.arcsinh(np.sqrt(patches.beside / (2.0 * np.repeat(r, 2))))
     start, stop = np.searchsorted(pieces.cuts, a, "right"), np.searchsorted(pieces.cuts, b)
     count = np.maximum(stop - start, 0)
     of = np.repeat(np.arange(N), count)

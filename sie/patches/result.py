@@ -101,17 +101,10 @@ def worst_of(found: Sequence[PatchCertificate]) -> PatchCertificate:
 
     What a shear is made of counts as well.
     """
-    return replace(
-        found[0],
-        residual=max(c.residual for c in found),
-        force=max(c.force for c in found),
-        moment=max(c.moment for c in found),
-        gap=max(c.gap for c in found),
-        condition=max(c.condition for c in found),
-        measured_to=max(c.measured_to for c in found),
-        resolution=max(c.resolution for c in found),
-        lowest_gap=min(c.lowest_gap for c in found),
-        lowest_pressure=min(c.lowest_pressure for c in found),
-        tension=tuple(v for c in found for v in c.tension),
-        overlap=tuple(v for c in found for v in c.overlap),
-    )
+    most = ("residual", "force", "moment", "gap", "condition", "measured_to", "resolution")
+    worst: dict[str, Any] = {name: max(getattr(c, name) for c in found) for name in most}
+    for name in ("lowest_pressure", "lowest_gap"):
+        worst[name] = min(getattr(c, name) for c in found)
+    for name in ("tension", "overlap"):
+        worst[name] = tuple(interval for c in found for interval in getattr(c, name))
+    return replace(found[0], **worst)

@@ -12,10 +12,10 @@ from numpy.typing import NDArray
 
 from sie.numerics import chebyshev
 from sie.numerics.chord import Points
-from sie.progress_bar import step_done
 
 from .measure import Measure
 from .panels import LONG, Patches, PatchPanels
+from .sums import parts
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
@@ -30,7 +30,6 @@ SHORT = 1e-3  # of a panel: on shorter parts the equation is not measured
 # ulp of an edge: closer to it the edge's own rounding changes p by a part of 1e-6
 APART = 5e5
 PLACES = 120  # at which it is, about
-TOGETHER = 32  # of them at once
 
 
 class Rule(NamedTuple):
@@ -147,9 +146,7 @@ def principal_value(
     chord, (x, own) = P.chord, at
     left, right = (chord.apart(x.anchor - e[own], x.offset) for e in (P.a, P.b))
     total = values * np.log(left / -right)
-    for k in range(0, len(own), TOGETHER):
-        step_done(0)
-        some = slice(k, k + TOGETHER)
+    for some in parts(len(own), len(f)):
         distance = chord.difference(
             x.anchor[some, None] - rule.points.anchor, x.offset[some, None] - rule.points.offset
         )

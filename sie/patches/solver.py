@@ -20,23 +20,22 @@ from sie.profiles.pieces import Pieces
 from sie.progress_bar import reported
 
 from . import newton
+from .bounds import tensions
 from .gap import overlaps
-from .of_scene import Problem
+from .of_scene import COARSE, WIDENED, Problem, fitted_window, levels, whole_window, widened
 from .operator import Found, Operator, operator_of
 from .panels import Patches
 from .repairs import after, apart, bounded, mended, one_period
 from .start import Grid, cells_of
 from .state import SAME, Event, Findings, Given, State, balances
-from .tension import tensions
 from .unknown import refuse_unknown_depths, refuse_unknown_ends, unsettled
-from .window import COARSE, WIDENED, fitted_window, levels, whole_window, widened
 
 Array = NDArray[np.float64]
 
 ROUNDS, STALLS = 30, 1  # the most rounds, and those that end without edges or an event
 # of the largest D: tension that is accepted beside a merger, where no arithmetic tells more
 NEARLY = 1e-7
-CELLS = 6.0  # for each break in the window
+PER_BREAK, PER_VALLEY = 6.0, 64.0  # cells for each in the window: the fewer of both
 FEWEST_CELLS, MOST_CELLS = 2048, 1 << 18  # of a period, and of all
 FINER = 8  # a second grid, if the first as a start leads nowhere
 BEYOND = 0.9  # of a cell: an edge is no farther from the middle of the outer cell
@@ -48,7 +47,7 @@ def contact(problem: Problem) -> Found:
     window = fitted_window(problem)
     for _ in range(WIDENED):
         found = _within(problem, window)
-        beyond = widened(found, problem, window)
+        beyond = widened(found.state.patches, problem, window)
         if beyond == window:
             found = _in_one_period(_with_far_valleys(found, problem), problem)
             refuse_unknown_depths(found, problem)
@@ -121,7 +120,9 @@ def _cells(problem: Problem, tilt: float, window: tuple[float, float]) -> int:
         coarse, fewest = problem.grid(tilt, window, COARSE), COARSE
         if np.count_nonzero(np.diff(coarse.p > 0.0, prepend=False, append=False)) == 2:
             return COARSE
-    return cells_of(min(max(CELLS * inside, fewest), MOST_CELLS))
+    valleys = problem.pieces(window).valleys(tilt, *window)
+    wanted = min(PER_BREAK * inside, PER_VALLEY * valleys)
+    return cells_of(min(max(wanted, fewest), MOST_CELLS))
 
 
 def touched(grid: Grid, pieces: Pieces, chord: Chord, tilt: float) -> State:

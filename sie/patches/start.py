@@ -125,11 +125,6 @@ class System(NamedTuple):
     def displaced(self, q: Array) -> Array:
         return self.transformed(q, self.influence)
 
-    def pressed_apart(self, p: Array, deep: Array) -> Array:
-        """The pressure with more where the bodies overlap by -deep."""
-        step = float(deep @ deep) / float(deep @ self.displaced(deep))
-        return np.asarray(np.maximum(p - step * deep, 0.0))
-
 
 def _gradients(system: System, p: Array, stiffness: Array, most: int) -> tuple[Array, bool]:
     """The pressure after steps of conjugate gradients, and whether the last ones were small.
@@ -145,7 +140,8 @@ def _gradients(system: System, p: Array, stiffness: Array, most: int) -> tuple[A
         contact = p > 0.0
         if not contact.any() or not np.isfinite(p).all():
             return p, False
-        gap = _levelled(system.displaced(p) + h, contact)
+        gap = system.displaced(p) + h
+        gap -= gap[contact].mean()
         r = np.where(contact, gap, 0.0)
         z = system.transformed(r, stiffness)
         now = float(r @ z)
@@ -165,14 +161,10 @@ def _gradients(system: System, p: Array, stiffness: Array, most: int) -> tuple[A
         overlap = (p == 0.0) & (gap < 0.0) & solid & looks
         conjugate = 0.0 if overlap.any() else 1.0
         if overlap.any():
-            p = system.pressed_apart(p, np.where(overlap, gap, 0.0))
+            deep = np.where(overlap, gap, 0.0)
+            p = np.maximum(p - (deep @ deep) / (deep @ system.displaced(deep)) * deep, 0.0)
         p *= system.load / (p.sum() * system.dx)
         change = float(np.abs(p - old).sum() / p.sum())
         if change <= STILL and looks and not overlap.any():
             return p, True
     return p, change <= LAST
-
-
-def _levelled(u: Array, contact: NDArray[np.bool_]) -> Array:
-    """The displacement u less its mean in contact."""
-    return np.asarray(u - u[contact].mean())

@@ -10,9 +10,8 @@ from numpy.typing import NDArray
 
 from sie.numerics import chebyshev
 from sie.numerics.chord import Chord, Points
+from sie.numerics.tree import CHARGES, CHUNK, FAR, POINTS, Level, Separation
 from sie.progress_bar import step_done
-
-from .tree import CHARGES, CHUNK, FAR, POINTS, Level, Separation
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
@@ -96,13 +95,6 @@ def _summed(
             total = total + np.zeros(value.shape[-1:], dtype=value.dtype)
         add(total, row[some], value)
     return total
-
-
-def steps(chord: Chord, t: Points, x: Points) -> Any:
-    """d(t, x) of sources (m, s) and places (m, n): (m, n, s)."""
-    return chord.apart(
-        t.anchor[:, None, :] - x.anchor[:, :, None], t.offset[:, None, :] - x.offset[:, :, None]
-    )
 
 
 def ranges(first: Index, count: Index) -> Index:

@@ -166,6 +166,13 @@ class Pieces(Slope):
             series = chebyshev.antiderivative(series) * self._half[:, None]
         return replace(self, coefficients=power, series=series)
 
+    def valleys(self, tilt: float, lo: float, hi: float) -> int:
+        """How often H + tilt rises through 0 on [lo, hi], as the ends of its pieces show."""
+        k = np.arange(int(self.locate(lo)), int(self.locate(hi, "left")) + 1)
+        ends = np.clip((self.breaks[k], self.breaks[k + 1]), lo, hi)
+        falls = self.value(k, ends, 0.0).T.ravel() < -tilt
+        return int(np.count_nonzero(falls[:-1] & ~falls[1:]))
+
     def rise(self, k: Any, x: tuple[Any, Any], y: tuple[Any, Any]) -> Any:
         """h(y) - h(x) on the pieces k."""
         return self._height.divided(k, y, x) * ((y[0] - x[0]) + (y[1] - x[1]))

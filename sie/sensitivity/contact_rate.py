@@ -32,8 +32,7 @@ from sie.contact.pressure import resolution, slope_series
 from sie.errors import ContactError
 from sie.patches.answer import SeveralPatches
 from sie.patches.density import PatchPressure
-from sie.patches.newton import closed, conditions_of
-from sie.patches.operator import Operator
+from sie.patches.newton import response as response_of_patches
 from sie.profiles.base import Profile
 from sie.profiles.pieces import of_profile
 from sie.profiles.resolution import refined
@@ -210,28 +209,20 @@ def _refuse_corners(slope: Slope, edges: Edges) -> None:
 
 def _of_patches(found: SeveralPatches, change: Change) -> ContactRate:
     """On several patches, at fixed E*."""
-    state, o, G = found.found.state, found.found.operator, found.pressure.half_modulus
+    o, G = found.found.operator, found.pressure.half_modulus
     P, N = o.patches, o.patches.number
     _refuse_events(P.r, P.gaps[: N - 1 + P.closing], 0.5 * (P.b[-1] - P.a[0]))
-    linear, held = conditions_of(found.found), found.found.given.moment is not None
+    held = found.found.given.moment is not None
     changes = np.zeros(2 * N + 1)
     changes[-2:] = change.load / G, change.moment / G if held else change.tilt
     flat = np.zeros((len(o.pieces.origins), 1))
     pieces = replace(o.pieces, coefficients=flat, series=flat[:, :0])
     if change.profile is not None:
         pieces = of_profile(change.profile, o.pieces.domain, RESOLVED)
-        inverted = Operator(P, pieces, np.zeros(2 * N))
-        load, moment = inverted.resultants(0.0)
-        gaps, (C, plain) = closed(inverted), inverted.closures
-        missed = C + inverted.H0 * plain, gaps[: N - 1]
-        changes -= np.concatenate((*missed, (load, moment if held else 0.0)))
-        if P.closing:
-            changes[linear.replaced[0]] = -gaps[-1]
-    y = linear.charged(changes[:, None])[:, 0]
-    p = PatchPressure(Operator(P, pieces, y[:-1]), G, float(y[-1]), change.load)
-    moves = linear.moves(state, y).reshape(N, 2).tolist()
-    moment = change.moment if held else p.moment
-    return ContactRate(tuple((a, b) for a, b in moves), change.load, moment, p.tilt, p)
+    changed, tilt, moves = response_of_patches(found.found, pieces, changes)
+    p = PatchPressure(changed, G, tilt, change.load)
+    patches = tuple((a, b) for a, b in moves.reshape(N, 2).tolist())
+    return ContactRate(patches, change.load, change.moment if held else p.moment, tilt, p)
 
 
 def _refuse_events(r: Array, gaps: Array, half: float) -> None:

@@ -1,32 +1,41 @@
-"""Sums over many sources at many groups of targets: a tree of Chebyshev charges.
+"""Sums over many sources at many targets: a tree of Chebyshev charges.
 
 Rows of sources, in the order of their places, are gathered in leaves, leaves in pairs, and so on up
 to one root. A node acts from afar through charges on the Chebyshev points of its interval (Dutt, Gu
-& Rokhlin 1996), whatever the kernel, chords of a period included. A group of targets takes every
-node at the first level at which that is far; what is left are pairs (row, group) to be summed as
-they are.
+& Rokhlin 1996), whatever the kernel, chords of a period included: their moments, up to their
+number, are those of its sources, and the kernel is a series in T_n there that falls like ρ^-n with
+ρ = s + sqrt(s² - 1) at s half-lengths from its middle. A group of targets takes every node at the
+first level at which that is far; what is left are pairs (row, group) to be summed as they are. So
+the cost grows like (sources + targets) log(sources).
+
+Greengard & Rokhlin (1987), Barnes & Hut (1986) for the tree.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from sie.numerics import chebyshev
-from sie.numerics.chord import Chord, Points
+from . import chebyshev
+from .chord import Chord, Points
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
+Mask = NDArray[np.bool_]
 
-FAR = 3.0  # half-lengths of a node from its middle: its charges serve from here on
-CHARGES = 20  # of a node: (FAR + sqrt(FAR² - 1))**-CHARGES is rounding
+FAR = 2.0  # half-lengths of a node from its middle: its charges serve from here on
+CHARGES = 28  # of a node: (FAR + sqrt(FAR² - 1))**-CHARGES is rounding
 LEAF = 4  # rows in a leaf
 FEWEST = 48  # rows: fewer are summed as they are ...
 FEW = 1 << 14  # ... and rows times places: a tree takes longer
 SHORTEST = 64.0  # ulp: the half-length of a node that is no longer than the spacing of doubles
+CHUNK = 1 << 18  # entries of an array that are computed at once
+POINTS = chebyshev.points(CHARGES)
+SPREAD = chebyshev.charges(CHARGES)
 
 
 class Level(NamedTuple):
@@ -47,7 +56,7 @@ class Level(NamedTuple):
 
 
 class Separation(NamedTuple):
-    """The nodes and rows that act on groups of targets, in the order of groups.
+    """The nodes and rows that act on groups of targets.
 
     These are far nodes (level, node, group) by level, and near rows (row, group).
     """
@@ -115,15 +124,23 @@ class Tree:
         if self.rows < FEWEST or self.rows * places <= FEW:
             row = np.tile(self.order, groups)
             return Separation([], row, np.repeat(np.arange(groups), self.rows))
+
+        def away(level: Level, node: Index, group: Index) -> Array:
+            own = (level.first[node] == owner[group]) & (level.last[node] == owner[group])
+            lo, hi = (np.where(own, v[group], w[group]) for v, w in zip(narrow, wide, strict=True))
+            return np.asarray(chord.distance(level.middle[node], lo, hi))
+
+        return self.split(groups, away)
+
+    def split(self, groups: int, away: Callable[[Level, Index, Index], Array]) -> Separation:
+        """What is far from groups and what is near, by the distance of each from middles."""
         node, group, far = np.zeros(groups, dtype=np.int64), np.arange(groups), []
         for number in range(len(self.levels) - 1, -1, -1):
             level = self.levels[number]
-            own = (level.first[node] == owner[group]) & (level.last[node] == owner[group])
-            lo, hi = (np.where(own, v[group], w[group]) for v, w in zip(narrow, wide, strict=True))
-            away = chord.distance(level.middle[node], lo, hi) >= FAR * level.half[node]
-            if away.any():
-                far.append((level, node[away], group[away]))
-            node, group = node[~away], group[~away]
+            served = away(level, node, group) >= FAR * level.half[node]
+            if served.any():
+                far.append((level, node[served], group[served]))
+            node, group = node[~served], group[~served]
             if number:
                 node, group = (2 * node[:, None] + np.arange(2)).ravel(), np.repeat(group, 2)
                 exists = node < len(self.levels[number - 1].middle)
@@ -146,8 +163,3 @@ def gathered(u: Array, charges: Array) -> Array:
         T = chebyshev.polynomials(CHARGES, u[some]).transpose(1, 2, 0)
         out[:, some] = (charges[:, some].transpose(1, 0, 2) @ T @ SPREAD).transpose(1, 0, 2)
     return out
-
-
-CHUNK = 1 << 18  # entries of an array that are computed at once
-POINTS = chebyshev.points(CHARGES)
-SPREAD = chebyshev.charges(CHARGES)
