@@ -11,6 +11,9 @@ import numpy as np
 import pytest
 
 import sie
+from validation.rivals.rough_profile import MEAN
+from validation.rivals.rough_profile import rough as smooth_and_rough
+from validation.rivals.solvers import boundary_elements
 
 MODULUS = 1.0
 
@@ -43,6 +46,26 @@ def test_a_row_of_parabolas(benchmark, count):
 def test_a_rough_trace(benchmark, points, load):
     trace = rough(points)
     assert len(benchmark.pedantic(solved, (trace, load), rounds=1)) > 10
+
+
+@pytest.mark.parametrize("points", [16_384, 65_536, 100_000])
+def test_a_rough_trace_over_a_grid(benchmark, points):
+    """`check` is over the edges, `grid` the textbook's FFT elements at the points over them."""
+    solved(smooth_and_rough(1024), MEAN)  # imports
+    trace = smooth_and_rough(points)
+    height = trace.height(np.arange(points) / points)
+    solution = sie.solve(sie.Scene(profile=trace, modulus=MODULUS, normal_load=MEAN))
+    times = [process_time()]
+    for act in (
+        lambda: solution.patches,
+        solution.check,
+        lambda: boundary_elements(height, 1.0 / points, MEAN, periodic=True),
+    ):
+        act()
+        times.append(process_time())
+    edges, check, grid = np.diff(times).tolist()
+    benchmark.extra_info.update(edges=edges, check=check / edges, grid=grid / edges)
+    assert benchmark.pedantic(solved, (trace, MEAN), rounds=1)
 
 
 def self_similar(points, seed=1):

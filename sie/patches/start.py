@@ -91,7 +91,7 @@ def _influence(n: int, dx: float, periodic: bool) -> Array:
     kernel = np.empty(n + 1)
     kernel[1:] = np.diff(primitive)
     kernel[0] = 2.0 * primitive[0]
-    kernel = -(dx / np.pi) * (kernel + np.log(dx) * 1.0)
+    kernel = (dx / np.pi) * (np.log(n) - kernel)  # lengths over the window: more load sinks more
     return np.fft.rfft(np.concatenate((kernel, kernel[-2:0:-1]))).real
 
 

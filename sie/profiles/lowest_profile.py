@@ -31,9 +31,9 @@ def finite_ends(profile: Profile) -> tuple[float, ...]:
     return tuple(x for x in ends if abs(x) < INF)
 
 
-def inside(profiles: tuple[Profile, ...], x: Array) -> Iterator[tuple[int, slice]]:
-    """The profiles, and which of the places x (ascending) are on the domain of each."""
-    lo, hi = np.array([profile.domain for profile in profiles]).T
+def inside(profiles: tuple[Profile, ...], domains: Array, x: Array) -> Iterator[tuple[int, slice]]:
+    """The profiles, and which of the places x (ascending) are on a domain (n, 2) of each."""
+    lo, hi = domains.T
     # the ends are rounded, and a height tells them
     beyond = [ULPS * np.spacing(np.where(np.isfinite(v), v, 0.0)) for v in (lo, hi)]
     lo, hi = lo - np.abs(beyond[0]), hi + np.abs(beyond[1])
@@ -50,14 +50,13 @@ def lowest_of(profiles: tuple[Profile, ...]) -> Runs:
     The profile is -1 where there is none.
     """
     slopes = [profile.pieces for profile in profiles]
-    ends = np.unique(
-        np.concatenate([s.breaks for s in slopes] + [finite_ends(p) for p in profiles])
-    )
+    places = [s.breaks for s in slopes] + [finite_ends(p) for p in profiles]
+    ends = np.unique(np.concatenate(places))
     found: Runs = []
     pieces = list(pairwise(ends.tolist()))
     inner = np.array([_inner(lo, hi) for lo, hi in pieces])
     active: list[list[int]] = [[] for _ in pieces]
-    for k, some in inside(profiles, inner):
+    for k, some in inside(profiles, np.array([p.domain for p in profiles]), inner):
         for j in np.flatnonzero(np.asarray(profiles[k].height(inner[some])) < INF).tolist():
             active[some.start + j].append(k)
     for (lo, hi), here in zip(pieces, active, strict=True):
@@ -84,10 +83,7 @@ def _lower(profiles: tuple[Profile, ...], slopes: list[Slope], one: Runs, other:
     ends = sorted({x for lo, hi, _ in one + other for x in (lo, hi)})
     for lo, hi in pairwise(ends):
         i, j = (runs[bisect_right(runs, lo, key=itemgetter(0)) - 1][2] for runs in (one, other))
-        cuts = [lo, *sorted(_crossings(profiles, slopes, (i, j), lo, hi)), hi]
-        for a, b in pairwise(cuts):
-            if a == b:
-                continue
+        for a, b in pairwise(sorted({lo, hi, *_crossings(profiles, slopes, (i, j), lo, hi)})):
             inner = _inner(a, b)
             k = i if float(profiles[i].height(inner)) <= float(profiles[j].height(inner)) else j
             _append(found, (a, b, k))

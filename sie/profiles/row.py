@@ -90,11 +90,8 @@ class Row(Profile):
         """Gaps (lo, hi) between the profiles, and places lo = hi where h jumps."""
         found = [(lo, hi) for lo, hi, k in self.lowest if k < 0]
         for (_, x, one), (_, _, other) in pairwise(self.lowest):
-            if (
-                one >= 0
-                and other >= 0
-                and x in (*finite_ends(self.profiles[one]), *finite_ends(self.profiles[other]))
-            ):
+            beside = [self.profiles[k] for k in (one, other) if min(one, other) >= 0]
+            if any(x in finite_ends(profile) for profile in beside):
                 found.append((x, x))
         for lo, hi, k in self.lowest:
             found += [
@@ -118,11 +115,17 @@ class Row(Profile):
         ends = np.array([hi for _, hi, _ in self.lowest[:-1]])
         which = np.array([k for _, _, k in self.lowest])[np.searchsorted(ends, x, side="right")]
         values = np.zeros(x.shape)
-        for k, profile in enumerate(self.profiles):
-            here = which == k
-            if here.any():
-                values[here] = profile.pieces(x[here])
+        for k in np.unique(which[which >= 0]).tolist():
+            values[which == k] = self.profiles[k].pieces(x[which == k])
         return values
+
+    @cached_property
+    def _lowest_on(self) -> Array:
+        """From where to where each profile is the lowest, if not all the way, (n, 2)."""
+        reach = np.tile((INF, -INF), (len(self.profiles), 1))
+        for lo, hi, k in self.lowest:
+            reach[k] = (min(reach[k, 0], lo), max(reach[k, 1], hi)) if k >= 0 else reach[k]
+        return reach
 
     @of_any_x
     @override
@@ -131,7 +134,7 @@ class Row(Profile):
         flat = x.ravel()
         order = np.argsort(flat, kind="stable")
         least = np.full(flat.shape, INF)
-        for k, some in inside(self.profiles, flat[order]):
+        for k, some in inside(self.profiles, self._lowest_on, flat[order]):
             least[some] = np.minimum(least[some], self.profiles[k].height(flat[order[some]]))
         out = np.empty(flat.shape)
         out[order] = least

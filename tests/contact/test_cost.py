@@ -11,7 +11,7 @@ import pytest
 import sie
 from sie.contact import normal, pressure
 from sie.numerics import chebyshev
-from sie.patches import answer
+from sie.patches import answer, newton
 from sie.traction.of_slope import SlopeDensity
 
 PUNCH = sie.RoundedFlat(0.5, 1.0)
@@ -76,6 +76,13 @@ def test_patches_are_sought_where_the_slope_of_a_function_falls():
         with counted(answer, "several_patches") as searches:
             assert sie.solve(scene(profile, normal_load=2.0)).half_width > 0.0
         assert len(searches) == number
+
+
+def test_the_grid_shows_all_indenters_of_a_long_row():
+    row = sie.Row([sie.Parabola(1.0).shifted(3.0 * k) for k in range(100)])
+    with counted(newton, "solve") as searches:
+        assert len(sie.solve(scene(row, normal_load=10.0)).patches) == 100
+    assert len(searches) == 1
 
 
 @pytest.mark.parametrize(("profile", "given", "most"), SMOOTH)

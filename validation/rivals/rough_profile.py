@@ -22,22 +22,22 @@ Array = NDArray[np.float64]
 Code = Callable[[Array, float, float], Array]
 AHEAD = 1e6  # largest error of the best grid over that of this package
 LOADS = 1e-12  # of the load
-POINTS = (200, 1000)
+POINTS = (1024, 16384)
+SHORTEST, SLOPE = 64, 0.1  # points on the shortest wave, and the rms slope
 GRIDS = ((1024, 4096), (1024, 4096, 16384, 65536))
-MEAN = 0.01  # mean pressure
+MEAN = 0.01  # mean pressure, under which about a fifth touches
 SEED = 20260711
 
 
 def rough(n: int) -> sie.Profile:
     """A self-affine profile of Hurst exponent 0.8 through n points, repeated with period 1."""
     rng = np.random.default_rng(SEED)
-    k = np.arange(4, n // 8)
-    x = np.arange(n) / n
-    phase = rng.uniform(0.0, 2.0 * np.pi, len(k))
-    h = (k**-1.3 * np.cos(2.0 * np.pi * np.outer(x, k) + phase)).sum(axis=1)
-    h *= 0.01 / h.std()
+    k, spectrum = np.arange(4, n // SHORTEST + 1), np.zeros(n // 2 + 1, dtype=complex)
+    spectrum[k] = k**-1.3 * np.exp(2j * np.pi * rng.uniform(size=len(k)))
+    slope = np.fft.irfft(2j * np.pi * np.arange(n // 2 + 1) * spectrum, n)
+    h = np.fft.irfft(spectrum, n) * SLOPE / slope.std()
     turned = np.roll(h, -int(np.argmax(h)))  # the period begins in a valley
-    return sie.Periodic(sie.Sampled(np.append(x, 1.0), np.append(turned, turned[0])), 1.0)
+    return sie.Periodic(sie.Sampled(np.arange(n + 1) / n, np.append(turned, turned[0])), 1.0)
 
 
 def grid_codes() -> dict[str, Code]:
@@ -63,7 +63,9 @@ def roughness(quick: bool) -> Iterator[Record]:
     n = POINTS[not quick]
     yield Doing(f"rough profile, {n} points")
     solution, number, ours = timed(rough(n), perf_counter)
+    start = perf_counter()
     scene, error = solution.scene, solution.check().error
+    checked = ours + perf_counter() - start
     rows: list[tuple[Any, ...]] = [("this package", None, error, 1e3 * ours)]
     yield Curve("rough: race", "this package", [ours], [error], "points",
                 {"strong": True, "colour": "black"})  # fmt: skip
@@ -72,10 +74,12 @@ def roughness(quick: bool) -> Iterator[Record]:
         found = [raced(code, solution, cells) for cells in GRIDS[not quick]]
         yield Curve("rough: race", name, [t for t, _ in found], [e for _, e in found], "both")
         rows += [(name, c, e, 1e3 * t) for c, (t, e) in zip(GRIDS[not quick], found, strict=True)]
+    best = min(row[2] for row in rows[1:])
+    rows.insert(1, ("this package and its check", None, error, 1e3 * checked))
     yield Claim(
         f"rough profile in {number} patches: largest error of the best grid over the certified "
         "error of this package",
-        "this project: what no peer has", min(row[2] for row in rows[1:]) / error, 1.0,
+        "this project: what no peer has", best / error, 1.0,
         "the grid's own error", low=AHEAD,
     )  # fmt: skip
     yield Claim(
