@@ -40,6 +40,7 @@ from sie.numerics.graded_rule import on_panels
 from sie.problem.scene import Scene
 from sie.profiles.base import Profile
 from sie.profiles.sampled import Sampled
+from sie.profiles.slope import Slope
 from sie.solution import Solution, solve
 from sie.traction.base import Density
 from sie.traction.combination import superposed
@@ -48,9 +49,9 @@ from sie.traction.of_slope import SlopeDensity
 Array = NDArray[np.float64]
 
 HOLDS = ("load", "approach")
-# The first distance from the stick zone that is looked at, of its half-width, and how often it is
-# doubled, and halved, until wear ends
-NEXT, DOUBLINGS, HALVINGS = 1e-15, 1100, 200
+# The first distance from the stick zone that is looked at, of its half-width; it is doubled until
+# wear ends before, and the last interval is halved so often
+NEXT, HALVINGS = 1e-15, 60
 PANELS = 8  # of the rule for the volume, in arcosh
 CHECKED, TOLERATED = 101, 1e-9
 # Points of the worn profile on each worn zone and, coarser, on what is left, and how far it reaches
@@ -155,13 +156,10 @@ class WearLimit:
         margin = BESIDE * (w2 - w1)
         lo, hi = self.before.scene.profile.domain
         ends = max(w1 - margin, lo), min(w2 + margin, hi)
-        parts = [
-            c1 - (c1 - w1) * near, c2 + (w2 - c2) * near, np.linspace(c1, c2, 2 * POINTS),
-            np.linspace(ends[0], w1, POINTS), np.linspace(w2, ends[1], POINTS),
-        ]  # fmt: skip
-        x = np.unique(np.concatenate(parts))
-        least = 1e-9 * (ends[1] - ends[0])
-        x = x[np.concatenate(([True], np.diff(x) > least))]
+        worn = c1 - (c1 - w1) * near, c2 + (w2 - c2) * near
+        old = [np.linspace(*part, 2 * POINTS) for part in ((ends[0], w1), (c1, c2), (w2, ends[1]))]
+        x = np.unique(np.concatenate((*worn, *old)))
+        x = x[np.append(True, np.diff(x) > 1e-9 * (ends[1] - ends[0]))]
         return Sampled(x, self.before.scene.profile.height(x) + self.depth(x))
 
     def check(self) -> WearCertificate:
@@ -172,9 +170,8 @@ class WearLimit:
         WearCertificate
             `.ok` sums it up.
         """
-        zone, state, p = self._hat.contact, self._state, self.pressure
-        slope = state.found.slope(self.before.scene.profile)
-        of_hat = certificate(state.corrective, slope, self.before.tol)
+        zone, p = self._hat.contact, self.pressure
+        of_hat = certificate(self._hat, self._slope_hat, self.before.tol)
         values = p(zone.m + zone.r * np.cos(np.pi * (np.arange(CHECKED) + 0.5) / CHECKED))
         worn = np.concatenate(
             [np.linspace(c, w, CHECKED) for c, w in zip(self.stick, self.worn, strict=True)]
@@ -199,6 +196,10 @@ class WearLimit:
     def _hat(self) -> SlopeDensity:
         return self._state.corrective
 
+    @cached_property
+    def _slope_hat(self) -> Slope:
+        return self._state.found.slope(self.before.scene.profile)
+
     @property
     def _gained(self) -> float:
         return self.normal_load - self._hat.resultant
@@ -206,10 +207,6 @@ class WearLimit:
     @property
     def _turned(self) -> float:
         return self.before.tilt - self._state.found.edges.tilt
-
-    def _gap_hat(self, x: Array) -> Array:
-        state = self._state
-        return gap(x, state.corrective, state.found.slope(self.before.scene.profile))
 
     def _overlap(self, x: Array) -> Array:
         """How far the old profile would overlap the body at x; 0 in the stick zone."""
@@ -220,29 +217,22 @@ class WearLimit:
             at = beyond > 0.0
             u = beyond[at] / zone.r
             turn = side * self._turned * zone.r * np.sqrt(u * (2.0 + u))
-            out[at] = rise * _arcosh_excess(u) - turn - self._gap_hat(x[at])
+            gap_hat = gap(x[at], self._hat, self._slope_hat)
+            out[at] = rise * _arcosh_excess(u) - turn - gap_hat
         return out
 
     def _end(self, side: float) -> float:
         """The place beside the stick zone where wear ends."""
-        zone = self._hat.contact
-        edge = zone.x2 if side > 0.0 else zone.x1
+        edge = self.stick[side > 0.0]
 
         def worn(distance: float) -> bool:
             return bool(self._overlap(np.array([edge + side * distance]))[0] > 0.0)
 
-        low, high = 0.0, NEXT * zone.r
-        for _ in range(DOUBLINGS):
-            if not worn(high):
-                break
+        low, high = 0.0, NEXT * self._hat.contact.r
+        while worn(high):
             low, high = high, 2.0 * high
         for _ in range(HALVINGS):
             middle = 0.5 * (low + high)
-            if not low < middle < high or edge + side * middle in (
-                edge + side * low,
-                edge + side * high,
-            ):
-                break
             low, high = (middle, high) if worn(middle) else (low, middle)
         return edge + side * low
 
