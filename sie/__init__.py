@@ -144,7 +144,12 @@ __all__ = [
 ]
 
 
-PARTS = {"charts": "sie.sweeps.charts", "teaching": "sie.live.teaching", "plots": "sie.plots"}
+PARTS = {
+    "adapters": "sie.sensitivity.adapters",
+    "charts": "sie.sweeps.charts",
+    "teaching": "sie.live.teaching",
+    "plots": "sie.plots",
+}
 
 
 def __getattr__(name: str) -> Any:
