@@ -13,7 +13,7 @@ HOUSE = Path(sie.__file__).parent
 LINES = {
     "": 3030,
     "benchmark_set": 10,
-    "cracks": 880,
+    "cracks": 820,
     "wear": 530,
     "cauchy": 2170,
     "certificate": 1570,
