@@ -16,32 +16,27 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from functools import lru_cache
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from sie.contact.normal import normal_contact
 from sie.contact.pressure import pressure as pressure_on
 from sie.numerics.interval import EPS
 from sie.problem.scene import Scene
-from sie.profiles.shapes import Power
+from sie.profiles.base import Profile
+from sie.profiles.row import asks_for_patches
+from sie.profiles.shapes import Flat, Parabola, Power, RoundedFlat, Wedge
 
-Array = NDArray[np.float64]
+from .newton import CLOSE, MOST_STEPS, Array, Contact, Integrals, newton
+from .smooth import Smooth
+
 Formula = Callable[..., Array]
 
 TOL = 1e-13
-MOST_STEPS, CLOSE = 40, 1e-8  # of Newton's method; what is left is the square of the last step
+THIN = 0.1  # angle of a rounded edge: below it a tilted punch loses digits in doubles
+MOST_BREAKS = 8  # of a slope that may be smooth between them
 SHORT, TERMS = 0.25, 12  # up to this argument a series of so many terms is right to rounding
-
-
-class Contact(NamedTuple):
-    """Contacts of n scenes: centre, half-width, T = P/G and the moment about the centre over G."""
-
-    m: Array
-    r: Array
-    T: Array
-    about: Array
 
 
 class Family(NamedTuple):
@@ -169,3 +164,66 @@ def _punch_pressure(x: Array, b: Array, T: Array, a: Array, R: Array) -> Array:
 
 
 ROUNDED = upright(lambda b, a, R: _punch_load(b - a, a, R), punch_width, _punch_pressure)
+
+
+# -- rounded flats under a tilt: H = θ + ((x - a)⁺ - (-x - a)⁺)/R, by the angles of both arcs ------
+
+
+def _angles(m: Array, r: Array, a: Array) -> tuple[Array, Array]:
+    """Of the right arc and of the left one, from its edge; nan where it is not in contact."""
+    return np.arccos((a - m) / r), np.arccos((a + m) / r)
+
+
+def _of_punch(tilt: Array, m: Array, r: Array, a: Array, R: Array) -> Integrals:
+    (u, v), s = _angles(m, r, a), r / R
+    su, cu, sv, cv = np.sin(u), np.cos(u), np.sin(v), np.cos(v)
+    gu, gv = 0.5 * (u - su * cu), 0.5 * (v - sv * cv)
+    I0 = math.pi * tilt + s * (su - u * cu - sv + v * cv)
+    C2 = 0.5 * math.pi * tilt + s * ((su**3 - sv**3) / 3.0 - cu * gu + cv * gv)
+    return Integrals(I0, s * (gu + gv), s * (u + v), s * (su - sv), C2)
+
+
+def _tilted(size: Array, tilt: Array, of_width: bool, a: Array, R: Array) -> Contact:
+    r = size if of_width else punch_width(size, a, R)
+    found = newton(lambda m, r: _of_punch(tilt, m, r, a, R), (0.0 * tilt, r), size, of_width)
+    thin = np.minimum(*_angles(found.m, found.r, a)) < THIN
+    return found._replace(r=np.where(thin, np.nan, found.r))
+
+
+def _tilted_pressure(x: Array, found: Contact, _: Array, a: Array, R: Array) -> Array:
+    m, r = found.m, found.r
+    u, v = _angles(m, r, a)
+    right, left = r - x, r + x
+    total = (u + v) * np.sqrt(np.maximum(right * left, 0.0))
+    for side, near, far in ((1.0, right, left), (-1.0, left, right)):
+        # (x - e) ln((A + B)²/(2r |x - e|)), A² = (r + x)(r - e), B² = (r + e)(r - x)
+        e = a - side * m
+        A, B = np.sqrt(np.maximum(far * (r - e), 0.0)), np.sqrt(np.maximum(near * (r + e), 0.0))
+        away = side * x - e
+        apart = np.where(away == 0.0, 1.0, 2.0 * r * np.abs(away))
+        total += away * np.log1p(2.0 * np.minimum(A, B) * (A + B) / apart)
+    return np.asarray(total / (math.pi * R))
+
+
+TILTED = Family(_tilted, _tilted_pressure)
+
+
+# -- the families of a profile ---------------------------------------------------------------------
+
+# Profiles with formulas, whose parameters may be arrays
+SHAPES: dict[type, tuple[Family, ...]] = {
+    Parabola: (HERTZ,), RoundedFlat: (ROUNDED, TILTED), Flat: (PUNCH,), Wedge: (TIP,), Power: (),
+}  # fmt: skip
+
+
+def families(profile: Any, names: tuple[str, ...]) -> tuple[Family | Smooth, ...]:
+    """The families that answer for a profile, or for a slope with parameters of these names."""
+    if not isinstance(profile, Profile):
+        return (Smooth(profile, names),)
+    if type(profile) in SHAPES:
+        return SHAPES[type(profile)] or (power(profile.exponent),)  # type: ignore[attr-defined]
+    inner = profile.pieces.breaks[1:-1]
+    if asks_for_patches(profile) or len(inner) > MOST_BREAKS:
+        return ()
+    breaks, known = tuple(map(float, inner)), (profile.domain, profile.convex)
+    return (Smooth(profile.pieces, (), profile.axis, breaks, *known),)

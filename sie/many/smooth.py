@@ -13,8 +13,7 @@ from numpy.typing import NDArray
 from sie.numerics import chebyshev
 from sie.numerics.interval import EPS
 
-from .families import Array, Contact
-from .newton import Integrals, newton
+from .newton import Array, Contact, Integrals, newton
 
 SIZES = (24, 48, 96, 192)  # nodes of a smooth slope
 RESOLVED, MISSED = 2e-14, 1e-12  # its last coefficients, and what it may miss at probes

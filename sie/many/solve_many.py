@@ -1,6 +1,6 @@
 """Many contacts at once: numbers as arrays, answers as arrays.
 
-Scenes go through the families of their profile (`choice`) in chunks that stay in the processor's
+Scenes go through the families of their profile (`families`) in chunks that stay in the processor's
 cache. What no family answers (several patches, traces, an edge that reaches an end, slip to either
 side) is solved one by one, and what that refuses keeps its reason.
 """
@@ -23,8 +23,8 @@ from sie.profiles.base import Profile
 from sie.profiles.from_function import FromFunction
 from sie.solution import Solution, solve
 
-from .choice import SHAPES, families
-from .families import Array, Contact
+from .families import SHAPES, families
+from .newton import Array, Contact
 
 CHUNK = 4096  # scenes, whose arrays stay in the cache
 VALUES = 1 << 14  # of a pressure that are evaluated together
@@ -175,7 +175,7 @@ class Many:
         width, own = loads.get("half_width"), (v[at] for v in self._own.values())
         size = 2.0 * loads["normal_load"] / loads["modulus"] if width is None else width
         found = family.contact(size, loads["tilt"], width is not None, *own)
-        good = np.isfinite(found.m) & _regular(loads, found) & _one_signed(loads, found)
+        good = _answered(loads, found)
         for mine, new in zip(self._found, found, strict=True):
             mine[at[good]] = new[good]
         self._family[at[good]] = number
@@ -252,23 +252,18 @@ class Many:
     @cached_property
     def peak_pressure(self) -> Array:
         """The largest pressure, ndarray of float; inf under a corner."""
-        out = np.empty(len(self._family))
-        for some in _chunks(len(out), VALUES // FIRST):
-            out[some] = self._peak(some)
-        return self._shaped(out)
-
-    def _peak(self, some: slice) -> Array:
-        m, r = (v[some, None] for v in self._found[:2])
-        every, s = np.arange(len(m)), np.sin(math.pi * (np.arange(FIRST) / (FIRST - 1) - 0.5))
-        places, best = np.broadcast_to(s, (len(m), FIRST)), np.zeros(len(m))
-        for _ in range(ZOOMS):
-            p = self._pressure(some, m + r * places)
-            k = np.argmax(p, axis=1)
-            best = np.maximum(best, p[every, k])
-            beside = np.clip((k - 1, k + 1), 0, p.shape[1] - 1)
-            lo, hi = places[every, beside]
-            places = np.linspace(lo, hi, PLACES, axis=1)
-        return best
+        best, first = np.zeros(len(self._family)), np.linspace(-0.5, 0.5, FIRST)
+        for some in _chunks(len(best), VALUES // FIRST):
+            m, r = (v[some, None] for v in self._found[:2])
+            every = np.arange(len(m))
+            places = np.broadcast_to(np.sin(math.pi * first), (len(m), FIRST))
+            for _ in range(ZOOMS):
+                p = self._pressure(some, m + r * places)
+                k = np.argmax(p, axis=1)
+                best[some] = np.maximum(best[some], p[every, k])
+                lo, hi = places[every, np.clip((k - 1, k + 1), 0, p.shape[1] - 1)]
+                places = np.linspace(lo, hi, PLACES, axis=1)
+        return self._shaped(best)
 
     @cached_property
     def stick(self) -> Array:
@@ -302,21 +297,20 @@ def _slips(loads: Numbers) -> NDArray[np.bool_]:
     return np.asarray((f > 0.0) & ((Q != 0.0) | (sigma != 0.0)))
 
 
-def _regular(loads: Numbers, found: Contact) -> NDArray[np.bool_]:
-    """Whether the numbers are those of a scene; `Scene` itself refuses the others."""
-    tilt, f, Q, sigma = (loads[name] for name in ACTING)
-    good = np.isfinite(tilt + Q + sigma) & (f >= 0.0) & (f < math.inf)
-    for v in (loads["modulus"], found.r, loads["modulus"] * found.T):
+def _answered(loads: Numbers, found: Contact) -> NDArray[np.bool_]:
+    """Whether numbers are those of a scene, and nothing slips, or all of one sign and some sticks.
+
+    Others are solved, or refused, one by one.
+    """
+    E, (tilt, f, Q, sigma) = loads["modulus"], (loads[name] for name in ACTING)
+    good = np.isfinite(found.m + tilt + Q + sigma) & (f >= 0.0) & (f < math.inf)
+    for v in (E, found.r, E * found.T):
         good &= (v > 1.0 / arguments.LARGEST) & (v < arguments.LARGEST)
-    return np.asarray(good)
-
-
-def _one_signed(loads: Numbers, found: Contact) -> NDArray[np.bool_]:
-    """Whether nothing slips, or all slip has one sign and something sticks."""
-    _, f, Q, sigma = (loads[name] for name in ACTING)
-    P, none = 0.5 * loads["modulus"] * found.T, ~_slips(loads) & ((f > 0.0) | (Q == 0.0))
-    fits = (f * P > np.abs(Q)) & (0.25 * math.pi * found.r * np.abs(sigma) <= np.abs(Q))
-    return np.asarray(fits | none)
+    none = ~_slips(loads) & ((f > 0.0) | (Q == 0.0))
+    fits = (0.5 * f * E * found.T > np.abs(Q)) & (
+        0.25 * math.pi * found.r * np.abs(sigma) <= np.abs(Q)
+    )
+    return np.asarray(good & (none | fits))
 
 
 def _chunks(n: int, size: int) -> Iterator[slice]:
