@@ -31,7 +31,7 @@ LINES = {
     "plots": 1030,
     "problem": 950,
     "profiles": 5570,
-    "sensitivity": 1340,
+    "sensitivity": 1310,
     "stress": 2490,
     "sweeps": 820,
     "traction": 2660,

@@ -7,6 +7,7 @@ derivative is the exact one of `Solution.derivative`.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from operator import attrgetter
 from typing import Any
 
 import numpy as np
@@ -15,10 +16,12 @@ from sie.problem.scene import Scene
 from sie.solution import solve
 
 from .derivative import peaks
-from .gradient import by_name, known_quantity, value_of
+from .gradient import by_name, known_quantity
 
 Make = Callable[..., Scene]
 READ: dict[str, Callable[[Any], float]] = {
+    "left_edge": lambda solution: solution.edges[0],
+    "right_edge": lambda solution: solution.edges[1],
     "peak_pressure": lambda solution: float(solution.pressure(peaks(solution)[0])),
     "peak_tension": lambda solution: float(solution.peak_tension().value),
     "elastic_limit": lambda solution: float(solution.elastic_limit().load),
@@ -31,7 +34,7 @@ def _answers(make: Make, names: Sequence[str], quantity: str, numbers: Any) -> t
         raise ValueError(f"{len(numbers)} numbers for names = {names!r}: give one for each name")
     plain = (np.asarray(v, dtype=float) for v in numbers)
     solution = solve(make(*(v if v.ndim else float(v) for v in plain)))
-    read = READ.get(quantity, lambda s: value_of(s, quantity))
+    read = READ.get(quantity, attrgetter(quantity))
     return read(solution), *(by_name(solution, quantity, name) for name in names)
 
 

@@ -29,29 +29,14 @@ SAME_PEAK = 1e-7
 
 
 class OfPatches:
-    """The moves of edges and what follows from them, as of a solution."""
+    """The moves of edges, (x1, x2) of each patch, and what follows from them."""
 
-    patches: Zones
-
-    @property
-    def edges(self) -> tuple[float, float]:
-        """That of the outermost two edges."""
-        return self.patches[0][0], self.patches[-1][1]
-
-    @property
-    def half_width(self) -> float:
-        """That of the half-width."""
-        return 0.5 * (self.edges[1] - self.edges[0])
-
-    @property
-    def centre(self) -> float:
-        """That of the centre."""
-        return 0.5 * (self.edges[0] + self.edges[1])
-
-    @property
-    def contact_length(self) -> float:
-        """That of the length of all patches."""
-        return sum(x2 - x1 for x1, x2 in self.patches)
+    def __init__(self, patches: Zones) -> None:
+        self.patches = patches
+        self.edges = self.left_edge, self.right_edge = patches[0][0], patches[-1][1]
+        self.half_width = 0.5 * (self.right_edge - self.left_edge)
+        self.centre = 0.5 * (self.left_edge + self.right_edge)
+        self.contact_length = sum(x2 - x1 for x1, x2 in patches)
 
 
 class Derivative(OfPatches):
@@ -63,6 +48,10 @@ class Derivative(OfPatches):
     ----------
     patches : tuple of (float, float)
         That of the patches as (x1, x2).
+    edges : (float, float)
+        That of the outermost two edges; `left_edge` and `right_edge` by themselves.
+    half_width, centre, contact_length : float
+        That of the half-width, of the centre and of the length of all patches.
     normal_load, moment, tilt : float
         That of the load, of its moment about x = 0, and of the tilt.
     pressure : Density
@@ -84,7 +73,8 @@ class Derivative(OfPatches):
             )
         self.solution, self.name, self._by = solution, name, change_by(scene, name)
         self._contact = contact_rate(solution.normal, solution.pressure, scene.profile, self._by)
-        self.patches, self.normal_load, self.moment, self.tilt, self.pressure = self._contact
+        super().__init__(self._contact.patches)
+        self.normal_load, self.moment, self.tilt, self.pressure = self._contact[1:]
 
     def __repr__(self) -> str:
         return f"Derivative({self.name!r})"

@@ -46,13 +46,6 @@ HEIGHTS = "profile.heights"
 NODES, HALVINGS = 12, 52  # of a panel; towards the logarithm under a peak
 
 
-def value_of(derivative: Any, quantity: str) -> float:
-    """One of the quantities of a derivative, or of a response."""
-    if quantity in ("left_edge", "right_edge"):
-        return float(derivative.edges[quantity == "right_edge"])
-    return float(getattr(derivative, quantity))
-
-
 def known_quantity(quantity: str) -> str:
     """The name. ValueError if it is none that has derivatives."""
     if not arguments.among(quantity, (*OF_CONTACT, *PEAKS)):
@@ -81,7 +74,7 @@ def by_name(solution: Any, quantity: str, name: str) -> Any:
     """The derivative of a quantity by a number of the scene, or by all heights of its trace."""
     if name == HEIGHTS:
         return of_heights(solution, quantity)
-    return value_of(Derivative(solution, name), quantity)
+    return float(getattr(Derivative(solution, name), quantity))
 
 
 class Uncertainty:
@@ -120,7 +113,7 @@ class Uncertainty:
             For another quantity.
         """
         known_quantity(quantity)
-        found = {n: abs(value_of(d, quantity)) for n, d in self._derivatives.items()}
+        found = {n: abs(getattr(d, quantity)) for n, d in self._derivatives.items()}
         if HEIGHTS in self._deviations:
             found[HEIGHTS] = float(np.linalg.norm(of_heights(self._solution, quantity)))
         return {name: abs(deviation) * found[name] for name, deviation in self._deviations.items()}
@@ -182,10 +175,8 @@ def of_heights(solution: Any, quantity: str) -> Array:
         raise ValueError(f'"{HEIGHTS}" are those of a trace: the profile is {profile!r}')
     together = profile.lam == 0.0 and isinstance(found, Normal) and quantity not in PEAKS[1:]
     if not together:
-        every = range(len(profile.points))
-        return np.array(
-            [value_of(Derivative(solution, f"{HEIGHTS}[{k}]"), quantity) for k in every]
-        )
+        names = (f"{HEIGHTS}[{k}]" for k in range(len(profile.points)))
+        return np.array([by_name(solution, quantity, name) for name in names])
     place = _one_peak(solution) if quantity == "peak_pressure" else None
     factors = _factors(solution, quantity, place)
     first, weights = _weights(solution, profile.points, factors, place)
@@ -211,7 +202,7 @@ def _factors(solution: Any, quantity: str, place: float | None) -> tuple[float, 
         integrals = H, NOTHING._replace(**integral)
         rate = response(edges, 0.5 * scene.Estar, integrals, held(scene))
         if place is None:
-            return value_of(_OnePatch(rate), quantity)
+            return float(getattr(_OnePatch(rate), quantity))
         ratio = math.sqrt(contact.from_right(place) / contact.from_left(place))
         k1, k2 = rate.intensities
         return 0.5 * (k1 * ratio + k2 / ratio)
@@ -223,7 +214,7 @@ class _OnePatch(OfPatches):
     """The derivatives of one patch that follow from its response."""
 
     def __init__(self, rate: Response) -> None:
-        self.patches = (rate.edges,)
+        super().__init__((rate.edges,))
         self.normal_load, self.moment, self.tilt = rate[1:4]
 
 
