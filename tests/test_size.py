@@ -14,7 +14,7 @@ LINES = {
     "": 3030,
     "benchmark_set": 10,
     "cracks": 820,
-    "wear": 530,
+    "wear": 480,
     "cauchy": 2170,
     "certificate": 1570,
     "cli": 980,
