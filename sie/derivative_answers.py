@@ -100,11 +100,6 @@ class DerivativeAnswers:
         Uncertainty
             `.of(quantity)`, `.shares(quantity)`, `.pressure(x)`, `.shear(x)`.
 
-        Raises
-        ------
-        ValueError, ContactError
-            As of `derivative`.
-
         Examples
         --------
         >>> import sie
