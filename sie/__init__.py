@@ -114,6 +114,7 @@ __all__ = [
     "Power",
     "Profile",
     "ResolutionError",
+    "Rolling",
     "RoundedFlat",
     "Row",
     "Sampled",
@@ -133,6 +134,7 @@ __all__ = [
     "least_smoothing",
     "plan",
     "profile_for_pressure",
+    "rolling",
     "scaled",
     "solve",
     "solve_many",
@@ -144,7 +146,12 @@ __all__ = [
 ]
 
 
-PARTS = {"charts": "sie.sweeps.charts", "teaching": "sie.live.teaching", "plots": "sie.plots"}
+PARTS = {
+    "adapters": "sie.sensitivity.adapters",
+    "charts": "sie.sweeps.charts",
+    "teaching": "sie.live.teaching",
+    "plots": "sie.plots",
+}
 
 
 def __getattr__(name: str) -> Any:

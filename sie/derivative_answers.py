@@ -45,10 +45,9 @@ class DerivativeAnswers:
         Examples
         --------
         >>> import sie
-        >>> scene = sie.Scene(profile=sie.Parabola(1.0), modulus=1.0, normal_load=1.0)
-        >>> solution = sie.solve(scene)
-        >>> round(solution.derivative("normal_load").half_width / solution.half_width, 12)
-        0.5
+        >>> scene = sie.Scene(profile=sie.RoundedFlat(1.0, 1.0), modulus=1.0, normal_load=1.0)
+        >>> round(sie.solve(scene).derivative("profile.radius").half_width, 10)
+        0.5240149793
         """
         from sie.sensitivity.derivative import Derivative  # noqa: PLC0415 -- a higher layer
 
@@ -73,10 +72,8 @@ class DerivativeAnswers:
 
         Raises
         ------
-        ValueError
-            For another quantity.
-        ContactError
-            If the quantity has no derivative by any number.
+        ValueError, ContactError
+            For another quantity, or one without a derivative by any number.
 
         Examples
         --------
@@ -102,11 +99,6 @@ class DerivativeAnswers:
         -------
         Uncertainty
             `.of(quantity)`, `.shares(quantity)`, `.pressure(x)`, `.shear(x)`.
-
-        Raises
-        ------
-        ValueError, ContactError
-            As of `derivative`.
 
         Examples
         --------

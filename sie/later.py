@@ -12,6 +12,7 @@ from .inverse.wanted_pressure import profile_for_pressure
 from .many.solve_many import Many, solve_many
 from .paths.dissimilar_cycle import steady_cycle
 from .paths.history import History, follow
+from .paths.rolling import Rolling, rolling
 from .paths.steady_state import SteadyCycle
 from .planning import Plan, plan
 from .sensitivity.derivative import Derivative, StressDerivative
@@ -39,6 +40,7 @@ __all__ = [
     "Many",
     "Peak",
     "Plan",
+    "Rolling",
     "SteadyCycle",
     "Stress",
     "StressDerivative",
@@ -52,6 +54,7 @@ __all__ = [
     "least_smoothing",
     "plan",
     "profile_for_pressure",
+    "rolling",
     "solve_many",
     "steady_cycle",
     "sweep",

@@ -24,7 +24,7 @@ from validation.harness.running import run
 # Modules of this package, in the order of the page.
 TOPICS = (
     "paper", "appendix", "pressure", "speed", "stress", "collocation", "work_precision", "slip",
-    "histories", "sliding", "spence", "sampled", "patches", "reference_data", "growth",
+    "histories", "sliding", "spence", "sampled", "patches", "reference_data", "cracks", "growth",
     "stability", "kinks", "certificate", "economy", "mutation",
 )  # fmt: skip
 NOT_WRITTEN = 2

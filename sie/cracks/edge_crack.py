@@ -58,11 +58,9 @@ class CrackCertificate(NamedTuple):
     residual : float
         The largest stress left on open faces, at points that no equation used, over the largest
         stress; for sliding faces too.
-    lowest_opening : float
-        0 where the faces do not overlap, otherwise negative: over the largest opening.
-    lowest_pressure : float
-        0 where closed faces press on each other, otherwise the largest tension, negative: over the
-        largest stress.
+    lowest_opening, lowest_pressure : float
+        0 where faces do not overlap, and where closed ones press on each other; otherwise negative,
+        over the largest opening and the largest stress.
     """
 
     residual: float
@@ -210,39 +208,40 @@ class EdgeCrack:
         Cells show which zones there are; Newton's method moves their ends until K = 0 there.
         """
         a = self.depth
-        zones = tuple(
-            (a * y1, a * y2) for y1, y2 in open_zones(lambda y: self._values(self.normal, a * y))
-        )
+        ends = a * np.ravel(open_zones(lambda y: self._values(self.normal, a * y)))
+        moved = math.inf
         for _ in range(STEPS):
-            if not zones:
+            if not ends.size:
                 return (), None
-            density = self._solved(self.normal, zones)
-            free = [y for zone in zones for y in zone if 0.0 < y < a]
-            change = self._change(zones, density, free)
-            if not free:
+            density = self._solved(self.normal, zones := _pairs(ends))
+            free = np.flatnonzero((ends > 0.0) & (ends < a))
+            if moved <= SETTLED * a or not free.size:
                 return zones, density
-            zones = _joined(_with_ends(zones, _kept_apart(free, change, a), a), SHORT * a)
-            if np.abs(change).max() <= SETTLED * a:
-                return zones, self._solved(self.normal, zones)
+            change = self._change(ends, free, density)
+            # none goes more than half the way to a neighbour
+            halves = 0.5 * np.diff(np.concatenate(([0.0], ends[free], [a])))
+            room = np.minimum(halves[:-1], halves[1:])
+            ends[free] += np.clip(change, -room, room)
+            moved = float(np.abs(change).max())
+            while (short := np.flatnonzero(np.diff(ends) <= SHORT * a)).size:
+                ends = np.delete(ends, [short[0], short[0] + 1])  # a zone or a contact vanishes
         raise ContactError(
             f"the ends of contact of the faces of a crack of depth {a:g} are not found: the stress "
             "changes its sign too often along it; ask for other depths",
-            zones=zones,
+            zones=_pairs(ends),
         )
 
-    def _change(self, zones: Zones, density: JacobiDensity, free: list[float]) -> Array:
-        """Newton's step for the ends of the open zones; towards contact only where K < 0."""
-        K = self._at_free_ends(zones, density)
-        if not free:
-            return K
+    def _change(self, ends: Array, free: NDArray[np.intp], density: JacobiDensity) -> Array:
+        """Newton's step for the free ends of the open zones; towards contact only where K < 0."""
+        K = np.ravel(density.intensities)[free]
         slopes = np.empty((len(free), len(free)))
-        for j, y in enumerate(free):
-            step = DIFFERENCE * y
-            moved = _with_ends(zones, [*free[:j], y + step, *free[j + 1 :]], self.depth)
-            slopes[:, j] = (self._at_free_ends(moved, self._solved(self.normal, moved)) - K) / step
+        for column, j in enumerate(free):
+            moved = ends.copy()
+            moved[j] *= 1.0 + DIFFERENCE
+            other = np.ravel(self._solved(self.normal, _pairs(moved)).intensities)[free]
+            slopes[:, column] = (other - K) / (DIFFERENCE * ends[j])
         change = np.linalg.solve(slopes, -K)
-        settled = np.abs(change) <= SETTLED * self.depth
-        astray = (change * K > 0.0) & ~settled
+        astray = (change * K > 0.0) & (np.abs(change) > SETTLED * self.depth)
         return np.asarray(np.where(astray, -np.sign(K) * self.depth, change))
 
     def _solved(self, load: Load, zones: Zones) -> JacobiDensity:
@@ -270,17 +269,6 @@ class EdgeCrack:
         if not callable(self.shear) and self.shear == 0.0:
             return None
         return self._solved(self.shear, ((0.0, self.depth),))
-
-    def _at_free_ends(self, zones: Zones, density: JacobiDensity) -> Array:
-        """The intensities of B at the ends of open zones that are neither mouth nor tip."""
-        return np.array(
-            [
-                value
-                for zone, of in zip(zones, density.intensities, strict=True)
-                for y, value in zip(zone, of, strict=True)
-                if 0.0 < y < self.depth
-            ]
-        )
 
     def _K(self, density: JacobiDensity | None, zone: int) -> float:
         assert density is not None
@@ -319,26 +307,5 @@ def _integral_to_end(part: Any, y: Array) -> Array:
     return out
 
 
-def _with_ends(zones: Zones, free: list[float], depth: float) -> Zones:
-    """The zones with these ends in place of those that are neither mouth nor tip."""
-    ends = iter(free)
-    placed = [y if y in (0.0, depth) else next(ends) for zone in zones for y in zone]
-    return tuple(zip(placed[::2], placed[1::2], strict=True))
-
-
-def _joined(zones: Zones, short: float) -> Zones:
-    """The zones without contacts between them, and without zones, that are as short as that."""
-    out: list[tuple[float, float]] = []
-    for y1, y2 in zones:
-        if out and y1 - out[-1][1] <= short:
-            out[-1] = out[-1][0], y2
-        else:
-            out.append((y1, y2))
-    return tuple(zone for zone in out if zone[1] - zone[0] > short)
-
-
-def _kept_apart(free: list[float], change: Array, depth: float) -> list[float]:
-    """The ends after a step that takes none of them more than half the way to a neighbour."""
-    fixed = np.array([0.0, *free, depth])
-    room = 0.5 * np.minimum(np.diff(fixed)[:-1], np.diff(fixed)[1:])
-    return (np.array(free) + np.clip(change, -room, room)).tolist()
+def _pairs(ends: Array) -> Zones:
+    return tuple((float(y1), float(y2)) for y1, y2 in ends.reshape(-1, 2))

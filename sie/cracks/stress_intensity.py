@@ -13,8 +13,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
-from functools import cached_property, partial
+from functools import partial
 from typing import Any, Protocol
 
 import numpy as np
@@ -44,11 +43,10 @@ class State(Protocol):
         """The tractions, the bulk stress and the body."""
 
 
-@dataclass(frozen=True, eq=False)
 class StressIntensity:
     """K_I and K_II of cracks normal to the surface over a cycle; `Cycle.stress_intensity` makes it.
 
-    Parameters
+    Attributes
     ----------
     states : sequence of Solution
         The solutions at the turning points.
@@ -56,6 +54,11 @@ class StressIntensity:
         Position of the mouth of the crack on the surface, length.
     depth : ndarray of float
         Depths of the tip, lengths, ascending.
+    mode_1, mode_2 : ndarray of float
+        K_I, 0 where the tip is closed, and K_II, of shape (turning points, depths), stress times
+        root of length.
+    range, shear_range : ndarray of float
+        ΔK_I and ΔK_II over the cycle at each depth.
 
     Notes
     -----
@@ -69,41 +72,18 @@ class StressIntensity:
     Fract. Mech. 73 (2006) 207-222.
     """
 
-    states: Sequence[State]
-    at: float
-    depth: Array
+    def __init__(self, states: Sequence[State], at: float, depth: Array) -> None:
+        self.states, self.at, self.depth = states, at, depth
+        self.mode_1, self.mode_2 = self._modes(depth)
+        self.range, self.shear_range = np.ptp(self.mode_1, axis=0), np.ptp(self.mode_2, axis=0)
 
-    @cached_property
-    def _modes(self) -> tuple[Array, Array]:
-        return self._at_depths(self.depth)
-
-    def _at_depths(self, depth: Array) -> tuple[Array, Array]:
+    def _modes(self, depth: Array) -> Array:
         found = [modes(partial(self._stress, state), depth) for state in self.states]
-        return np.stack([K for K, _ in found]), np.stack([K for _, K in found])
+        return np.stack(found, axis=1)
 
     def _stress(self, state: State, y: Array) -> tuple[Array, Array]:
         stress = state.stress(self.at, y)
         return stress.xx, stress.xy
-
-    @property
-    def mode_1(self) -> Array:
-        """K_I of shape (turning points, depths), stress times root of length; 0 where closed."""
-        return self._modes[0]
-
-    @property
-    def mode_2(self) -> Array:
-        """K_II, likewise."""
-        return self._modes[1]
-
-    @property
-    def range(self) -> Array:
-        """ΔK_I over the cycle at each depth."""
-        return np.ptp(self.mode_1, axis=0)
-
-    @property
-    def shear_range(self) -> Array:
-        """ΔK_II over the cycle at each depth."""
-        return np.ptp(self.mode_2, axis=0)
 
     def table(self) -> Any:
         """The extremes at each depth.
@@ -116,15 +96,10 @@ class StressIntensity:
         """
         columns = {"depth": self.depth}
         for name, K in (("K1", self.mode_1), ("K2", self.mode_2)):
-            columns |= {
-                f"{name}_max": K.max(0),
-                f"{name}_min": K.min(0),
-                f"{name}_range": np.ptp(K, 0),
-            }
-        rows = [
-            dict(zip(columns, map(float, row), strict=True))
-            for row in zip(*columns.values(), strict=True)
-        ]
+            columns[f"{name}_max"], columns[f"{name}_min"] = K.max(axis=0), K.min(axis=0)
+            columns[f"{name}_range"] = np.ptp(K, axis=0)
+        table = np.transpose([*columns.values()]).tolist()
+        rows = [dict(zip(columns, row, strict=True)) for row in table]
         try:
             import pandas  # type: ignore[import, unused-ignore]  # noqa: PLC0415
         except ImportError:
@@ -181,7 +156,7 @@ class StressIntensity:
             a = np.array([math.sqrt(low * high)])
             if not low < a[0] < high:
                 break
-            grows = np.ptp(self._at_depths(a)[0]) > self.threshold(threshold, fatigue_limit, a)[0]
+            grows = np.ptp(self._modes(a)[0]) > self.threshold(threshold, fatigue_limit, a)[0]
             low, high = (a[0], high) if grows else (low, a[0])
         return float(high)
 
@@ -216,22 +191,16 @@ class StressIntensity:
             The worst of each measure; the residual includes the difference of both modes from the
             cracks solved one by one, over the largest K.
         """
-        some = sorted({0, len(self.depth) // 2, len(self.depth) - 1})
         largest = max(np.abs(self.mode_1).max(), np.abs(self.mode_2).max(), 1e-300)
         found = []
         for k in range(len(self.states)):
-            for i in some:
+            for i in {0, len(self.depth) // 2, len(self.depth) - 1}:
                 crack = self.crack(k, float(self.depth[i]))
                 off = np.abs([crack.mode_1 - self.mode_1[k, i], crack.mode_2 - self.mode_2[k, i]])
-                measured = crack.check()
-                found.append(
-                    measured._replace(residual=max(measured.residual, off.max() / largest))
-                )
-        return CrackCertificate(
-            float(max(c.residual for c in found)),
-            min(c.lowest_opening for c in found),
-            min(c.lowest_pressure for c in found),
-        )
+                residual, *lowest = crack.check()
+                found.append((max(residual, off.max() / largest), *lowest))
+        residuals, openings, pressures = zip(*found, strict=True)
+        return CrackCertificate(float(max(residuals)), min(openings), min(pressures))
 
     def plot(
         self, ax: Any = None, threshold: float = 0.0, fatigue_limit: float = 0.0, units: Any = None

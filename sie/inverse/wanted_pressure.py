@@ -11,9 +11,9 @@ which leaves a smooth integrand and a logarithm; elsewhere the panel's rule is e
 
     ∫_k (p_k(θ) - p_k(a)) cot((θ - a)/2) dθ + 2 p_k(a) ln(sin((hi - a)/2)/sin((lo - a)/2))
 
-Beside a patch θ_x is complex, and the poles are a conjugate pair.
-Between patches the surface falls and rises by the integral of the same h'. Lundberg's roller, an
-even pressure, is 2p/(π E*) ln((b + x)/(b - x)).
+Beside a patch θ_x is complex, and the poles are a conjugate pair. A table is joined by monotone
+cubics of the angle, one a panel. Between patches the surface falls and rises by the integral of the
+same h'. Lundberg's roller, an even pressure, is 2p/(π E*) ln((b + x)/(b - x)).
 
 Reference: G. Lundberg (1939), Forsch. Ing.-Wes. 10; Johnson (1985), § 5.8.
 """
@@ -21,12 +21,13 @@ Reference: G. Lundberg (1939), Forsch. Ing.-Wes. 10; Johnson (1985), § 5.8.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from itertools import pairwise
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
+from scipy.interpolate import PchipInterpolator
 
 from sie import arguments
 from sie.numerics import chebyshev
@@ -37,142 +38,116 @@ from sie.profiles.row import Row
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
+Pressure = Callable[[Array], Any]
 
 NODES = 40  # of a panel, whose rule serves outside of this Bernstein ellipse
 CLOSE = 1.56
-TOLERANCE = 1e-15
+TOLERANCE, OF_TABLE = 1e-15, 1e-12  # of the slope, where p is a function, and of a table
 TINY = 1e-300
 SPARED = 1e-13  # half-widths: so far before an edge ends a slope that is infinite there
 VANISHES = 1e-12  # of the peak: a pressure that is 0 at an edge
-PLACES = 1 << 9  # evaluated together
+PLACES = 1 << 12  # evaluated together
+SHOWN = 17  # places of a piece at which tension is looked for
 
 
-def _gauss(n: int) -> tuple[Array, Array]:
-    node, weight = chebyshev.gauss_legendre(n)
-    return 2.0 * node - 1.0, 2.0 * weight
+class Pieces(NamedTuple):
+    """A function on pieces: their ends (K + 1,), and Chebyshev coefficients (D, K)."""
+
+    ends: Array
+    series: Array
+
+    def __call__(self, x: Array) -> Array:
+        """Its values at x, between the ends."""
+        ends = self.ends
+        k = np.clip(np.searchsorted(ends, x, "right") - 1, 0, len(ends) - 2)
+        s = ((x - ends[k]) - (ends[k + 1] - x)) / (ends[k + 1] - ends[k])
+        return np.asarray(chebyshev.evaluate(self.series[:, k], s))
+
+
+def _on_pieces(function: Callable[[Array], Array], cuts: Array, tolerance: float) -> Pieces:
+    """A function that is smooth between the cuts."""
+    ends, degrees = resolved(function, cuts, tolerance)
+    s = chebyshev.points(int(degrees.max()) + 1)
+    middle, half = 0.5 * (ends[1:] + ends[:-1])[:, None], 0.5 * np.diff(ends)[:, None]
+    return Pieces(ends, chebyshev.transform(function(middle + half * s)).T)
 
 
 @dataclass(frozen=True, eq=False)
-class Panels:
-    """A pressure on the panels of one patch.
+class Patch:
+    """A pressure on the patch m ± r, on panels of θ; whether it vanishes at each edge."""
 
-    lo, hi   (K,), angles
-    series   (D, K), Chebyshev coefficients of p
-    m, r     centre and half-width of the patch, lengths
-    vanishes whether p is 0 at each edge
-    """
-
-    lo: Array
-    hi: Array
-    series: Array
     m: float
     r: float
-    vanishes: tuple[bool, ...] = (False, False)
-
-    def integral(self, x: Array) -> Array:
-        """PV∫ p(t)/(x - t) dt at x (n,)."""
-        pole = np.arccos((self.m - x.astype(complex)) / self.r)
-        image = np.where(pole.real < 0.5 * np.pi, -pole, 2.0 * np.pi - pole)
-        return np.asarray(-0.5 * (self._of_pole(pole) + self._of_pole(image)))
-
-    def _of_pole(self, a: Complex) -> Array:
-        """PV∫ p cot((θ - a)/2) dθ for poles a (n,), its real part."""
-        node, weight = _gauss(NODES)
-        middle, half = 0.5 * (self.hi + self.lo), 0.5 * (self.hi - self.lo)
-        theta = middle[:, None] + half[:, None] * node
-        s = (a[:, None] - middle) / half
-        near = np.abs(s + np.sqrt(s - 1.0) * np.sqrt(s + 1.0)) <= CLOSE
-        total = np.zeros(a.shape)
-        i, k = np.nonzero(~near)
-        p = chebyshev.evaluate(self.series[:, :, None], node)[k]
-        np.add.at(total, i, half[k] * ((p / np.tan(0.5 * (theta[k] - a[i, None]))).real @ weight))
-        i, k = np.nonzero(near)
-        u = 0.5 * (theta[k] - a[i, None])
-        divided = self._divided(k, node, s[i, k]) * np.cos(u) / np.sinc(u / np.pi)
-        own = chebyshev.evaluate(self.series[:, k], s[i, k])
-        lo, hi = (np.sin(0.5 * (end[k] - a[i])) for end in (self.lo, self.hi))
-        ends = np.log(np.where(hi == 0.0, TINY, hi)) - np.log(np.where(lo == 0.0, TINY, lo))
-        # on the surface the logarithm is that of the size
-        ends = np.where(a[i].imag == 0.0, ends.real, ends)
-        np.add.at(total, i, 2.0 * (divided.real @ weight + (own * ends).real))
-        return total
-
-    @property
-    def at_ends(self) -> Array:
-        """p at both edges."""
-        first, last = self.series[:, 0], self.series[:, -1]
-        return np.array([first @ (-1.0) ** np.arange(len(first)), last.sum()])
+    pressure: Pieces
+    vanishes: tuple[bool, ...]
 
     @property
     def edges(self) -> tuple[float, float]:
         """The edges of the patch."""
         return self.m - self.r, self.m + self.r
 
-    def cleaned(self) -> Panels:
-        """The same without the rounding of a pressure that vanishes at an edge."""
-        series, size = self.series.copy(), np.abs(self.series).max()
-        for k, end, value in zip((0, -1), (-1.0, 1.0), self.at_ends.tolist(), strict=True):
-            if abs(value) <= VANISHES * size and len(series) > 1:
-                series[0, k] -= 0.5 * value
-                series[1, k] -= 0.5 * value * end
-        return replace(self, series=series, vanishes=tuple(np.abs(self.at_ends) <= VANISHES * size))
+    def integral(self, x: Array) -> Array:
+        """PV∫ p(t)/(x - t) dt at x (n,)."""
+        pole = np.arccos((self.m - x.astype(complex)) / self.r)
+        image = np.where(pole.real < 0.5 * np.pi, -pole, 2.0 * np.pi - pole)
+        both, total = np.concatenate((pole, image)), np.zeros(2 * len(x))
+        for lo, hi, c in zip(self.pressure.ends, self.pressure.ends[1:], self.pressure.series.T):
+            total += _of_panel(lo, hi, c, both)
+        return -0.5 * (total[: len(x)] + total[len(x) :])
 
-    def _divided(self, k: Any, node: Array, s: Complex) -> Complex:
-        """(p_k(node) - p_k(s))/(node - s), (pairs, nodes), by the recurrence of T_n[node, s]."""
-        s = s[:, None] + 0.0 * node
-        t = node
-        before, now = np.zeros_like(s), np.ones_like(s)  # T_n[t, s]
-        last, here = np.ones_like(s), s  # T_n(s)
-        total = np.zeros_like(s)
-        for c in self.series[1:, k]:
-            total = total + c[:, None] * now
-            before, now = now, 2.0 * t * now - before + 2.0 * here
-            last, here = here, 2.0 * s * here - last
-        return total
+
+def _of_panel(lo: float, hi: float, c: Array, a: Complex) -> Array:
+    """PV∫ p cot((θ - a)/2) dθ over a panel, for poles a (n,), its real part."""
+    node, weight = chebyshev.gauss_legendre(NODES)
+    node, weight = 2.0 * node - 1.0, 2.0 * weight
+    middle, half = 0.5 * (hi + lo), 0.5 * (hi - lo)
+    theta, s = middle + half * node, (a - middle) / half
+    near = np.abs(s + np.sqrt(s - 1.0) * np.sqrt(s + 1.0)) <= CLOSE
+    total = np.empty(a.shape)
+    p = half * weight * chebyshev.evaluate(c, node)
+    total[~near] = (1.0 / np.tan(0.5 * (theta - a[~near, None]))).real @ p
+    u = 0.5 * (theta - a[near, None])
+    divided = chebyshev.quotient(c, *np.broadcast_arrays(s[near, None], node + 0.0j))
+    rest = (divided * np.cos(u) / np.sinc(u / np.pi)).real @ weight
+    ends = [np.sin(0.5 * (end - a[near])) for end in (lo, hi)]
+    low, high = (np.log(np.where(end == 0.0, TINY, end)) for end in ends)
+    # on the surface the logarithm is that of the size
+    logarithm = np.where(a[near].imag == 0.0, (high - low).real, high - low)
+    total[near] = 2.0 * (rest + (chebyshev.evaluate(c, s[near]) * logarithm).real)
+    return total
 
 
 @dataclass(frozen=True, eq=False)
 class WantedSlope:
     """h' of the profile at x, on its patches and between them."""
 
-    patches: tuple[Panels, ...]
+    patches: tuple[Patch, ...]
     modulus: float
 
     def __call__(self, x: Array) -> Array:
         """h' at an array of x."""
         flat = np.ravel(np.asarray(x, dtype=float))
-        out = np.empty(flat.shape)
-        for k in range(0, len(flat), PLACES):
-            part = flat[k : k + PLACES]
-            out[k : k + PLACES] = sum(patch.integral(part) for patch in self.patches)
-        return np.asarray(2.0 / (np.pi * self.modulus) * out.reshape(np.shape(x)))
+        parts = (flat[k : k + PLACES] for k in range(0, len(flat), PLACES))
+        total = [sum(patch.integral(part) for patch in self.patches) for part in parts]
+        H: Array = 2.0 / (np.pi * self.modulus) * np.concatenate(total)
+        return H.reshape(np.shape(x))
 
 
 @dataclass(frozen=True, eq=False)
 class Extended:
-    """h' of one patch as series, with straight lines beyond both edges: they open the gap.
+    """h' of one patch, with straight lines beyond both edges: they open the gap."""
 
-    breaks      (N + 1,), ascending, from edge to edge
-    series      (D, N), Chebyshev coefficients on the pieces between
-    steepness   of the lines
-    """
-
-    breaks: Array
-    series: Array
+    inside: Pieces
     steepness: float
 
     def __call__(self, x: Array) -> Array:
         """h' at an array of x."""
-        ends = self.breaks
-        inside = np.clip(x, ends[0], ends[-1])
-        k = np.clip(np.searchsorted(ends, inside, "right") - 1, 0, len(ends) - 2)
-        s = ((inside - ends[k]) - (ends[k + 1] - inside)) / (ends[k + 1] - ends[k])
-        H = chebyshev.evaluate(self.series[:, k], s)
-        return np.asarray(H + self.steepness * (x - inside))
+        within = np.clip(x, self.inside.ends[0], self.inside.ends[-1])
+        return self.inside(within) + self.steepness * (x - within)
 
 
 def profile_for_pressure(
-    p: Callable[[Array], Any],
+    p: Pressure | tuple[ArrayLike, ArrayLike],
     *,
     modulus: float,
     half_width: float | None = None,
@@ -183,14 +158,16 @@ def profile_for_pressure(
 
     Parameters
     ----------
-    p : callable
-        The pressure at an array of x, stress.
+    p : callable or (array_like, array_like)
+        The pressure at an array of x, stress; or a table (x, p), whose points are joined in the
+        angle θ of x = m - r cos θ by monotone cubics.
     modulus : float
         E*, stress.
     half_width : float, optional
         b: the contact is [-b, b], length.
     domain : (float, float) or sequence of such pairs, optional
-        The contact, or several patches,, in place of the half-width.
+        The contact, or several patches, in place of the half-width; if neither is given, a table
+        is one patch from its first to its last point.
     breaks : sequence of float, optional
         Places where p has a kink or a jump.
 
@@ -203,13 +180,15 @@ def profile_for_pressure(
     Raises
     ------
     ValueError
-        If p is negative somewhere or no function, or the contact is not given once.
+        If p is negative somewhere, neither a function nor a table, or the contact is not given
+        once.
 
     Notes
     -----
     Solved again, with ∫p dx as load, the profile has the pressure p to some 1e-13 of its peak. A
     pressure that does not vanish at an edge needs a slope that is infinite there like a logarithm:
-    the profile ends 1e-13 half-widths before, and the pressure is met to some 1e-11.
+    the profile ends 1e-13 half-widths before, and the pressure is met to some 1e-11. The pressure
+    of a table is met to some 1e-11.
 
     References
     ----------
@@ -225,35 +204,18 @@ def profile_for_pressure(
     True
     """
     modulus = arguments.positive("modulus", modulus)
-    if not callable(p):
-        raise ValueError(f"p = {p!r} is not a function: give one of an array of x")
-    patches = tuple(_of_function(p, lo, hi, breaks) for lo, hi in _contact(half_width, domain))
-    slope = WantedSlope(tuple(patch.cleaned() for patch in patches), modulus)
-    pads = _pads(slope, breaks)
+    table = None if callable(p) else _table(p)
+    if table is not None and half_width is None and domain is None:
+        domain = table[0, 0], table[0, -1]
+    wanted: Any = p if table is None else table
+    contact = _contact(half_width, domain)
+    slope = WantedSlope(tuple(_patch(wanted, lo, hi, breaks) for lo, hi in contact), modulus)
+    joints = [*breaks] if table is None else table[0].tolist()
+    pads = _pads(slope, joints, TOLERANCE if table is None else OF_TABLE)
     return pads[0] if len(pads) == 1 else _in_row(slope, pads)
 
 
-def _pads(slope: WantedSlope, breaks: Sequence[float]) -> list[Profile]:
-    """A profile for each patch, up to the middle of the gaps beside it.
-
-    Where the pressure does not vanish at an edge, the slope is infinite there, and it ends before.
-    """
-    edges = [patch.edges for patch in slope.patches]
-    middles = [0.5 * (hi + lo) for (_, hi), (lo, _) in pairwise(edges)]
-    limits = zip([-np.inf, *middles], [*middles, np.inf], strict=True)
-    pads: list[Profile] = []
-    for patch, (lo, hi), room in zip(slope.patches, edges, limits, strict=True):
-        vanishes = patch.vanishes
-        ends = lo + SPARED * patch.r, hi - SPARED * patch.r
-        H = slope(np.array([lo + 0.25 * patch.r, *ends, hi - 0.25 * patch.r]))
-        chords = np.abs([H[1] - H[0], H[3] - H[2]]) / (0.25 * patch.r)
-        first, last = (edge if held else end for edge, held, end in zip((lo, hi), vanishes, ends))
-        cuts = np.array([first, *(b for b in breaks if lo < b < hi), last])
-        line = Extended(*_series(slope, cuts), float(chords.max()))
-        domain = tuple(room[k] if vanishes[k] else ends[k] for k in (0, 1))
-        inner = [b for b in (lo, *breaks, hi) if domain[0] < b < domain[1] and lo <= b <= hi]
-        pads.append(FromFunction(line, inner, (domain[0], domain[1])))
-    return pads
+# -- the pressure ----------------------------------------------------------------------------------
 
 
 def _contact(half_width: float | None, domain: Any) -> list[tuple[float, float]]:
@@ -272,43 +234,85 @@ def _contact(half_width: float | None, domain: Any) -> list[tuple[float, float]]
     return [(float(lo), float(hi)) for lo, hi in pairs]
 
 
-def _of_function(p: Callable[[Array], Any], lo: float, hi: float, breaks: Any) -> Panels:
+def _table(p: Any) -> Array:
+    """x and p, (2, n). ValueError for what is no table of a pressure."""
+    rows = [arguments.reals("p", row) for row in p] if isinstance(p, (tuple, list)) else []
+    if [row.shape for row in rows] != [(max(map(np.size, rows), default=0),)] * 2:
+        raise ValueError(
+            f"p = {p!r} is not a function of an array of x, and no table: give (x, p), two arrays"
+        )
+    table = np.array(rows)
+    if not np.isfinite(table).all() or not (np.diff(table[0]) > 0.0).all():
+        raise ValueError("p = (x, p) has places that do not ascend, or numbers that are none")
+    return table
+
+
+def _patch(p: Any, lo: float, hi: float, breaks: Sequence[float]) -> Patch:
+    """The pressure on a patch. ValueError where it is a tension."""
     m, r = 0.5 * (lo + hi), 0.5 * (hi - lo)
+    of_angle: Pressure
+    if callable(p):
+        places = np.array([b for b in breaks if lo < b < hi])
+        of_angle = lambda t: arguments.real_values("p", p, np.clip(m - r * np.cos(t), lo, hi))  # noqa: E731
+    else:
+        places, given = p[:, (p[0] >= lo) & (p[0] <= hi)]
+        if len(places) < 4 or (places[0], places[-1]) != (lo, hi):
+            raise ValueError(
+                f"the table has no values from edge to edge of ({lo:g}, {hi:g}): give p at both "
+                "edges and at two places or more between them"
+            )
+    knots = np.arccos(np.clip((m - places) / r, -1.0, 1.0))
+    if not callable(p):
+        of_angle = PchipInterpolator(knots, given)
+    pressure = _on_pieces(of_angle, np.unique([0.0, 0.5 * np.pi, np.pi, *knots]), TOLERANCE)
+    ends, series = pressure
+    theta = np.linspace(ends[:-1], ends[1:], SHOWN)
+    values = of_angle(theta)
+    if values.min() < -VANISHES * np.abs(values).max():
+        x = float(m - r * np.cos(theta.flat[np.argmin(values)]))
+        raise ValueError(f"p = {values.min():.6g} at x = {x:.6g} is a tension: give p >= 0")
+    # without the rounding of a pressure that vanishes at an edge
+    at_edges = series[:, 0] @ (-1.0) ** np.arange(len(series)), series[:, -1].sum()
+    vanishes = tuple(abs(value) <= VANISHES * np.abs(series).max() for value in at_edges)
+    for k, value, held in zip((0, -1), at_edges, vanishes, strict=True):
+        if held:
+            series[:2, k] -= 0.5 * value * np.array([1.0, 1.0 if k else -1.0])[: len(series)]
+    return Patch(m, r, pressure, vanishes)
 
-    def of_angle(theta: Array) -> Array:
-        x = np.clip(m - r * np.cos(theta), lo, hi)
-        return arguments.real_values("p", p, x)
 
-    inner = sorted(float(np.arccos((m - b) / r)) for b in breaks if lo < b < hi)
-    ends, degrees = resolved(
-        of_angle, np.array(sorted({0.0, *inner, 0.5 * np.pi, np.pi})), TOLERANCE
-    )
-    s = chebyshev.points(int(degrees.max()) + 1)
-    middle, half = 0.5 * (ends[1:] + ends[:-1])[:, None], 0.5 * np.diff(ends)[:, None]
-    values = of_angle(middle + half * s)
-    if values.min() < 0.0:
-        k = np.unravel_index(np.argmin(values), values.shape)
-        x = float(m - r * np.cos((middle + half * s)[k]))
-        raise ValueError(f"p = {values[k]:.6g} at x = {x:.6g} is a tension: give p >= 0")
-    return Panels(ends[:-1], ends[1:], chebyshev.transform(values).T, m, r)
+# -- the profile -----------------------------------------------------------------------------------
 
 
-def _series(slope: WantedSlope, cuts: Array) -> tuple[Array, Array]:
-    """Pieces that resolve the slope, which is asked for often, and its coefficients there."""
-    ends, degrees = resolved(slope, cuts, TOLERANCE)
-    s = chebyshev.points(int(degrees.max()) + 1)
-    middle, half = 0.5 * (ends[1:] + ends[:-1])[:, None], 0.5 * np.diff(ends)[:, None]
-    return ends, chebyshev.transform(slope(middle + half * s)).T
+def _pads(slope: WantedSlope, breaks: Sequence[float], tolerance: float) -> list[Profile]:
+    """A profile for each patch, up to the middle of the gaps beside it.
+
+    Where the pressure does not vanish at an edge, the slope is infinite there, and it ends before.
+    """
+    edges = [patch.edges for patch in slope.patches]
+    middles = [0.5 * (hi + lo) for (_, hi), (lo, _) in pairwise(edges)]
+    limits = zip([-np.inf, *middles], [*middles, np.inf], strict=True)
+    pads: list[Profile] = []
+    for patch, (lo, hi), room in zip(slope.patches, edges, limits, strict=True):
+        spared, held = SPARED * patch.r, patch.vanishes
+        first, last = lo if held[0] else lo + spared, hi if held[1] else hi - spared
+        H = slope(np.array([lo + 0.25 * patch.r, lo + spared, hi - spared, hi - 0.25 * patch.r]))
+        steepness = float(np.abs([H[1] - H[0], H[3] - H[2]]).max()) / (0.25 * patch.r)
+        cuts = np.array([first, *(b for b in breaks if first < b < last), last])
+        line = Extended(_on_pieces(slope, cuts, tolerance), steepness)
+        domain = room[0] if held[0] else first, room[1] if held[1] else last
+        inner = [b for b in (lo, *cuts[1:-1].tolist(), hi) if domain[0] < b < domain[1]]
+        pads.append(FromFunction(line, inner, domain))
+    return pads
 
 
 def _in_row(slope: WantedSlope, pads: list[Profile]) -> Profile:
     """The pads at the heights at which the surface meets them, which falls and rises between."""
-    node, weight = _gauss(2 * NODES)
+    node, weight = (2.0 * v for v in chebyshev.gauss_legendre(2 * NODES))
     placed = [pads[0]]
     for pad, (one, other) in zip(pads[1:], pairwise(slope.patches), strict=True):
         b, a = one.edges[1], other.edges[0]
         # the square roots of the edges are smooth in the angle
-        angle = 0.5 * np.pi * (1.0 + node)
+        angle = 0.5 * np.pi * node
         x = 0.5 * (a + b) - 0.5 * (a - b) * np.cos(angle)
         rise = 0.25 * np.pi * (a - b) * float((weight * np.sin(angle)) @ slope(x))
         placed.append(pad.raised(float(placed[-1].height(b) - pad.height(a)) + rise))

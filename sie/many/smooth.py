@@ -5,18 +5,15 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import lru_cache
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from sie.inheritance import override
 from sie.numerics import chebyshev
 from sie.numerics.interval import EPS
 
-from .families import Array, Contact, Family
-from .newton import Integrals, newton
+from .newton import Array, Contact, Integrals, newton
 
 SIZES = (24, 48, 96, 192)  # nodes of a smooth slope
 RESOLVED, MISSED = 2e-14, 1e-12  # its last coefficients, and what it may miss at probes
@@ -25,119 +22,102 @@ FARTHER = np.array([1.25, 1.7, 2.5, 4.0, 8.0, 16.0, 64.0])  # half-widths, where
 BISECTIONS = 60
 
 
-@lru_cache(maxsize=8)
-def _transform(N: int) -> tuple[Array, Array]:
-    """Nodes, and the matrix from values there to Chebyshev coefficients."""
-    angle = math.pi * (np.arange(N) + 0.5) / N
-    matrix = 2.0 / N * np.cos(np.outer(angle, np.arange(N)))
-    matrix[:, 0] *= 0.5
-    return np.cos(angle), matrix
-
-
 @dataclass(frozen=True)
-class Smooth(Family):
-    """A slope that is smooth in the contact, by its values at Chebyshev nodes.
+class Smooth:
+    """A slope that is smooth in the contact; where its nodes do not resolve it, answers are nan.
 
-    slope      H at places (n, k), for parameters (n, 1)
-    values     the parameters, (n,)
+    slope      H at places (n, k), with parameters (n, 1) of these names
     axis       of symmetry, or None
-    breaks     where H is not smooth, and the domain
+    breaks     where H is not smooth
+    domain     where H is known
     convex     whether H is known to rise
     """
 
     slope: Callable[..., Any]
-    values: dict[str, Array]
+    names: tuple[str, ...] = ()
     axis: float | None = None
     breaks: tuple[float, ...] = ()
     domain: tuple[float, float] = (-math.inf, math.inf)
     convex: bool = False
+    tilts: bool = True
 
-    @override
-    def takes(self, tilt: Array, of_width: bool) -> NDArray[np.bool_]:
-        return np.ones(tilt.shape, dtype=bool)
-
-    @override
-    def part(self, which: Any) -> Smooth:
-        values = {name: v[which] for name, v in self.values.items()}
-        return Smooth(self.slope, values, self.axis, self.breaks, self.domain, self.convex)
-
-    def H(self, x: Array, tilt: Array) -> Array:
+    def H(self, x: Array, tilt: Array, *values: Array) -> Array:
         """h' with the tilt, at x (n, k); infinite beyond the domain."""
-        given = {name: v[:, None] for name, v in self.values.items()}
+        given = dict(zip(self.names, (v.reshape(-1, 1) for v in values), strict=True))
         lo, hi = self.domain
-        H = np.broadcast_to(np.asarray(self.slope(np.clip(x, lo, hi), **given), float), x.shape)
-        return np.where((x < lo) | (x > hi), np.copysign(np.inf, x - lo), H + tilt[:, None])
+        h = np.broadcast_to(np.asarray(self.slope(np.clip(x, lo, hi), **given), float), x.shape)
+        outside = (x < lo) | (x > hi)
+        return np.where(outside, np.copysign(np.inf, x - lo), h + tilt.reshape(-1, 1))
 
-    @override
-    def contact(self, size: Array, tilt: Array, of_width: bool) -> Contact:
-        with np.errstate(all="ignore"):  # what that leaves is nan, and answered elsewhere
-            upright = self.axis is not None and not tilt.any()
-            m = np.full(size.shape, self.axis) if upright else self._lowest(tilt, size)
-            best = Contact(m.copy(), np.full(size.shape, np.nan), size.copy(), size.copy())
-            for N in SIZES:
-                left = np.flatnonzero(np.isnan(best.r))
-                if not left.size:
-                    break
-                some, free = self.part(left), (not upright, not of_width)
-                found = newton(
-                    lambda m, r: some._integrals(m, r, tilt[left], N),  # noqa: B023
-                    (m[left], size[left]),
-                    size[left],
-                    free,
-                )
-                good = some._resolved(found, tilt[left], N)
-                for old, new in zip(best, found, strict=True):
-                    old[left[good]] = new[good]
-            return best
+    def contact(self, size: Array, tilt: Array, of_width: bool, *values: Array) -> Contact:
+        """The contacts under T, or of half-widths r; nan where there is no answer."""
+        upright = self.axis is not None and not tilt.any()
+        m = np.full(size.shape, self.axis) if upright else self._lowest(size, tilt, *values)
+        best = Contact(m.copy(), *(np.full(size.shape, np.nan) for _ in range(3)))
+        for N in SIZES:
+            left = np.flatnonzero(np.isnan(best.r))
+            if not left.size:
+                break
+            some, *own = (v[left] for v in (size, tilt, *values))
+            found = newton(
+                lambda m, r: self._integrals(m, r, N, *own),  # noqa: B023
+                (m[left], some),
+                some,
+                of_width,
+            )
+            good = self._resolved(found, N, *own)
+            for old, new in zip(best, found, strict=True):
+                old[left[good]] = new[good]
+        return best
 
-    def _lowest(self, tilt: Array, step: Array) -> Array:
+    def _lowest(self, step: Array, tilt: Array, *values: Array) -> Array:
         """Where H = 0, by bisection between places found at growing distances."""
         lo, hi = -step, step.copy()
         for _ in range(BISECTIONS):
-            wide = self.H(np.stack((lo, hi), axis=1), tilt)
-            lo, hi = (
-                np.where(wide[:, 0] > 0.0, 2.0 * lo, lo),
-                np.where(wide[:, 1] < 0.0, 2.0 * hi, hi),
-            )
+            wide = self.H(np.stack((lo, hi), axis=1), tilt, *values)
+            lo = np.where(wide[:, 0] > 0.0, 2.0 * lo, lo)
+            hi = np.where(wide[:, 1] < 0.0, 2.0 * hi, hi)
         for _ in range(BISECTIONS):
             middle = 0.5 * (lo + hi)
-            below = self.H(middle[:, None], tilt)[:, 0] < 0.0
+            below = self.H(middle[:, None], tilt, *values)[:, 0] < 0.0
             lo, hi = np.where(below, middle, lo), np.where(below, hi, middle)
         return 0.5 * (lo + hi)
 
-    def _coefficients(self, m: Array, r: Array, tilt: Array, N: int) -> Array:
-        s, matrix = _transform(N)
-        return np.asarray(self.H(m[:, None] + r[:, None] * s, tilt) @ matrix)
+    def _coefficients(self, m: Array, r: Array, N: int, *own: Array) -> Array:
+        places = m[:, None] + r[:, None] * chebyshev.points(N)
+        return np.asarray(self.H(places, *own) @ chebyshev.charges(N).T)
 
-    def _integrals(self, m: Array, r: Array, tilt: Array, N: int) -> Integrals:
-        c, n = self._coefficients(m, r, tilt, N), np.arange(N)
+    def _integrals(self, m: Array, r: Array, N: int, *own: Array) -> Integrals:
+        c, n = self._coefficients(m, r, N, *own), np.arange(N)
         J0, J1 = c[:, 1::2] @ n[1::2], c[:, ::2] @ n[::2]
         parts = c[:, 0], 0.5 * c[:, 1], J0, J1, 0.5 * c[:, 0] - 0.25 * c[:, 2]
         return Integrals(*(np.asarray(math.pi * part) for part in parts))
 
-    def _resolved(self, found: Contact, tilt: Array, N: int) -> NDArray[np.bool_]:
+    def _resolved(self, found: Contact, N: int, *own: Array) -> NDArray[np.bool_]:
         """Whether the series is H: it decays, meets H elsewhere, and H rises as far as is seen."""
         m, r = found.m[:, None], found.r[:, None]
-        c = self._coefficients(found.m, found.r, tilt, N)
+        c = self._coefficients(found.m, found.r, N, *own)
         size = np.abs(c).max(axis=1)
-        missed = self.H(m + r * PROBES, tilt) - chebyshev.evaluate(c.T[:, :, None], PROBES)
-        good = np.abs(c[:, -3:]).max(axis=1) <= RESOLVED * size
-        good &= np.abs(missed).max(axis=1) <= MISSED * size
+        missed = self.H(m + r * PROBES, *own) - chebyshev.evaluate(c.T[:, :, None], PROBES)
+        good = _decays(c) & (np.abs(missed).max(axis=1) <= MISSED * size)
         for b in (*self.breaks, *self.domain):
             good &= np.abs(b - found.m) >= found.r * (1.0 if b in self.breaks else 1.0 + EPS)
         if not self.convex:
             places = np.concatenate((-FARTHER[::-1], np.linspace(-1.0, 1.0, 33), FARTHER))
-            lo, hi = self.domain
-            H = self.H(np.clip(m + r * places, lo, hi), tilt)
-            good &= (np.diff(H, axis=1) >= -MISSED * size[:, None]).all(axis=1)
+            rise = np.diff(self.H(np.clip(m + r * places, *self.domain), *own), axis=1)
+            good &= (rise >= -MISSED * size[:, None]).all(axis=1)
         return np.asarray(good)
 
-    @override
-    def pressure(self, contact: Contact, tilt: Array, x: Array) -> Array:
-        s = x / contact.r[:, None]
+    def pressure(self, x: Array, found: Contact, *own: Array) -> Array:
+        """p/G at x (n, k) from the centre."""
+        s = x / found.r
         for N in SIZES:
-            c = self._coefficients(contact.m, contact.r, tilt, N)
-            if (np.abs(c[:, -3:]).max(axis=1) <= RESOLVED * np.abs(c).max(axis=1)).all():
+            c = self._coefficients(found.m[:, 0], found.r[:, 0], N, *own)
+            if _decays(c).all():
                 break
         U = chebyshev.evaluate_second_kind(c.T[1:, :, None], s)
         return np.asarray(np.sqrt(np.maximum((1.0 - s) * (1.0 + s), 0.0)) * U)
+
+
+def _decays(c: Array) -> NDArray[np.bool_]:
+    return np.asarray(np.abs(c[:, -3:]).max(axis=1) <= RESOLVED * np.abs(c).max(axis=1))

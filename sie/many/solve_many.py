@@ -1,6 +1,6 @@
 """Many contacts at once: numbers as arrays, answers as arrays.
 
-Scenes go through the families of their profile (`choice`) in chunks that stay in the processor's
+Scenes go through the families of their profile (`families`) in chunks that stay in the processor's
 cache. What no family answers (several patches, traces, an edge that reaches an end, slip to either
 side) is solved one by one, and what that refuses keeps its reason.
 """
@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, fields, replace
+from dataclasses import fields
 from functools import cached_property, partial
 from typing import Any
 
@@ -23,12 +23,8 @@ from sie.profiles.base import Profile
 from sie.profiles.from_function import FromFunction
 from sie.solution import Solution, solve
 
-from .choice import families
-from .families import Contact, Family
-from .loads import Loads, one_signed, regular, sign, slips
-from .smooth import Smooth
-
-Array = NDArray[np.float64]
+from .families import SHAPES, families
+from .newton import Array, Contact
 
 CHUNK = 4096  # scenes, whose arrays stay in the cache
 VALUES = 1 << 14  # of a pressure that are evaluated together
@@ -36,6 +32,8 @@ ALONE = -1  # the family of what is solved one by one
 ZOOMS, PLACES = 12, 9  # of the search for a peak, after a first look at FIRST places
 FIRST = 65
 LEFT_OPEN = "not solved as an array"
+ACTING = "tilt", "friction", "tangential_load", "bulk_stress"
+Numbers = dict[str, Array]  # each (n,), by its name
 
 
 def solve_many(
@@ -94,80 +92,34 @@ def solve_many(
     >>> many.half_width.round(6)
     array([1.482937, 1.8859  ])
     """
-    given = {
-        "modulus": modulus,
-        "normal_load": normal_load,
-        "half_width": half_width,
-        "tilt": tilt,
-        "friction": friction,
-        "tangential_load": tangential_load,
-        "bulk_stress": bulk_stress,
-    }
     if (normal_load is None) == (half_width is None):
         raise ValueError("give exactly one of normal_load and half_width")
-    numbers = {k: arguments.reals(k, v) for k, v in given.items() if v is not None}
-    values = {k: arguments.reals(k, v) for k, v in (parameters or {}).items()}
+    acting = dict(zip(ACTING, (tilt, friction, tangential_load, bulk_stress), strict=True))
+    given = {"modulus": modulus, "normal_load": normal_load, "half_width": half_width, **acting}
+    loads = {name: value for name, value in given.items() if value is not None}
+    return many(profile, loads, parameters or {})
+
+
+def many(
+    profile: Any, loads: Mapping[str, Any], parameters: Mapping[str, Any], alone: bool = True
+) -> Many:
+    """Numbers by name as `Many`; `alone` as there. ValueError for what have no common shape."""
     if not isinstance(profile, Profile) and not callable(profile):
         raise ValueError(f"profile = {profile!r} is neither a profile nor a slope as a function")
-    own = profile.arrays if isinstance(profile, Profile) else ()
-    every = (*numbers.values(), *values.values(), *own)
+    if type(profile) in SHAPES:
+        parameters = {f.name: getattr(profile, f.name) for f in fields(profile)}
+    numbers, own = ({k: arguments.reals(k, v) for k, v in d.items()} for d in (loads, parameters))
     try:
-        shape = np.broadcast_shapes(*map(np.shape, every))
+        shape = np.broadcast_shapes(*(v.shape for v in (*numbers.values(), *own.values())))
     except ValueError:
         raise ValueError(
             "the numbers have no common shape: give arrays that NumPy broadcasts, such as "
             "a[:, None] and b[None, :]"
         ) from None
-    flat = {k: np.broadcast_to(v, shape).ravel() for k, v in numbers.items()}
-    loads = Loads(*(flat.get(name) for name in Loads._fields))  # type: ignore[arg-type]
-    columns = {k: np.broadcast_to(v, shape).ravel() for k, v in values.items()}
-    return Many(Question(profile, columns, shape, loads))
-
-
-@dataclass(frozen=True, eq=False)
-class Question:
-    """A profile or a slope, its parameters, the shape of the answers, and the loads.
-
-    `alone`: whether what no family answers is solved one by one, or left open.
-    """
-
-    profile: Any
-    parameters: dict[str, Array]
-    shape: tuple[int, ...]
-    loads: Loads
-    alone: bool = True
-
-    @property
-    def size(self) -> int:
-        """The number of scenes."""
-        return math.prod(self.shape)
-
-    @cached_property
-    def families(self) -> tuple[Family, ...]:
-        """The families of the profile, in the order in which they are asked."""
-        if isinstance(self.profile, Profile):
-            return families(self.profile, self.shape)
-        return (Smooth(self.profile, self.parameters),)
-
-    def scene(self, k: int) -> Scene:
-        """One of the scenes."""
-        given = self.loads._asdict().items()
-        loads: dict[str, Any] = {name: float(v[k]) for name, v in given if v is not None}
-        return Scene(profile=self.one_profile(k), **loads)
-
-    def one_profile(self, k: int) -> Profile:
-        """The profile of one scene."""
-        if not isinstance(self.profile, Profile):
-            return FromFunction(
-                partial(self.profile, **{n: v[k] for n, v in self.parameters.items()})
-            )
-        if not self.profile.arrays:
-            return self.profile
-        values = {
-            f.name: float(np.broadcast_to(getattr(self.profile, f.name), self.shape).ravel()[k])
-            for f in fields(self.profile)  # type: ignore[arg-type]
-        }
-        return type(self.profile)(*values.values())
+    own, numbers = (
+        {k: np.broadcast_to(v, shape).ravel() for k, v in d.items()} for d in (own, numbers)
+    )
+    return Many(profile, own, numbers, shape, alone)
 
 
 class Many:
@@ -183,31 +135,27 @@ class Many:
         As of `Solution`.
     """
 
-    def __init__(self, question: Question) -> None:
-        self._question = question
-        self.shape = question.shape
-        n = question.size
+    def __init__(
+        self, profile: Any, own: Numbers, loads: Numbers, shape: tuple[int, ...], alone: bool
+    ) -> None:
+        """Arrays (n,) by name; `alone`: whether what no family answers is solved one by one."""
+        self.shape, self._profile, self._own, self._loads = shape, profile, own, loads
+        n, self._families = math.prod(shape), families(profile, tuple(own))
         self._family = np.full(n, ALONE, dtype=np.int8)
         self._found = Contact(*(np.full(n, np.nan) for _ in range(4)))
         self._alone: dict[int, Solution] = {}
+        with np.errstate(all="ignore"):
+            for some in _chunks(n, CHUNK):
+                for number in range(len(self._families)):
+                    self._solve(number, some)
         reasons = np.full(n, "", dtype=object)
-        for some in _chunks(np.arange(n), CHUNK):
-            self._solve(some)
-            left = some[np.isnan(self._found.r[some])]
-            if not question.alone:
-                reasons[left] = LEFT_OPEN
-                continue
-            for k in left.tolist():
-                try:
-                    self._answer(k)
-                except (ContactError, ValueError) as problem:
-                    reasons[k] = str(problem)
-        self.refused = reasons.reshape(self.shape)
-        G = 0.5 * question.loads.modulus
-        self.half_width, self.centre = self._shaped(self._found.r), self._shaped(self._found.m)
-        self.normal_load = self._shaped(G * self._found.T)
-        self.moment = self._shaped(G * (self._found.m * self._found.T + self._found.about))
-        self.tilt = self._shaped(np.where(np.isnan(self._found.r), np.nan, question.loads.tilt))
+        for k in np.flatnonzero(np.isnan(self._found.r)).tolist():
+            reasons[k] = self._answer(k) if alone else LEFT_OPEN
+        self.refused = reasons.reshape(shape)
+        G, (m, r, T, about) = 0.5 * loads["modulus"], self._found
+        self.half_width, self.centre = self._shaped(r), self._shaped(m)
+        self.normal_load, self.moment = self._shaped(G * T), self._shaped(G * (m * T + about))
+        self.tilt = self._shaped(np.where(np.isnan(r), np.nan, loads["tilt"]))
 
     def __repr__(self) -> str:
         refused = int((self.refused != "").sum())
@@ -216,37 +164,41 @@ class Many:
     def _shaped(self, values: Array) -> Array:
         return values.reshape(self.shape + values.shape[1:])
 
-    def _solve(self, some: NDArray[np.int64]) -> None:
-        """Let the families answer scenes, one after the other."""
-        q = self._question
-        loads = q.loads.of(some)
-        with np.errstate(all="ignore"):
-            good_numbers = regular(loads)
-            for number, family in enumerate(q.families):
-                open_ = good_numbers & np.isnan(self._found.r[some])
-                open_ &= family.takes(loads.tilt, loads.half_width is not None)
-                if not open_.any():
-                    continue
-                at, of = some[open_], loads.of(open_)
-                G, width = 0.5 * of.modulus, of.half_width is not None
-                size = of.size / (1.0 if width else G)
-                found = family.part(at).contact(size, of.tilt, width)
-                good = np.isfinite(found.r) & (found.r > 0.0) & np.isfinite(found.T)
-                good &= one_signed(of, found)
-                for mine, new in zip(self._found, found, strict=True):
-                    mine[at[good]] = new[good]
-                self._family[at[good]] = number
+    def _solve(self, number: int, some: slice) -> None:
+        """Let a family answer those of some scenes that are open."""
+        family, tilt = self._families[number], self._loads["tilt"][some]
+        open_ = np.isnan(self._found.r[some]) & (family.tilts | (tilt == 0.0))
+        at = np.flatnonzero(open_) + some.start
+        if not at.size:
+            return
+        loads = {name: v[at] for name, v in self._loads.items()}
+        width, own = loads.get("half_width"), (v[at] for v in self._own.values())
+        size = 2.0 * loads["normal_load"] / loads["modulus"] if width is None else width
+        found = family.contact(size, loads["tilt"], width is not None, *own)
+        good = _answered(loads, found)
+        for mine, new in zip(self._found, found, strict=True):
+            mine[at[good]] = new[good]
+        self._family[at[good]] = number
 
-    def _answer(self, k: int) -> None:
-        """One scene by `solve`."""
-        solution = solve(self._question.scene(k))
-        r, G = solution.half_width, 0.5 * solution.scene.Estar
-        _ = solution.stick
-        values = solution.centre, r, solution.normal_load / G
-        about = (solution.moment - solution.centre * solution.normal_load) / G
-        for mine, new in zip(self._found, (*values, about), strict=True):
+    def _answer(self, k: int) -> str:
+        """Solve one scene by itself; why it has no answer, or ""."""
+        profile, own = self._profile, {name: float(v[k]) for name, v in self._own.items()}
+        loads: dict[str, Any] = {name: float(v[k]) for name, v in self._loads.items()}
+        try:
+            if not isinstance(profile, Profile):
+                profile = FromFunction(partial(profile, **own))
+            elif own:
+                profile = type(profile)(*own.values())
+            solution = solve(Scene(profile=profile, **loads))
+            m, P, M = solution.centre, solution.normal_load, solution.moment
+            _ = solution.stick
+        except (ContactError, ValueError) as problem:
+            return str(problem)
+        G, r = 0.5 * solution.scene.Estar, solution.half_width
+        for mine, new in zip(self._found, (m, r, P / G, (M - m * P) / G), strict=True):
             mine[k] = new
         self._alone[k] = solution
+        return ""
 
     # -- answers -----------------------------------------------------------------------------------
 
@@ -270,72 +222,48 @@ class Many:
             Stresses of shape `shape` + S: 0 outside the contact, nan where a scene is refused.
         """
         places = arguments.reals("x", x)
-        n, count = self._question.size, max(places.size, 1)
-        out = np.empty((n, places.size))
-        for some in _chunks(np.arange(n), max(VALUES // count, 1)):
-            out[some] = self._pressure(some, np.broadcast_to(places.ravel(), (len(some), count)))
+        out = np.empty((len(self._family), places.size))
+        for some in _chunks(len(out), max(VALUES // max(places.size, 1), 1)):
+            out[some] = self._pressure(some, np.broadcast_to(places.ravel(), out[some].shape))
         return out.reshape(self.shape + places.shape)
 
-    def _pressure(self, some: NDArray[np.int64], x: Array) -> Array:
+    def _pressure(self, some: slice, x: Array) -> Array:
         """p of some scenes at x (n, k)."""
         out = np.full(x.shape, np.nan)
         for number in np.unique(self._family[some]).tolist():
             here = np.flatnonzero(self._family[some] == number)
-            at = some[here]
+            at = here + some.start
             if number == ALONE:
                 for row, k in zip(here.tolist(), at.tolist(), strict=True):
                     if k in self._alone:
                         out[row] = self._alone[k].pressure(x[row])
                 continue
-            found = Contact(*(v[at] for v in self._found))
-            u = x[here] - found.m[:, None]
-            tilt, G = self._question.loads.tilt[at], 0.5 * self._question.loads.modulus[at]
-            inside = np.abs(u) <= found.r[:, None]
+            found = Contact(*(v[at, None] for v in self._found))
+            own = (v[at, None] for v in (self._loads["tilt"], *self._own.values()))
+            u = x[here] - found.m
+            inside = np.abs(u) <= found.r
             with np.errstate(all="ignore"):
-                clipped = np.where(inside, u, 0.5 * found.r[:, None])
-                p = self._question.families[number].part(at).pressure(found, tilt, clipped)
-                out[here] = np.where(inside, G[:, None] * p, np.where(np.isnan(u), np.nan, 0.0))
+                clipped = np.where(inside, u, 0.5 * found.r)
+                p = self._families[number].pressure(clipped, found, *own)
+                p *= 0.5 * self._loads["modulus"][at, None]
+                out[here] = np.where(inside, p, np.where(np.isnan(u), np.nan, 0.0))
         return out
 
     @cached_property
     def peak_pressure(self) -> Array:
         """The largest pressure, ndarray of float; inf under a corner."""
-        n = self._question.size
-        out = np.empty(n)
-        for some in _chunks(np.arange(n), VALUES // FIRST):
-            out[some] = self._peak(some)
-        return self._shaped(out)
-
-    def _peak(self, some: NDArray[np.int64]) -> Array:
-        m, r = (v[some, None] for v in self._found[:2])
-        every, s = np.arange(len(some)), np.sin(math.pi * (np.arange(FIRST) / (FIRST - 1) - 0.5))
-        places = np.broadcast_to(s, (len(some), FIRST))
-        best = np.zeros(len(some))
-        for _ in range(ZOOMS):
-            p = self._pressure(some, m + r * places)
-            k = np.argmax(p, axis=1)
-            best = np.maximum(best, p[every, k])
-            lo, hi = (
-                places[every, np.maximum(k - 1, 0)],
-                places[every, np.minimum(k + 1, p.shape[1] - 1)],
-            )
-            places = np.linspace(lo, hi, PLACES, axis=1)
-        return best
-
-    @cached_property
-    def _corrective(self) -> Many:
-        """The contacts of p̂: under P - |Q|/f, at the tilt that the bulk stress asks for."""
-        q, P = self._question, 0.5 * self._question.loads.modulus * self._found.T
-        a = q.loads
-        direction, f = sign(a), np.where(a.friction > 0.0, a.friction, np.nan)
-        with np.errstate(invalid="ignore"):
-            load = np.where(
-                slips(a) & (self._family != ALONE), P - np.abs(a.tangential_load) / f, np.nan
-            )
-            tilt = a.tilt - 0.5 * a.bulk_stress / (direction * f * a.modulus)
-        none = np.zeros(len(P))
-        loads = Loads(a.modulus, load, None, np.where(np.isnan(tilt), 0.0, tilt), none, none, none)
-        return Many(replace(q, loads=loads, alone=True))
+        best, first = np.zeros(len(self._family)), np.linspace(-0.5, 0.5, FIRST)
+        for some in _chunks(len(best), VALUES // FIRST):
+            m, r = (v[some, None] for v in self._found[:2])
+            every = np.arange(len(m))
+            places = np.broadcast_to(np.sin(math.pi * first), (len(m), FIRST))
+            for _ in range(ZOOMS):
+                p = self._pressure(some, m + r * places)
+                k = np.argmax(p, axis=1)
+                best[some] = np.maximum(best[some], p[every, k])
+                lo, hi = places[every, np.clip((k - 1, k + 1), 0, p.shape[1] - 1)]
+                places = np.linspace(lo, hi, PLACES, axis=1)
+        return self._shaped(best)
 
     @cached_property
     def stick(self) -> Array:
@@ -343,16 +271,47 @@ class Many:
 
         nan in full sliding and without friction, and where there are several stick zones.
         """
-        a, out = self._question.loads, self.edges.reshape(-1, 2).copy()
-        some = slips(a)
-        if some.any():
-            out[some] = self._corrective.edges.reshape(-1, 2)[some]
-        out[a.friction == 0.0] = np.nan
+        out, slips = self.edges.reshape(-1, 2).copy(), _slips(self._loads)
+        if slips.any():
+            out[slips] = self._corrective(slips & (self._family != ALONE))[slips]
+        out[self._loads["friction"] == 0.0] = np.nan
         for k, solution in self._alone.items():
             zones = solution.stick
             out[k] = zones[0] if len(zones) == 1 else np.nan
         return self._shaped(out)
 
+    def _corrective(self, some: NDArray[np.bool_]) -> Array:
+        """The edges of p̂ of some scenes: under P - |Q|/f, at a tilt that the bulk stress adds."""
+        E, tilt, f, Q, sigma = (self._loads[name] for name in ("modulus", *ACTING))
+        f = np.where(some, f, 1.0)
+        load = np.where(some, 0.5 * E * self._found.T - np.abs(Q) / f, np.nan)
+        tilt = tilt - 0.5 * sigma / (np.where(Q < 0.0, -f, f) * E)
+        loads = dict.fromkeys(ACTING, 0.0 * E) | {"modulus": E, "normal_load": load, "tilt": tilt}
+        alike = Many(self._profile, self._own, loads, self.shape, alone=True)
+        return alike.edges.reshape(-1, 2)
 
-def _chunks(which: NDArray[np.int64], size: int) -> Iterator[NDArray[np.int64]]:
-    return (which[k : k + size] for k in range(0, len(which), size))
+
+def _slips(loads: Numbers) -> NDArray[np.bool_]:
+    """Whether something slips."""
+    _, f, Q, sigma = (loads[name] for name in ACTING)
+    return np.asarray((f > 0.0) & ((Q != 0.0) | (sigma != 0.0)))
+
+
+def _answered(loads: Numbers, found: Contact) -> NDArray[np.bool_]:
+    """Whether numbers are those of a scene, and nothing slips, or all of one sign and some sticks.
+
+    Others are solved, or refused, one by one.
+    """
+    E, (tilt, f, Q, sigma) = loads["modulus"], (loads[name] for name in ACTING)
+    good = np.isfinite(found.m + tilt + Q + sigma) & (f >= 0.0) & (f < math.inf)
+    for v in (E, found.r, E * found.T):
+        good &= (v > 1.0 / arguments.LARGEST) & (v < arguments.LARGEST)
+    none = ~_slips(loads) & ((f > 0.0) | (Q == 0.0))
+    fits = (0.5 * f * E * found.T > np.abs(Q)) & (
+        0.25 * math.pi * found.r * np.abs(sigma) <= np.abs(Q)
+    )
+    return np.asarray(good & (none | fits))
+
+
+def _chunks(n: int, size: int) -> Iterator[slice]:
+    return (slice(k, min(k + size, n)) for k in range(0, n, size))

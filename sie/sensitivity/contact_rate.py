@@ -36,7 +36,7 @@ from sie.patches.newton import response as response_of_patches
 from sie.profiles.base import Profile
 from sie.profiles.pieces import of_profile
 from sie.profiles.resolution import refined
-from sie.profiles.slope import Slope, polynomial_slope
+from sie.profiles.slope import polynomial_slope
 from sie.traction.base import Density
 from sie.traction.combination import superposed
 from sie.traction.of_slope import SlopeDensity, TransformDensity
@@ -54,29 +54,28 @@ FLAT = polynomial_slope((-math.inf, math.inf), (0.0,), ((0.0,),))
 
 @dataclass(frozen=True)
 class Change:
-    """A direction in which what determines a contact without shear changes.
+    """A direction in which the numbers of a scene change.
 
-    profile     the change of h; None for none
-    load        that of P
-    half_width  that of the half-width, where it is given in place of P
-    tilt        that of the tilt
-    moment      that of M, where it is given in place of the tilt
-    modulus     δE*/E*
+    profile          the change of h; None for none
+    load             that of P; None where the half-width is given in its place
+    half_width       that of the half-width, where it is given
+    tilt             that of the tilt; None where the moment is given in its place
+    moment           that of M, where it is given
+    modulus          δE*/E*
+    friction, tangential_load, tau, bulk_stress, poisson  those of f, Q, τ, σ and ν of the body
     """
 
     profile: Profile | None = None
-    load: float = 0.0
+    load: float | None = 0.0
     half_width: float = 0.0
-    tilt: float = 0.0
+    tilt: float | None = 0.0
     moment: float = 0.0
     modulus: float = 0.0
-
-
-class Given(NamedTuple):
-    """Which of two numbers that exclude each other are given."""
-
-    half_width: bool
-    moment: bool
+    friction: float = 0.0
+    tangential_load: float = 0.0
+    tau: float = 0.0
+    bulk_stress: float = 0.0
+    poisson: float = 0.0
 
 
 class ContactRate(NamedTuple):
@@ -89,15 +88,14 @@ class ContactRate(NamedTuple):
     pressure: Density
 
 
-def contact_rate(
-    found: Any, density: Any, profile: Profile, change: Change, given: Given
-) -> ContactRate:
+def contact_rate(found: Any, density: Any, profile: Profile, change: Change) -> ContactRate:
     """The derivative of a contact with its pressure. ContactError where it has none."""
     g, P, M = change.modulus, density.resultant, density.moment
     # at fixed E*, for a pressure that is scaled afterwards
-    plain = replace(change, load=change.load - g * P, moment=change.moment - g * M)
+    load = None if change.load is None else change.load - g * P
+    plain = replace(change, load=load, moment=change.moment - g * M)
     if isinstance(found, Normal):
-        rate = _of_one_patch(found.edges, (density, found.slope(profile)), plain, given)
+        rate = _of_one_patch(found, density, profile, plain)
     elif isinstance(found, SeveralPatches):
         rate = _of_patches(found, plain)
     else:
@@ -109,18 +107,20 @@ def contact_rate(
     return rate._replace(load=rate.load + g * P, moment=rate.moment + g * M, pressure=p)
 
 
+# -- one patch -------------------------------------------------------------------------------------
+
+
 def _of_one_patch(
-    edges: Edges, pressed: tuple[SlopeDensity, Slope], change: Change, given: Given
+    found: Normal, density: SlopeDensity, profile: Profile, change: Change
 ) -> ContactRate:
-    (density, slope), contact, tol = pressed, edges.contact, resolution(TOLERANCE)
-    _refuse_corners(slope, edges)
-    direction = FLAT if change.profile is None else change.profile.pieces
-    direction = refined(direction, contact.x1, contact.x2, tol)
-    resolved = refined(slope, contact.x1, contact.x2, tol)
-    H, h = (edge_integrals(s, contact, keep_zero=True) for s in (resolved, direction))
-    G = density.half_modulus
-    rate = response(edges, G, (H, h), change, given)
-    turned, I0 = direction.tilted(rate.tilt), h.I0 + math.pi * rate.tilt
+    contact, G = found.edges.contact, density.half_modulus
+    H = integrals_of(found, profile)
+    _refuse_corners(found, profile)
+    slope = FLAT if change.profile is None else change.profile.pieces
+    slope = refined(slope, contact.x1, contact.x2, resolution(TOLERANCE))
+    h = edge_integrals(slope, contact, keep_zero=True)
+    rate = response(found.edges, G, (H, h), change)
+    turned, I0 = slope.tilted(rate.tilt), h.I0 + math.pi * rate.tilt
     common = contact, G, *rate.intensities, rate.load, rate.moment
     series = slope_series(turned, contact)
     p: Density
@@ -129,6 +129,13 @@ def _of_one_patch(
     else:
         p = PanelDensity(*common, Panels(Geometry(turned, contact, keep_zero=True), I0))
     return ContactRate((rate.edges,), rate.load, rate.moment, rate.tilt, p)
+
+
+def integrals_of(found: Normal, profile: Profile) -> EdgeIntegrals:
+    """Those of h' over the contact, by which its edges move."""
+    contact = found.edges.contact
+    slope = refined(found.slope(profile), contact.x1, contact.x2, resolution(TOLERANCE))
+    return edge_integrals(slope, contact, keep_zero=True)
 
 
 class Response(NamedTuple):
@@ -142,16 +149,27 @@ class Response(NamedTuple):
 
 
 def response(
-    edges: Edges,
-    G: float,
-    integrals: tuple[EdgeIntegrals, EdgeIntegrals],
-    change: Change,
-    given: Given,
+    edges: Edges, G: float, integrals: tuple[EdgeIntegrals, EdgeIntegrals], change: Change
 ) -> Response:
     """The moves of the edges, the loads and the singular ends, by the integrals of h' and δh'."""
-    r, m, h = edges.contact.r, edges.contact.m, integrals[1]
-    moves = _moves(G * r, integrals, edges.sharp)
-    load, tilt = _load_and_tilt(moves, (G * r * r, m, h.C2), change, given, any(edges.sharp))
+    (r, m), (H, h) = (edges.contact.r, edges.contact.m), integrals
+    moves = np.zeros((2, 3))  # of both edges by δP, by the change of the tilt, and by δh' alone
+    if not edges.sharp[0]:
+        moves[0] = -1.0 / (G * r * H.JL), -math.pi / H.JL, (h.I1 - h.I0) / H.JL
+    if not edges.sharp[1]:
+        moves[1] = 1.0 / (G * r * H.JR), -math.pi / H.JR, -(h.I1 + h.I0) / H.JR
+    system, right = np.eye(2), np.array([change.load or 0.0, change.tilt or 0.0])
+    if change.load is None:
+        if any(edges.sharp):
+            raise ContactError(
+                "the half-width is bounded by a corner of the indenter, whatever the load: give "
+                "normal_load for a derivative"
+            )
+        row = 0.5 * (moves[1] - moves[0])
+        system[0], right[0] = row[:2], change.half_width - row[2]
+    if change.tilt is None:
+        system[1], right[1] = (m, -0.5 * math.pi * G * r * r), change.moment + G * r * r * h.C2
+    load, tilt = np.linalg.solve(system, right).tolist()
     moment = m * load - G * r * r * (h.C2 + 0.5 * math.pi * tilt)
     apart = 2.0 * G * (h.I0 + math.pi * tilt) / math.pi
     both = 2.0 * (load / r - G * h.I1) / math.pi
@@ -159,46 +177,10 @@ def response(
     return Response((x1, x2), load, moment, tilt, (0.5 * (both + apart), 0.5 * (both - apart)))
 
 
-def _moves(
-    Gr: float, integrals: tuple[EdgeIntegrals, EdgeIntegrals], sharp: tuple[bool, bool]
-) -> Array:
-    """The moves of both edges by δP, by the change of the tilt, and by δh' alone, (2, 3)."""
-    H, h = integrals
-    moves = np.zeros((2, 3))
-    if not sharp[0]:
-        moves[0] = -1.0 / (Gr * H.JL), -math.pi / H.JL, (h.I1 - h.I0) / H.JL
-    if not sharp[1]:
-        moves[1] = 1.0 / (Gr * H.JR), -math.pi / H.JR, -(h.I1 + h.I0) / H.JR
-    return moves
-
-
-def _load_and_tilt(
-    moves: Array, lever: tuple[float, float, float], change: Change, given: Given, sharp: bool
-) -> tuple[float, float]:
-    """δP and the change of the tilt, which are given or follow from what is given in their place.
-
-    `lever`: G r², the centre, and ∫δh' cos² dφ.
-    """
-    Grr, m, C2 = lever
-    system, right = np.eye(2), np.array([change.load, change.tilt])
-    if given.half_width:
-        if sharp:
-            raise ContactError(
-                "the half-width is bounded by a corner of the indenter, whatever the load: give "
-                "normal_load for a derivative"
-            )
-        row = 0.5 * (moves[1] - moves[0])
-        system[0], right[0] = row[:2], change.half_width - row[2]
-    if given.moment:
-        system[1], right[1] = (m, -0.5 * math.pi * Grr), change.moment + Grr * C2
-    load, tilt = np.linalg.solve(system, right).tolist()
-    return load, tilt
-
-
-def _refuse_corners(slope: Slope, edges: Edges) -> None:
+def _refuse_corners(found: Normal, profile: Profile) -> None:
     """ContactError where an edge stands at a corner of the profile: it moves to one side only."""
-    contact = edges.contact
-    for x, held in zip((contact.x1, contact.x2), edges.sharp, strict=True):
+    contact, slope = found.edges.contact, found.slope(profile)
+    for x, held in zip((contact.x1, contact.x2), found.edges.sharp, strict=True):
         for e, _ in () if held or slope.functions else slope.jumps:
             if abs(x - e) <= CORNER * contact.r:
                 raise ContactError(
@@ -207,22 +189,25 @@ def _refuse_corners(slope: Slope, edges: Edges) -> None:
                 )
 
 
+# -- several patches -------------------------------------------------------------------------------
+
+
 def _of_patches(found: SeveralPatches, change: Change) -> ContactRate:
     """On several patches, at fixed E*."""
     o, G = found.found.operator, found.pressure.half_modulus
-    P, N = o.patches, o.patches.number
+    P, N, held = o.patches, o.patches.number, change.tilt is None
     _refuse_events(P.r, P.gaps[: N - 1 + P.closing], 0.5 * (P.b[-1] - P.a[0]))
-    held = found.found.given.moment is not None
+    load, last = change.load or 0.0, change.tilt or 0.0
     changes = np.zeros(2 * N + 1)
-    changes[-2:] = change.load / G, change.moment / G if held else change.tilt
+    changes[-2:] = load / G, change.moment / G if held else last
     flat = np.zeros((len(o.pieces.origins), 1))
     pieces = replace(o.pieces, coefficients=flat, series=flat[:, :0])
     if change.profile is not None:
         pieces = of_profile(change.profile, o.pieces.domain, RESOLVED)
     changed, tilt, moves = response_of_patches(found.found, pieces, changes)
-    p = PatchPressure(changed, G, tilt, change.load)
+    p = PatchPressure(changed, G, tilt, load)
     patches = tuple((a, b) for a, b in moves.reshape(N, 2).tolist())
-    return ContactRate(patches, change.load, change.moment if held else p.moment, tilt, p)
+    return ContactRate(patches, load, change.moment if held else p.moment, tilt, p)
 
 
 def _refuse_events(r: Array, gaps: Array, half: float) -> None:

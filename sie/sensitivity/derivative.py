@@ -16,51 +16,52 @@ from sie.profiles.base import Profile
 from sie.stress.half_plane import Stress
 from sie.traction.base import Density
 
-from .contact_rate import ContactRate, Given, contact_rate
-from .parameters import Parameter, parameter
-from .shear_rate import ShearRate, shear_rate
+from .contact_rate import contact_rate
+from .parameters import change_by
+from .shear_rate import ShearRate, Zones, shear_rate
 
 Array = NDArray[np.float64]
 NODES = 14  # of the slope beside an edge
 BESIDE = 1e-6  # half-widths about a summit of p, where its place is found by p'
 ZOOMS, ZOOM_PLACES = 4, 24
-SAME_PEAK = (
-    1e-7  # relative: peaks closer than that are one of several, and so are their derivatives
-)
+# relative: peaks closer than that are one of several, and so are their derivatives
+SAME_PEAK = 1e-7
 
 
-class Derivative:
+class OfPatches:
+    """The moves of edges, (x1, x2) of each patch, and what follows from them."""
+
+    def __init__(self, patches: Zones) -> None:
+        self.patches = patches
+        self.edges = self.left_edge, self.right_edge = patches[0][0], patches[-1][1]
+        self.half_width = 0.5 * (self.right_edge - self.left_edge)
+        self.centre = 0.5 * (self.left_edge + self.right_edge)
+        self.contact_length = sum(x2 - x1 for x1, x2 in patches)
+
+
+class Derivative(OfPatches):
     """The derivative of the answers of a solution by one number of its scene.
 
-    `solution.derivative(name)` makes it. Every answer is that of the solution over that of the
-    number, computed when it is read.
+    `solution.derivative(name)` makes it, and says what a name is.
 
-    Parameters
+    Attributes
     ----------
-    solution : Solution
-        The solution.
-    name : str or Profile
-        As of `Solution.derivative`.
-
-    Raises
-    ------
-    ValueError
-        For a name that is no number of the scene.
-    ContactError
-        For bodies whose shear acts on the pressure; by any answer, where derivatives are one-sided.
+    patches : tuple of (float, float)
+        That of the patches as (x1, x2).
+    edges : (float, float)
+        That of the outermost two edges; `left_edge` and `right_edge` by themselves.
+    half_width, centre, contact_length : float
+        That of the half-width, of the centre and of the length of all patches.
+    normal_load, moment, tilt : float
+        That of the load, of its moment about x = 0, and of the tilt.
+    pressure : Density
+        That of the pressure at fixed x; infinite at an edge that moves.
 
     Notes
     -----
     The pressure is linear in h' on a given contact, and an edge that moves adds a square-root
     singularity. So the derivative of the pressure is infinite at edges; elsewhere it is as exact as
     the pressure (see the explanation of derivatives in the documentation).
-
-    Examples
-    --------
-    >>> import sie
-    >>> scene = sie.Scene(profile=sie.RoundedFlat(1.0, 1.0), modulus=1.0, normal_load=1.0)
-    >>> round(sie.solve(scene).derivative("profile.radius").half_width, 10)
-    0.5240149793
     """
 
     def __init__(self, solution: Any, name: str | Profile) -> None:
@@ -70,78 +71,28 @@ class Derivative:
                 "derivatives are known where the shear leaves the pressure alone: give dundurs = 0 "
                 "to neglect β, or friction = 0"
             )
-        self.solution, self.name = solution, name
-        self._by: Parameter = parameter(scene, name)
+        self.solution, self.name, self._by = solution, name, change_by(scene, name)
+        self._contact = contact_rate(solution.normal, solution.pressure, scene.profile, self._by)
+        super().__init__(self._contact.patches)
+        self.normal_load, self.moment, self.tilt, self.pressure = self._contact[1:]
 
     def __repr__(self) -> str:
         return f"Derivative({self.name!r})"
 
-    @cached_property
-    def _contact(self) -> ContactRate:
-        scene, normal = self.solution.scene, self.solution.normal
-        given = Given(scene.half_width is not None, scene.moment is not None)
-        p = self.solution.pressure
-        return contact_rate(normal, p, scene.profile, self._by.contact, given)
+    # -- answers -----------------------------------------------------------------------------------
 
     @cached_property
     def _shear(self) -> ShearRate:
         return shear_rate(self.solution, self._by, self._contact)
 
-    # -- answers -----------------------------------------------------------------------------------
-
-    @property
-    def patches(self) -> tuple[tuple[float, float], ...]:
-        """That of the patches as (x1, x2)."""
-        return self._contact.patches
-
-    @property
-    def edges(self) -> tuple[float, float]:
-        """That of the outermost two edges."""
-        return self.patches[0][0], self.patches[-1][1]
-
-    @property
-    def half_width(self) -> float:
-        """That of the half-width."""
-        return 0.5 * (self.edges[1] - self.edges[0])
-
-    @property
-    def centre(self) -> float:
-        """That of the centre."""
-        return 0.5 * (self.edges[0] + self.edges[1])
-
-    @property
-    def contact_length(self) -> float:
-        """That of the length of all patches."""
-        return sum(x2 - x1 for x1, x2 in self.patches)
-
-    @property
-    def normal_load(self) -> float:
-        """That of the normal load."""
-        return self._contact.load
-
-    @property
-    def moment(self) -> float:
-        """That of the moment about x = 0."""
-        return self._contact.moment
-
-    @property
-    def tilt(self) -> float:
-        """That of the tilt."""
-        return self._contact.tilt
-
-    @property
-    def pressure(self) -> Density:
-        """That of the pressure at fixed x, a `Density`; infinite at an edge that moves."""
-        return self._contact.pressure
-
     @property
     def shear(self) -> Density:
-        """That of the shear at fixed x, a `Density`."""
+        """That of the shear at fixed x, a `Density`. ContactError where it is one-sided."""
         return self._shear.shear
 
     @property
-    def stick(self) -> tuple[tuple[float, float], ...]:
-        """That of the stick zones as (lo, hi)."""
+    def stick(self) -> Zones:
+        """That of the stick zones as (lo, hi). ContactError where it is one-sided."""
         return self._shear.stick
 
     def stress(self, x: ArrayLike, y: ArrayLike) -> StressDerivative:
@@ -172,19 +123,22 @@ class Derivative:
         grown = _common(lambda place: self._j2(*place), found.places)
         return self.normal_load / math.sqrt(J) - 0.5 * P * grown / J**1.5
 
+    @property
+    def peak_tension(self) -> float:
+        """That of the largest σ_xx on the surface, `Solution.peak_tension`."""
+        value, x = self.solution.peak_tension()
+        if not math.isfinite(value):
+            raise ContactError("the largest tension is infinite, beside a corner of the indenter")
+        return self._tension(x)
+
     def _j2(self, x: float, y: float) -> float:
         """That of the second invariant; at an edge, which moves, p = q = 0 and σ_xx alone acts."""
-        moved = self._moved(x)
-        if y or not moved:
-            return float(self.stress(x, y).j2)
-        s = self.solution.stress(x, 0.0)
-        return float(2.0 * s.j2 / s.xx) * self._tension_at_edge(x, moved) + self._of_poisson(s)
-
-    def _of_poisson(self, s: Stress) -> float:
-        t = self.solution.tractions
-        if t.plane == "stress" or not self._by.poisson:
-            return 0.0
-        return float(s.xx**2) * (2.0 * t.known_poisson - 1.0) / 3.0 * self._by.poisson
+        d = self.stress(x, y)
+        if y or not self._moved(x):
+            return float(d.j2)
+        xx, nu = self._tension(x), self.solution.tractions.known_poisson
+        known = nu if self.solution.tractions.plane == "strain" else 0.0
+        return float(d._invariant(xx, 0.0, 0.0, known * xx + d._poisson * d._stress.xx))
 
     def _moved(self, x: float) -> float:
         """The move of the edge at x; 0 where there is none, or it is held by a corner."""
@@ -192,17 +146,14 @@ class Derivative:
         moves = {edge: moved for ends, moving in pairs for edge, moved in zip(ends, moving)}
         return moves.get(x, 0.0)
 
-    def _tension_at_edge(self, x: float, moved: float) -> float:
-        return self._by.bulk_stress - 2.0 * _of_hilbert(self._shear, x, moved)
-
-    @property
-    def peak_tension(self) -> float:
-        """That of the largest σ_xx on the surface, `Solution.peak_tension`."""
-        value, x = self.solution.peak_tension()
-        if not math.isfinite(value):
-            raise ContactError("the largest tension is infinite, beside a corner of the indenter")
+    def _tension(self, x: float) -> float:
+        """That of σ_xx on the surface at x; an edge that moves is followed, p = 0 there."""
         moved = self._moved(x)
-        return self._tension_at_edge(x, moved) if moved else float(self.stress(x, 0.0).xx)
+        if not moved:
+            return float(self.stress(x, 0.0).xx)
+        grown = sum(c * _of_hilbert(density, x)[0] for c, density in self._shear.rates)
+        along = sum(c * _of_hilbert(density, x)[1] for c, density in self._shear.terms)
+        return self._by.bulk_stress - 2.0 * (grown + moved * along)
 
 
 class StressDerivative:
@@ -250,10 +201,14 @@ class StressDerivative:
     @property
     def j2(self) -> Array:
         """That of the second invariant of the deviator."""
-        s, d = self._stress, self
+        return self._invariant(self.xx, self.yy, self.xy, self.zz)
+
+    def _invariant(self, xx: Any, yy: Any, xy: Any, zz: Any) -> Array:
+        """That of the second invariant by those of the components."""
+        s = self._stress
         mean = (s.xx + s.yy + s.zz) / 3.0
-        direct = (s.xx - mean) * d.xx + (s.yy - mean) * d.yy + (s.zz - mean) * d.zz
-        return np.asarray(direct + 2.0 * s.xy * d.xy)
+        direct = (s.xx - mean) * xx + (s.yy - mean) * yy + (s.zz - mean) * zz
+        return np.asarray(direct + 2.0 * s.xy * xy)
 
     @property
     def mises(self) -> Array:
@@ -297,32 +252,13 @@ def _common(function: Callable[[Any], Any], places: Any) -> float:
     return values[0]
 
 
-def _of_hilbert(shear: ShearRate, x: float, moved: float) -> float:
-    """That of 1/π PV∫ q/(x - t) dt at an edge x that moves."""
-    grown = sum(c * _at_edge(density, x) for c, density in shear.rates)
-    return grown + moved * sum(c * _steepness(density, x) for c, density in shear.terms)
-
-
-def _at_edge(density: Density, x: float) -> float:
-    """The principal value at x, from inside where x is an edge."""
-    return sum(
-        c
-        * (
-            base.hilbert_at_edges[base.interval.index(x)]
-            if x in base.interval
-            else float(base.hilbert(x))
-        )
-        for c, base in density.bases
-    )
-
-
-def _steepness(density: Density, x: float) -> float:
-    """The derivative of the principal value at x; at an edge that of E*/2 h', from inside."""
-    if x not in density.interval:
-        return float(density.cauchy_derivative(x, side=0).real)
+def _of_hilbert(density: Density, x: float) -> tuple[float, float]:
+    """1/π PV∫ p/(x - t) dt at x, and its derivative by x; at an edge from inside, E*/2 h'."""
+    if all(x not in base.interval for _, base in density.bases):
+        return float(density.hilbert(x)), float(density.cauchy_derivative(x, side=0).real)
     breaks = np.array(density.breaks)
     length = np.min(np.abs(breaks[breaks != x] - x))
     inward = length if x == density.interval[0] else -length
     u = 0.5 - 0.5 * np.cos(np.pi * (np.arange(NODES) + 0.5) / NODES)
     near = np.polynomial.Polynomial.fit(u, density.hilbert(x + inward * u), NODES - 1)
-    return float(near.deriv()(0.0)) / inward
+    return float(near(0.0)), float(near.deriv()(0.0)) / inward

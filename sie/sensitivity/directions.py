@@ -7,7 +7,7 @@ on nothing by itself; the answers use its slope and its height alone.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property, partial, singledispatch
 from itertools import pairwise
@@ -120,37 +120,28 @@ def _(profile: Sampled) -> Directions:
 
 @directions.register
 def _(profile: Composite) -> Directions:
-    alone = len(profile.parts) == 1
-    return {
-        name if alone else f"parts[{k}].{name}": make
-        for k, part in enumerate(profile.parts)
-        for name, make in _placed(part)
-    }
+    alone, found = len(profile.parts) == 1, {}
+    for k, part in enumerate(profile.parts):
+        own = {
+            name: partial(_placed, part, make) for name, make in directions(part.profile).items()
+        }
+        for name, make in (own | {"rise": LIFT}).items():
+            found[name if alone else f"parts[{k}].{name}"] = make
+    return found
 
 
-def _placed(part: Placed) -> Iterator[tuple[str, Callable[[], Profile]]]:
-    """The directions of a part where it stands."""
-
-    def standing(make: Callable[[], Profile]) -> Profile:
-        made = make()
-        return (made if part.sign > 0.0 else made.mirrored()).shifted(part.shift)
-
-    for name, make in directions(part.profile).items():
-        yield name, partial(standing, make)
-    yield "rise", LIFT
+def _placed(part: Placed, make: Callable[[], Profile]) -> Profile:
+    """The direction of a part where it stands."""
+    return (make() if part.sign > 0.0 else make().mirrored()).shifted(part.shift)
 
 
 @directions.register
 def _(profile: Row) -> Directions:
     return {
-        f"profiles[{k}].{name}": partial(_in_row, profile, k, make)
+        f"profiles[{k}].{name}": lambda k=k, make=make: OfOne(profile, k, make())  # type: ignore[misc]
         for k, one in enumerate(profile.profiles)
         for name, make in ({"rise": LIFT} | directions(one)).items()
     }
-
-
-def _in_row(row: Row, k: int, make: Callable[[], Profile]) -> Profile:
-    return OfOne(row, k, make())
 
 
 @directions.register
@@ -161,15 +152,9 @@ def _(profile: Periodic) -> Directions:
                 "the ends of a period are joined by other profiles than the given one, whose "
                 "derivative is not known: give the profile on one period, equally high at its ends"
             )
-        return Periodic(make() + _window(profile), profile.repeats)
+        return Periodic(make() + Piecewise(profile.pieces.domain, [(0.0,)]), profile.repeats)
 
     return {name: partial(repeated, make) for name, make in directions(profile.profile).items()}
-
-
-def _window(profile: Periodic) -> Profile:
-    """No height on one period of the profile."""
-    lo, hi = profile.pieces.domain
-    return Piecewise((lo, hi), [(0.0,)])
 
 
 @dataclass(frozen=True)

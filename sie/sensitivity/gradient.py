@@ -25,17 +25,15 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from sie import arguments
-from sie.contact.edge_integrals import NOTHING, edge_integrals
+from sie.contact.edge_integrals import NOTHING
 from sie.contact.known_contact import Normal
-from sie.contact.pressure import resolution
 from sie.errors import ContactError
 from sie.numerics.interval import Interval
-from sie.profiles.resolution import refined
 from sie.profiles.sampled import Sampled
 
-from .contact_rate import TOLERANCE, Change, Given, Response, response
-from .derivative import Derivative, peaks
-from .parameters import parameters
+from .contact_rate import Response, integrals_of, response
+from .derivative import Derivative, OfPatches, peaks
+from .parameters import held, parameters
 
 Array = NDArray[np.float64]
 
@@ -46,13 +44,6 @@ OF_CONTACT = (
 PEAKS = ("peak_pressure", "peak_tension", "elastic_limit")
 HEIGHTS = "profile.heights"
 NODES, HALVINGS = 12, 52  # of a panel; towards the logarithm under a peak
-
-
-def value_of(derivative: Any, quantity: str) -> float:
-    """One of the quantities of a derivative, or of a response."""
-    if quantity in ("left_edge", "right_edge"):
-        return float(derivative.edges[quantity == "right_edge"])
-    return float(getattr(derivative, quantity))
 
 
 def known_quantity(quantity: str) -> str:
@@ -68,16 +59,22 @@ def gradient(solution: Any, quantity: str) -> dict[str, Any]:
     known_quantity(quantity)
     found: dict[str, Any] = {}
     refused: ContactError | None = None
-    for name in parameters(solution.scene, heights=False):
+    names = [*parameters(solution.scene, heights=False)]
+    for name in names + [HEIGHTS] * isinstance(solution.scene.profile, Sampled):
         try:
-            found[name] = value_of(Derivative(solution, name), quantity)
+            found[name] = by_name(solution, quantity, name)
         except ContactError as error:  # of one number; the others have derivatives
             refused = error
-    if isinstance(solution.scene.profile, Sampled):
-        found[HEIGHTS] = of_heights(solution, quantity)
     if not found and refused is not None:
         raise refused
     return found
+
+
+def by_name(solution: Any, quantity: str, name: str) -> Any:
+    """The derivative of a quantity by a number of the scene, or by all heights of its trace."""
+    if name == HEIGHTS:
+        return of_heights(solution, quantity)
+    return float(getattr(Derivative(solution, name), quantity))
 
 
 class Uncertainty:
@@ -85,22 +82,6 @@ class Uncertainty:
 
     `solution.uncertainty(deviations)` makes it. The numbers are taken as independent, and their
     deviations as small.
-
-    Parameters
-    ----------
-    solution : Solution
-        The solution.
-    deviations : mapping of str to float
-        Standard deviations by the names of `Solution.derivative`, each in the unit of its number;
-        "profile.heights" is the noise of all heights of a trace.
-
-    Examples
-    --------
-    >>> import sie
-    >>> scene = sie.Scene(profile=sie.Parabola(4.0), modulus=1.0, normal_load=1.0)
-    >>> found = sie.solve(scene).uncertainty({"profile.radius": 0.4, "normal_load": 0.1})
-    >>> round(found.of("half_width") / sie.solve(scene).half_width, 6)
-    0.070711
     """
 
     def __init__(self, solution: Any, deviations: Mapping[str, float]) -> None:
@@ -132,13 +113,10 @@ class Uncertainty:
             For another quantity.
         """
         known_quantity(quantity)
-        return {name: self._share(name, quantity) for name in self._deviations}
-
-    def _share(self, name: str, quantity: str) -> float:
-        deviation = self._deviations[name]
-        if name == HEIGHTS:
-            return float(deviation * np.linalg.norm(of_heights(self._solution, quantity)))
-        return abs(deviation * value_of(self._derivatives[name], quantity))
+        found = {n: abs(getattr(d, quantity)) for n, d in self._derivatives.items()}
+        if HEIGHTS in self._deviations:
+            found[HEIGHTS] = float(np.linalg.norm(of_heights(self._solution, quantity)))
+        return {name: abs(deviation) * found[name] for name, deviation in self._deviations.items()}
 
     def of(self, quantity: str) -> float:
         """The standard deviation of a quantity.
@@ -197,10 +175,8 @@ def of_heights(solution: Any, quantity: str) -> Array:
         raise ValueError(f'"{HEIGHTS}" are those of a trace: the profile is {profile!r}')
     together = profile.lam == 0.0 and isinstance(found, Normal) and quantity not in PEAKS[1:]
     if not together:
-        every = range(len(profile.points))
-        return np.array(
-            [value_of(Derivative(solution, f"{HEIGHTS}[{k}]"), quantity) for k in every]
-        )
+        names = (f"{HEIGHTS}[{k}]" for k in range(len(profile.points)))
+        return np.array([by_name(solution, quantity, name) for name in names])
     place = _one_peak(solution) if quantity == "peak_pressure" else None
     factors = _factors(solution, quantity, place)
     first, weights = _weights(solution, profile.points, factors, place)
@@ -220,17 +196,13 @@ def _one_peak(solution: Any) -> float:
 def _factors(solution: Any, quantity: str, place: float | None) -> tuple[float, float, float]:
     """What the integrals I0, I1 and C2 of δh' contribute to a quantity, to a peak by its ends."""
     scene, edges = solution.scene, solution.normal.edges
-    G, contact = 0.5 * scene.Estar, edges.contact
-    slope = refined(
-        solution.normal.slope(scene.profile), contact.x1, contact.x2, resolution(TOLERANCE)
-    )
-    H = edge_integrals(slope, contact, keep_zero=True)
-    given = Given(scene.half_width is not None, scene.moment is not None)
+    H, contact = integrals_of(solution.normal, scene.profile), edges.contact
 
     def part(**integral: float) -> float:
-        rate = response(edges, G, (H, NOTHING._replace(**integral)), Change(), given)
+        integrals = H, NOTHING._replace(**integral)
+        rate = response(edges, 0.5 * scene.Estar, integrals, held(scene))
         if place is None:
-            return value_of(_Single(rate), quantity)
+            return float(getattr(_OnePatch(rate), quantity))
         ratio = math.sqrt(contact.from_right(place) / contact.from_left(place))
         k1, k2 = rate.intensities
         return 0.5 * (k1 * ratio + k2 / ratio)
@@ -238,13 +210,12 @@ def _factors(solution: Any, quantity: str, place: float | None) -> tuple[float, 
     return part(I0=1.0), part(I1=1.0), part(C2=1.0)
 
 
-class _Single:
+class _OnePatch(OfPatches):
     """The derivatives of one patch that follow from its response."""
 
     def __init__(self, rate: Response) -> None:
-        self.edges, self.normal_load, self.moment, self.tilt = rate[:4]
-        self.contact_length = rate.edges[1] - rate.edges[0]
-        self.half_width, self.centre = 0.5 * self.contact_length, 0.5 * sum(rate.edges)
+        super().__init__((rate.edges,))
+        self.normal_load, self.moment, self.tilt = rate[1:4]
 
 
 def _weights(

@@ -1,4 +1,4 @@
-"""The change of a scene by one of its numbers: what it does to the contact, the shear, the body.
+"""The change of a scene by each of its numbers: what it does to the contact, the shear, the body.
 
 P, b, tilt, M, f, Q, σ      themselves
 E, ν                        1/E* = C1 + C2, C the compliances, and τ = E*/2 of the bulk strain
@@ -7,8 +7,8 @@ a parameter of the profile  its direction (`directions`)
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Iterator
+from dataclasses import replace
 from functools import partial
 
 from sie.errors import ContactError
@@ -20,38 +20,15 @@ from sie.profiles.sampled import Sampled
 from .contact_rate import Change
 from .directions import directions
 
-
-@dataclass(frozen=True)
-class Parameter:
-    """The change of a scene by one number.
-
-    contact          that of the contact without shear
-    friction         that of f
-    tangential_load  that of Q
-    tau              that of τ
-    bulk_stress      that of σ
-    poisson          that of Poisson's ratio of the body
-    """
-
-    contact: Change
-    friction: float = 0.0
-    tangential_load: float = 0.0
-    tau: float = 0.0
-    bulk_stress: float = 0.0
-    poisson: float = 0.0
+Makers = dict[str, Callable[[], Change]]
 
 
-Makers = dict[str, Callable[[], Parameter]]
-
-
-def parameter(scene: Scene, name: str | Profile) -> Parameter:
+def change_by(scene: Scene, name: str | Profile) -> Change:
     """The change of a scene by a number of that name, or by adding so much of a profile."""
     if isinstance(name, Profile):
-        return Parameter(Change(profile=name))
-    own = _of_loads(scene)
-    if name in own:
-        return own[name]()
-    known = parameters(scene)
+        return replace(held(scene), profile=name)
+    own = dict(_of_loads(scene)) | dict(_of_bodies(scene))
+    known = own if name in own else parameters(scene)
     if name not in known:
         shown = ", ".join(list(known)[:24]) + (", ..." if len(known) > 24 else "")
         raise ValueError(f'derivative by "{name}" is not known for this scene: choose {shown}')
@@ -63,79 +40,74 @@ def parameters(scene: Scene, *, heights: bool = True) -> Makers:
 
     `heights`: with those of a trace, one by one.
     """
-    several = isinstance(scene.profile, Sampled) and not heights
-    return _of_loads(scene) | ({} if several else _of_profile(scene.profile))
-
-
-def _of_loads(scene: Scene) -> Makers:
-    return _loads(scene) | _materials(scene)
-
-
-def _loads(scene: Scene) -> Makers:
-    names = {
-        "normal_load" if scene.half_width is None else "half_width": Change(load=1.0),
-        "tilt" if scene.moment is None else "moment": Change(tilt=1.0, moment=1.0),
-    }
-    if scene.half_width is not None:
-        names["half_width"] = Change(half_width=1.0)
-    if scene.profile.period < float("inf"):
-        del names["tilt"]
-    found: Makers = {name: partial(Parameter, change) for name, change in names.items()}
-    if scene.friction:
-        found["friction"] = partial(Parameter, Change(), friction=1.0)
-    if scene.friction and not scene.sliding:
-        found["tangential_load"] = partial(Parameter, Change(), tangential_load=1.0)
-    by_stress = replace(scene, bulk_stress=1.0).tau
-    found["bulk_stress"] = partial(Parameter, Change(), tau=by_stress, bulk_stress=1.0)
+    found = dict(_of_loads(scene)) | dict(_of_bodies(scene))
+    if heights or not isinstance(scene.profile, Sampled):
+        for name, make in directions(scene.profile).items():
+            found[f"profile.{name}"] = partial(_along, scene, make)
     return found
 
 
-def _materials(scene: Scene) -> Makers:
+def held(scene: Scene) -> Change:
+    """No change; what is found instead of given is left open."""
+    return Change(
+        load=0.0 if scene.half_width is None else None, tilt=0.0 if scene.moment is None else None
+    )
+
+
+def _along(scene: Scene, make: Callable[[], Profile]) -> Change:
+    return replace(held(scene), profile=make())
+
+
+def _of_loads(scene: Scene) -> Iterator[tuple[str, Callable[[], Change]]]:
+
+    def by(**numbers: float) -> Callable[[], Change]:
+        return partial(replace, held(scene), **numbers)
+
+    yield ("half_width", by(half_width=1.0)) if scene.half_width else ("normal_load", by(load=1.0))
+    if scene.moment is not None:
+        yield "moment", by(moment=1.0)
+    elif scene.profile.period == float("inf"):
+        yield "tilt", by(tilt=1.0)
+    if scene.friction:
+        yield "friction", by(friction=1.0)
+    if scene.friction and not scene.sliding:
+        yield "tangential_load", by(tangential_load=1.0)
+    yield "bulk_stress", by(bulk_stress=1.0, tau=replace(scene, bulk_stress=1.0).tau)
+
+
+def _of_bodies(scene: Scene) -> Iterator[tuple[str, Callable[[], Change]]]:
     if scene.modulus is not None:
-        modulus = Parameter(Change(modulus=1.0 / scene.modulus))
-        poisson = partial(Parameter, Change(), poisson=1.0)
-        found: Makers = {"modulus": lambda: modulus}
-        return found | ({"poisson": poisson} if scene.poisson is not None else {})
+        yield "modulus", partial(replace, held(scene), modulus=1.0 / scene.modulus)
+        if scene.poisson is not None:
+            yield "poisson", partial(replace, held(scene), poisson=1.0)
+        return
     pair = {"body": scene.body, "indenter": scene.indenter}
-    if scene.body == scene.indenter:
-        return {name: partial(_of_material, scene, tuple(pair), name) for name in CONSTANTS}
-    return {
-        f"{one}.{name}": partial(_of_material, scene, (one,), name)
-        for one, body in pair.items()
-        for name in CONSTANTS
-        if isinstance(body, Elastic)
-    }
+    for constant in ("young", "poisson"):
+        if scene.body == scene.indenter:
+            yield constant, partial(_of_material, scene, tuple(pair), constant)
+            continue
+        for one, body in pair.items():
+            if isinstance(body, Elastic):
+                yield f"{one}.{constant}", partial(_of_material, scene, (one,), constant)
 
 
-CONSTANTS = ("young", "poisson")
-
-
-def _of_material(scene: Scene, bodies: tuple[str, ...], constant: str) -> Parameter:
+def _of_material(scene: Scene, bodies: tuple[str, ...], constant: str) -> Change:
     """The change by a constant of one body, or of both."""
     if scene.friction and len(bodies) == 1 and scene.dundurs is None:
         raise ContactError(
             "a constant of one body changes β, and with it the shear: give dundurs = 0 to neglect "
             "β, or bodies of one material"
         )
-    Estar, grown = scene.Estar, {"body": 0.0, "indenter": 0.0}
-    for one in bodies:
-        grown[one] = _compliance_grows(getattr(scene, one), constant)
-    modulus = -Estar * sum(grown.values())
-    tau = 0.5 * Estar * grown["body"] * scene.bulk_stress + modulus * scene.tau
-    if len(bodies) == 2:
-        tau = 0.0  # half of the strain of each
+    grown = {one: _compliance_grows(getattr(scene, one), constant) for one in bodies}
+    modulus = -scene.Estar * sum(grown.values())
+    strained = 0.5 * scene.Estar * grown.get("body", 0.0) * scene.bulk_stress
+    # of two bodies of one material τ is half of the strain of each, whatever it is
+    tau = strained + modulus * scene.tau if len(bodies) == 1 else 0.0
     poisson = 1.0 if constant == "poisson" and "body" in bodies else 0.0
-    return Parameter(Change(modulus=modulus), tau=tau, poisson=poisson)
+    return replace(held(scene), modulus=modulus, tau=tau, poisson=poisson)
 
 
 def _compliance_grows(body: Elastic, constant: str) -> float:
     """The derivative of (1 - ν²)/E in plane strain, of 1/E in plane stress."""
     E, nu = body.young, body.poisson if body.plane == "strain" else 0.0
     return -(1.0 - nu * nu) / E**2 if constant == "young" else -2.0 * nu / E
-
-
-def _of_profile(profile: Profile) -> Makers:
-    def made(make: Callable[[], Profile]) -> Parameter:
-        return Parameter(Change(profile=make()))
-
-    return {f"profile.{name}": partial(made, make) for name, make in directions(profile).items()}

@@ -10,7 +10,6 @@ and the edges of the contact of p̂ are those of the stick zones.
 
 from __future__ import annotations
 
-import math
 from dataclasses import replace
 from typing import Any, NamedTuple
 
@@ -20,8 +19,7 @@ from sie.patches.friction import PatchSlip
 from sie.traction.base import Density
 from sie.traction.combination import superposed
 
-from .contact_rate import ContactRate, Given, contact_rate
-from .parameters import Parameter
+from .contact_rate import Change, ContactRate, contact_rate
 
 Zones = tuple[tuple[float, float], ...]
 Terms = tuple[tuple[float, Density], ...]
@@ -45,23 +43,25 @@ class ShearRate(NamedTuple):
         return superposed(*self.rates)
 
 
-def shear_rate(solution: Any, by: Parameter, contact: ContactRate) -> ShearRate:
+def shear_rate(solution: Any, change: Change, contact: ContactRate) -> ShearRate:
     """The derivative of the shear of a solution. ContactError where it has none."""
     scene, f = solution.scene, solution.scene.friction
     if not f:
         return ShearRate(())
     if not solution.sheared:
-        if by.tangential_load or by.tau:
+        if change.tangential_load or change.tau:
             raise _begins("Q and the bulk stress are 0")
         return ShearRate(contact.patches)
-    state: Any = solution.tangential
-    density: Density
     if scene.sliding:
-        return _sum((), scene.sliding, ((f, solution.pressure, contact.pressure),), by.friction)
+        return _sum((), scene.sliding * f, ((1.0, solution.pressure, contact.pressure),), change, f)
     if scene.slides:
         raise _begins("|Q| = f P")
+    state: Any = solution.tangential
+    found: Any
+    density: Any
     if isinstance(state, OneSignedSlip):
-        found, density = _with_contact(state.found, state.corrective), state.corrective
+        found, density = state.found, state.corrective
+        found = replace(found, edges=replace(found.edges, contact=density.contact))
     elif isinstance(state, PatchSlip):
         found, density = state.corrective, state.corrective.pressure
     else:
@@ -69,30 +69,29 @@ def shear_rate(solution: Any, by: Parameter, contact: ContactRate) -> ShearRate:
             "the bulk stress makes the two edges slip in opposite directions, where derivatives of "
             "the shear are not known: lower the bulk stress, or raise the tangential load"
         )
-    sign, E, Q = state.sign, scene.Estar, solution.tangential_load
-    g, strain = by.contact.modulus, -2.0 * scene.tau / (sign * f * E)
-    change = replace(
-        by.contact,
-        load=contact.load - sign * (by.tangential_load - Q * by.friction / f) / f,
-        tilt=contact.tilt - 2.0 * by.tau / (sign * f * E) - strain * (by.friction / f + g),
+    along, Q, gained = state.sign * f, solution.tangential_load, change.friction / f
+    twice = 2.0 / (along * scene.Estar)
+    under = replace(
+        change,
+        load=contact.load - (change.tangential_load - Q * gained) / along,
+        tilt=contact.tilt - twice * (change.tau - scene.tau * (gained + change.modulus)),
     )
-    rate = contact_rate(found, density, scene.profile, change, Given(False, False))
-    both = (f, solution.pressure, contact.pressure), (-f, density, rate.pressure)
-    return _sum(rate.patches, sign, both, by.friction)
+    rate = contact_rate(found, density, scene.profile, under)
+    both = (1.0, solution.pressure, contact.pressure), (-1.0, density, rate.pressure)
+    return _sum(rate.patches, along, both, change, f)
 
 
 def _sum(
-    stick: Zones, sign: float, parts: tuple[tuple[float, Density, Density], ...], friction: float
+    stick: Zones,
+    along: float,
+    parts: tuple[tuple[float, Density, Density], ...],
+    change: Change,
+    f: float,
 ) -> ShearRate:
-    """The shear of pressures times ± f, with their derivatives and that of f."""
-    terms = tuple((sign * f, p) for f, p, _ in parts)
-    rates = tuple((sign * f, rate) for f, _, rate in parts)
-    by_friction = tuple((sign * math.copysign(1.0, f) * friction, p) for f, p, _ in parts)
-    return ShearRate(stick, terms, rates + by_friction)
-
-
-def _with_contact(found: Any, density: Any) -> Any:
-    return replace(found, edges=replace(found.edges, contact=density.contact))
+    """The shear ± f Σ ± p_i, with the derivatives of the p_i and that of f."""
+    terms = tuple((along * c, p) for c, p, _ in parts)
+    by_friction = tuple((c * change.friction / f, p) for c, p in terms)
+    return ShearRate(stick, terms, tuple((along * c, rate) for c, _, rate in parts) + by_friction)
 
 
 def _begins(where: str) -> ContactError:

@@ -8,30 +8,20 @@ from typing import Any
 import numpy as np
 
 from sie import arguments
-from sie.many.loads import Loads
-from sie.many.solve_many import Many, Question
+from sie.many.solve_many import ACTING, Many, many
 from sie.problem.scene import Scene
-from sie.profiles.base import Profile
 from sie.profiles.shapes import Parabola, RoundedFlat
 
-LOADS = ("normal_load", "half_width", "tilt", "friction", "tangential_load", "bulk_stress")
-KINDS = (Parabola, RoundedFlat)  # whose fields are their parameters
+SIZES = "normal_load", "half_width"
+KINDS = Parabola, RoundedFlat  # whose fields are their parameters
 FEWEST = 32  # points: fewer are as soon solved one by one
-Quantity = Callable[[Many], Any]
-PLAIN = ("half_width", "centre", "normal_load", "moment", "tilt")
-
-
-def _plain(name: str) -> Quantity:
-    return lambda many: getattr(many, name)
-
-
-ARRAYS: dict[str, Quantity] = {
-    **{name: _plain(name) for name in PLAIN},
-    "contact_length": lambda many: 2.0 * many.half_width,
-    "gap_volume": lambda many: np.zeros(many.shape),
-    "patches": lambda many: np.ones(many.shape),
-    "edges": lambda many: {"x1": many.edges[..., 0], "x2": many.edges[..., 1]},
+PLAIN = "half_width", "centre", "normal_load", "moment", "tilt"
+OF_ONE_PATCH: dict[str, Callable[[Many], Any]] = {
+    "contact_length": lambda solved: 2.0 * solved.half_width,
+    "gap_volume": lambda solved: np.zeros(solved.shape),
+    "patches": lambda solved: np.ones(solved.shape),
 }
+KNOWN = (*PLAIN, "edges", *OF_ONE_PATCH)
 
 
 def as_arrays(
@@ -39,53 +29,49 @@ def as_arrays(
 ) -> tuple[dict[str, Any], Any] | None:
     """The wanted arrays and the reasons; None if some point has to be solved by itself."""
     numbers = all(type(v) in (int, float) for values in axes.values() for v in values)
-    known = all(isinstance(v, str) and v in ARRAYS for v in wanted.values())
+    known = all(isinstance(of, str) and of in KNOWN for of in wanted.values())
     points = np.prod([len(values) for values in axes.values()])
     if not (numbers and known and points >= FEWEST and _takes(scene, axes)):
         return None
-    many = Many(_question(scene, axes))
-    if (many.refused != "").any():
+    solved = _solved(scene, axes)
+    if (solved.refused != "").any():
         return None
     found: dict[str, Any] = {}
     for name, of in wanted.items():
-        values = ARRAYS[of](many)
-        found |= values if isinstance(values, dict) else {name: values}
-    return {name: v for name, v in found.items() if name not in axes}, many.refused
+        if of == "edges":
+            found |= {"x1": solved.edges[..., 0], "x2": solved.edges[..., 1]}
+        else:
+            found[name] = OF_ONE_PATCH[of](solved) if of in OF_ONE_PATCH else getattr(solved, of)
+    return {name: v for name, v in found.items() if name not in axes}, solved.refused
 
 
 def _takes(scene: Scene, axes: dict[str, list[Any]]) -> bool:
-    """Whether the scenes are of similar bodies, and the numbers those of arrays."""
-    own = {f"profile.{name}" for name in _fields(scene.profile)} & axes.keys()
-    sizes = [v for name in own for v in axes[name]]
+    """Whether all scenes are of similar bodies, and all numbers those of arrays."""
+    own = {f"profile.{name}" for name in _fields(scene)} & axes.keys()
+    sheared = scene.friction or scene.bulk_stress or {"friction", "bulk_stress"} & axes.keys()
     return (
         not (scene.sliding or scene.moment is not None)
-        and not ((scene.friction or "friction" in axes) and scene.beta)
-        and not ((scene.bulk_stress or "bulk_stress" in axes) and scene.body != scene.indenter)
-        and not {"normal_load", "half_width"} <= axes.keys()
-        and axes.keys() <= {*LOADS, *own, *({"modulus"} if scene.body is None else ())}
-        and all(1.0 / arguments.LARGEST <= v <= arguments.LARGEST for v in sizes)
+        and not (sheared and (scene.beta or scene.body != scene.indenter))
+        and not {*SIZES} <= axes.keys()
+        and axes.keys() <= {*SIZES, *ACTING, *own, *({"modulus"} if scene.body is None else ())}
+        and all(1.0 / arguments.LARGEST <= v <= arguments.LARGEST for n in own for v in axes[n])
     )
 
 
-def _question(scene: Scene, axes: dict[str, list[Any]]) -> Question:
-    arrays = [np.array(v, dtype=float) for v in axes.values()]
-    grid = dict(zip(axes, np.meshgrid(*arrays, indexing="ij"), strict=True))
-    shape = tuple(map(len, axes.values()))
-    loads = {name: getattr(scene, name) for name in LOADS} | {"modulus": scene.Estar}
-    for one, other in (("normal_load", "half_width"), ("half_width", "normal_load")):
-        if one in grid:
-            loads[other] = None
+def _solved(scene: Scene, axes: dict[str, list[Any]]) -> Many:
+    """The scenes of the grid as arrays; what these do not answer is refused."""
+    grid = dict(zip(axes, np.meshgrid(*axes.values(), indexing="ij"), strict=True))
+    sizes = [name for name in SIZES if name in axes] or [
+        name for name in SIZES if getattr(scene, name) is not None
+    ]
+    loads = {name: getattr(scene, name) for name in (*sizes, *ACTING)} | {"modulus": scene.Estar}
     loads |= {name: v for name, v in grid.items() if "." not in name}
-    flat: dict[str, Any] = {
-        name: None if v is None else np.broadcast_to(v, shape).ravel() for name, v in loads.items()
-    }
-    own: dict[str, Any] = {k.partition(".")[2]: v for k, v in grid.items() if "." in k}
-    kind, profile = type(scene.profile), scene.profile
-    if own:
-        profile = kind(**({name: getattr(profile, name) for name in _fields(profile)} | own))
-    return Question(profile, {}, shape, Loads(**flat), alone=False)
+    of_profile = {name: getattr(scene.profile, name) for name in _fields(scene)}
+    of_profile |= {name.partition(".")[2]: v for name, v in grid.items() if "." in name}
+    profile = type(scene.profile)(**of_profile) if of_profile else scene.profile
+    return many(profile, loads, {}, alone=False)
 
 
-def _fields(profile: Profile) -> tuple[str, ...]:
-    """The parameters that may be arrays."""
-    return kind.__match_args__ if (kind := type(profile)) in KINDS else ()
+def _fields(scene: Scene) -> tuple[str, ...]:
+    """The parameters of the profile that may be arrays."""
+    return kind.__match_args__ if (kind := type(scene.profile)) in KINDS else ()

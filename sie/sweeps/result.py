@@ -76,20 +76,34 @@ def labelled(
     units: Mapping[str, str] = UNITS,
 ) -> Any:
     """The answers over the axes, an xarray Dataset with units where xarray is installed."""
-    answers = _of_one_rank(answers)
-    shape = tuple(map(len, axes.values()))
-    shapes = _shapes(answers) or {
-        part: ()
+    shape, reasons = tuple(map(len, axes.values())), [reason for _, reason in answers]
+    names = dict.fromkeys(name for values, _ in answers for name in values) or [
+        part
         for name, of in wanted.items()
         for part in (PARTS.get(name, (name,)) if of == name else (name,))
-    }
-    data = {
-        name: _joined(name, inner, answers).reshape(shape + inner)
-        for name, inner in shapes.items()
-        if name not in axes  # the parameters of the sweep are known
-    }
-    reasons = np.array([reason for _, reason in answers], dtype=object).reshape(shape)
-    return dataset(axes, wanted, data, reasons, units)
+    ]
+    data = {name: _joined(name, answers, reasons) for name in names if name not in axes}
+    data = {name: array.reshape(shape + array.shape[1:]) for name, array in data.items()}
+    return dataset(axes, wanted, data, np.array(reasons, dtype=object).reshape(shape), units)
+
+
+def _joined(name: str, answers: list[Answer], reasons: list[str]) -> Any:
+    """The values of a quantity at all points, (points, ...), nan where there are none.
+
+    One array holds them all: its inner shape is the least that does, and a value with other
+    dimensions than that of an earlier point leaves its reason.
+    """
+    found = {k: values[name] for k, (values, _) in enumerate(answers) if name in values}
+    rank = next((value.ndim for value in found.values()), 0)
+    for k in [k for k, value in found.items() if value.ndim != rank]:
+        told = f"{name} has {found.pop(k).ndim} dimensions here and {rank} at an earlier point"
+        reasons[k] = f"{reasons[k]}; {told}" if reasons[k] else told
+    inner = map(max, zip(*(value.shape for value in found.values()), strict=True))
+    array = np.full((len(answers), *inner), np.nan)
+    for k, value in found.items():
+        place: Any = (k, *map(slice, value.shape))
+        array[place] = value
+    return array
 
 
 def dataset(
@@ -126,43 +140,6 @@ def _attributes(name: str, units: Mapping[str, str]) -> dict[str, str]:
         return {}
     said, unit = LABELS[name]
     return {"long_name": said, "units": unit.format(**units)}
-
-
-def _shapes(answers: list[Answer]) -> dict[str, tuple[int, ...]]:
-    """The least shape of each quantity that holds its values at all points."""
-    shapes: dict[str, tuple[int, ...]] = {}
-    for values, _ in answers:
-        for name, value in values.items():
-            known = shapes.get(name, value.shape)
-            shapes[name] = tuple(map(max, zip(known, value.shape, strict=True)))
-    return shapes
-
-
-def _joined(name: str, inner: tuple[int, ...], answers: list[Answer]) -> Any:
-    """The values of a quantity at all points, (points, *inner), nan where there are none."""
-    array = np.full((len(answers), *inner), np.nan)
-    for k, (values, _) in enumerate(answers):
-        if name in values:
-            place: Any = (k, *(slice(n) for n in values[name].shape)) if inner else k
-            array[place] = values[name]
-    return array
-
-
-def _of_one_rank(answers: list[Answer]) -> list[Answer]:
-    """The answers without values whose rank differs from that of an earlier point.
-
-    One array holds a quantity of all points, and has as many dimensions everywhere.
-    """
-    ranks: dict[str, int] = {}
-    kept = []
-    for values, reason in answers:
-        odd = [n for n, value in values.items() if ranks.setdefault(n, value.ndim) != value.ndim]
-        told = "; ".join(
-            f"{name} has {values[name].ndim} dimensions here and {ranks[name]} at an earlier point"
-            for name in odd
-        )
-        kept.append(({n: v for n, v in values.items() if n not in odd}, told or reason))
-    return kept
 
 
 def _coordinate(values: list[Any]) -> Any:

@@ -4,7 +4,7 @@
     executor=ProcessPoolExecutor())
 
 `over` names fields of the scene, or parameters of its profile as "profile.half_flat"; or `scene` is
-a function of the named parameters that returns a Scene. Points are taken in chunks of neighbours,
+a function of the named parameters that returns a Scene. An executor takes chunks of neighbours,
 last name fastest, so that what does not change between two of them (a normal problem under many
 tangential loads) is solved once; in this process all points are solved as arrays where `many` does
 so with the same answers. Any `concurrent.futures.Executor` will do: a process pool, Dask's
@@ -17,10 +17,8 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor, Future, as_completed
-from dataclasses import dataclass, fields
+from dataclasses import fields
 from numbers import Integral
-from pathlib import Path
-from time import perf_counter
 from typing import Any, cast
 
 import numpy as np
@@ -28,16 +26,13 @@ import numpy as np
 from sie import arguments
 from sie.problem.scene import Scene
 from sie.progress_bar import Progress
-from sie.solution import Solution
 
 from .as_arrays import as_arrays
-from .file import SweepFile
 from .result import Answer, dataset, labelled, labels
-from .work import DEFAULT, QUANTITIES, Point, Wanted, Work, answer_at, answers_of, reason
+from .work import DEFAULT, QUANTITIES, Point, Wanted, Work, answers_of, chunk_of, reason
 
-AIM = 0.2  # seconds that a chunk takes a worker: to send it costs some milliseconds
+CHUNKS = 64  # to which the points are cut
 
-NOT_YET: Answer = ({}, "not computed yet")
 INTERRUPTED: Answer = ({}, "interrupted")
 
 
@@ -68,7 +63,6 @@ def sweep(
     *,
     tol: float = 1e-13,
     chunk: int | None = None,
-    to: str | Path | None = None,
     progress: bool = True,
     units: Mapping[str, str] | None = None,
 ) -> Any:
@@ -91,12 +85,7 @@ def sweep(
     tol : float, optional
         As in `solve`.
     chunk : int, optional
-        Points in a chunk; if it is not given, the first points are solved here, and a chunk has as
-        many as took some tenths of a second.
-    to : str or Path, optional
-        A new NetCDF file, "x.nc", that holds the result and grows while the work goes on, by
-        xarray. It is readable at any moment, also after this process was killed; points that are
-        not done are nan with the reason "not computed yet".
+        Points in a chunk, of neighbours that are solved together; a 64th of all if not given.
     progress : bool, optional
         Whether a bar is drawn, on a terminal or in a notebook, if tqdm is installed (the extra
         `cli`) and the work takes more than a second.
@@ -107,17 +96,16 @@ def sweep(
     Returns
     -------
     xarray.Dataset or dict of ndarray
-        A Dataset where xarray is installed, with `long_name` and `units` of what the package names.
-        Beside the values there is "reason", which says why a point has none.
+        A Dataset where xarray is installed, with `long_name` and `units` of what the package names;
+        `.to_netcdf("x.nc")` writes it. Beside the values there is "reason", which says why a point
+        has none.
 
     Raises
     ------
     ValueError
-        For names that are not known, or a file that cannot be written, before any work is done.
+        For names that are not known, before any work is done.
     Interrupted
         In place of KeyboardInterrupt, with all that was found.
-    OSError
-        If the file could not be written at the end; its attribute `result` has the result.
 
     Examples
     --------
@@ -129,32 +117,66 @@ def sweep(
     """
     axes, named = _axes(scene, over), labels(units)
     wanted = _wanted(want)
-    at_once = None
-    if executor is None and to is None and isinstance(scene, Scene):
+    if executor is None and isinstance(scene, Scene):
         at_once = as_arrays(scene, axes, wanted)
-    if at_once is not None:
-        return dataset(axes, wanted, *at_once, named)
-    points = list(_points(axes))
-    size, file = _chunk_size(chunk), SweepFile(to)
-    run = _Run(
-        Work(scene, wanted, tol),
-        points,
-        Progress("sweep", len(points), progress),
-        lambda answers: file.grow(lambda: labelled(axes, wanted, answers, named)),
-        [NOT_YET] * len(points),
-    )
+        if at_once is not None:
+            return dataset(axes, wanted, *at_once, named)
+    points, work = list(_points(axes)), Work(scene, wanted, tol)
+    size = _chunk_size(chunk, len(points))
+    answers = [INTERRUPTED] * len(points)
     try:
-        with run.progress:
+        with Progress("sweep", len(points), progress) as bar:
             if executor is None:
-                run.here()
+                for k, answer in enumerate(answers_of(work, points)):
+                    answers[k] = answer
+                    bar.update()
             else:
-                run.through(executor, size)
+                for part in _done(executor, work, points, size, answers):
+                    bar.update(part)
     except KeyboardInterrupt:
-        stopped = [INTERRUPTED if answer is NOT_YET else answer for answer in run.answers]
-        done = len(points) - stopped.count(INTERRUPTED)
-        result = file.finish(labelled(axes, wanted, stopped, named))
+        done = len(points) - answers.count(INTERRUPTED)
+        result = labelled(axes, wanted, answers, named)
         raise Interrupted(result, done, len(points)) from None
-    return file.finish(labelled(axes, wanted, run.answers, named))
+    return labelled(axes, wanted, answers, named)
+
+
+def _done(
+    executor: Executor, work: Work, points: list[Point], size: int, answers: list[Answer]
+) -> Iterator[int]:
+    """Fill in the answers chunk by chunk, as they are done; the numbers of their points.
+
+    What is done at an interruption is kept.
+    """
+    starts: dict[Future[list[Answer]], int] = {}
+
+    def keep(future: Future[list[Answer]]) -> int:
+        start = starts.pop(future)
+        chunk = range(start, min(start + size, len(points)))
+        try:
+            answers[start : chunk.stop] = future.result()
+        except Exception as problem:  # whatever an executor raises, or a process that died
+            answers[start : chunk.stop] = [({}, reason(problem))] * len(chunk)
+        return len(chunk)
+
+    try:
+        for k in range(0, len(points), size):
+            starts[_submitted(executor, work, points[k : k + size])] = k
+        for future in as_completed([*starts]):
+            yield keep(future)
+    finally:
+        for future in [*starts]:
+            if not future.cancel() and future.done():
+                keep(future)
+
+
+def _submitted(executor: Executor, work: Work, points: list[Point]) -> Future[list[Answer]]:
+    """The future of a chunk; a failed one if the executor takes no more: it broke, or ended."""
+    try:
+        return executor.submit(chunk_of, work, points)
+    except Exception as problem:  # whatever an executor raises
+        failed: Future[list[Answer]] = Future()
+        failed.set_exception(problem)
+        return failed
 
 
 # -- the grid --------------------------------------------------------------------------------------
@@ -179,21 +201,12 @@ def _axes(
 
 def _check_name(scene: Scene, name: str) -> None:
     owner, _, parameter = name.rpartition(".")
-    known = (
-        {f.name for f in fields(cast(Any, scene.profile))}
-        if owner == "profile"
-        else {f.name for f in fields(Scene)}
-        if not owner
-        else set()
-    )
+    of_profile = {f.name for f in fields(cast(Any, scene.profile))}
+    of_scene = {f.name for f in fields(Scene)}
+    known = {"profile": of_profile, "": of_scene}.get(owner, set())
     if parameter not in known:
-        here = (
-            ", ".join(sorted(known))
-            if known
-            else 'a field of a scene, or "profile." and a parameter of its profile'
-        )
-        if name in {f.name for f in fields(cast(Any, scene.profile))}:
-            here = f'"profile.{name}", the parameter of its profile'
+        named = ", ".join(sorted(known or of_scene))
+        here = f'"profile.{name}", the parameter of its profile' if name in of_profile else named
         raise ValueError(f'over "{name}" is not known: choose {here}')
 
 
@@ -202,9 +215,9 @@ def _points(axes: dict[str, list[Any]]) -> Iterator[Point]:
         yield {name: values[i] for (name, values), i in zip(axes.items(), index, strict=True)}
 
 
-def _chunk_size(chunk: int | None) -> int | None:
+def _chunk_size(chunk: int | None, points: int) -> int:
     if chunk is None:
-        return None
+        return math.ceil(points / CHUNKS)
     if isinstance(chunk, bool) or not isinstance(chunk, Integral) or chunk < 1:
         raise ValueError(f"chunk = {chunk!r} is not a number of points: give a whole number > 0")
     return int(chunk)
@@ -228,70 +241,3 @@ def _wanted(want: str | Iterable[str] | Mapping[str, Wanted]) -> dict[str, str |
                 "give the quantity another name"
             )
     return dict(pairs)
-
-
-# -- the work --------------------------------------------------------------------------------------
-
-
-@dataclass
-class _Run:
-    """The points of a sweep and their answers, also after an interruption."""
-
-    work: Work
-    points: list[Point]
-    progress: Progress
-    grow: Callable[[list[Answer]], None]
-    answers: list[Answer]
-
-    def here(self, seconds: float = math.inf) -> int:
-        """Answer points in this process, for so long after the first; their number."""
-        last: Solution | None = None
-        end = math.inf
-        for k, point in enumerate(self.points):
-            self.answers[k], last = answer_at(self.work, point, last)
-            self._count(1)
-            end = end if k else perf_counter() + seconds  # the first point imports what it needs
-            if perf_counter() > end:
-                return k + 1
-        return len(self.points)
-
-    def through(self, executor: Executor, size: int | None) -> None:
-        """Answer points in chunks of this size; if it is not given, of some tenths of a second."""
-        start = self.here(AIM) if size is None else 0
-        size = size or max(start - 1, 1)
-        pending: dict[Future[list[Answer]], int] = {}
-        try:
-            for k in range(start, len(self.points), size):
-                pending[self._submitted(executor, self.points[k : k + size])] = k
-            for future in as_completed([*pending]):
-                self._keep(pending.pop(future), size, future)
-        finally:  # of an interruption too
-            for future, k in pending.items():
-                if not future.cancel() and future.done():
-                    self._keep(k, size, future)
-
-    def _submitted(self, executor: Executor, points: list[Point]) -> Future[list[Answer]]:
-        """The future of a chunk; a failed one if the executor takes no more: it broke, or ended."""
-        try:
-            return executor.submit(answers_of, self.work, points)
-        except Exception as problem:  # whatever an executor raises
-            failed: Future[list[Answer]] = Future()
-            failed.set_exception(problem)
-            return failed
-
-    def _keep(self, start: int, size: int, future: Future[list[Answer]]) -> None:
-        """Take the answers of a chunk, or the reason why there are none.
-
-        A process may have died, or a function could not be sent to another process.
-        """
-        points = range(start, min(start + size, len(self.points)))
-        try:
-            answers = future.result()
-        except Exception as problem:  # whatever an executor raises
-            answers = [({}, reason(problem))] * len(points)
-        self.answers[points.start : points.stop] = answers
-        self._count(len(points))
-
-    def _count(self, points: int) -> None:
-        self.progress.update(points)
-        self.grow(self.answers)

@@ -6,7 +6,7 @@ tangential loads is solved once. The answers do not depend on which points are a
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from concurrent.futures import BrokenExecutor, CancelledError
 from dataclasses import replace
 from operator import attrgetter
@@ -56,25 +56,23 @@ class Work(NamedTuple):
     tol: float
 
 
-def answers_of(work: Work, points: list[Point]) -> list[Answer]:
-    """The answers of one chunk."""
-    answers: list[Answer] = []
+def answers_of(work: Work, points: Iterable[Point]) -> Iterator[Answer]:
+    """The answers at points, one after the other."""
     last: Solution | None = None
+    for point in points:
+        try:
+            last = _solution(work.scene, point, work.tol, last)
+            answer: Answer = (_values(last, work.wanted), "")
+        # a user's function may raise any error: one point must not lose the others
+        except Exception as problem:
+            answer = ({}, reason(problem))
+        yield answer
+
+
+def chunk_of(work: Work, points: list[Point]) -> list[Answer]:
+    """The answers of one chunk, in another process or thread."""
     with Progress("chunk", shown=False):
-        for point in points:
-            answer, last = answer_at(work, point, last)
-            answers.append(answer)
-    return answers
-
-
-def answer_at(work: Work, point: Point, last: Solution | None) -> tuple[Answer, Solution | None]:
-    """The answer at a point, and the solution that the next point may share stages with."""
-    try:
-        last = _solution(work.scene, point, work.tol, last)
-        return (_values(last, work.wanted), ""), last
-    # a user's function may raise any error: one point must not lose the others
-    except Exception as problem:
-        return ({}, reason(problem)), last
+        return list(answers_of(work, points))
 
 
 def reason(problem: Exception) -> str:

@@ -1,19 +1,16 @@
 """The limit of fretting wear, without time and without a law of wear.
 
 Zones that slip wear until they carry nothing; what sticks keeps its shape. In the limit the old
-profile touches on the stick zone [c1, c2] alone, m ± r, with sharp edges and under all of P: with p̂
-the pressure that has smooth edges there (under P̂ and at the tilt θ̂, the corrective pressure of
-partial slip),
+profile touches on the stick zone [c1, c2] alone, with sharp edges and under all of P: it is the
+contact of an indenter that ends there. With p̂ the pressure that has smooth edges there (under P̂ and
+at the tilt θ̂, the corrective pressure of partial slip), of centre m and half-width r,
 
     p = p̂ + [ΔP/π - E*/2 Δθ (x - m)]/sqrt(r² - (x - m)²),      ΔP = P - P̂,  Δθ = θ - θ̂
 
-Beside the stick zone the old profile would then overlap the body by
-
-    depth = 2 ΔP/(π E*) arcosh(X/r) ∓ Δθ sqrt(X² - r²) - gap^,      X = |x - m|,
-
-gap^ the gap beside p̂, and what overlaps is worn. At the edges of the stick zone q/p = Q/ΔP = f: it
-neither grows nor shrinks. P may be held, or the approach: then the load falls until the old profile
-has the gap at a distant place that it had before.
+Beside the stick zone the gap of the old profile to the body is negative, and what overlaps is worn.
+At the edges of the stick zone q/p = Q/ΔP = f: it neither grows nor shrinks. P may be held, or the
+approach: then the load falls until the old profile has the gap at a distant place that it had
+before.
 
 In three dimensions: Dmitriev, Voll, Psakhie & Popov, Sci. Rep. 6 (2016) 23231. In plane strain:
 Hills, Sackfield & Paynter, Eur. J. Mech. A 28 (2009) 1002-1013, find the same by stepping.
@@ -30,9 +27,6 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from sie import arguments
-from sie.cauchy.density import JacobiDensity
-from sie.cauchy.equation import CauchyEquation
-from sie.certificate.pressure_check import certificate
 from sie.contact.gap import gap
 from sie.errors import ContactError
 from sie.friction.states import OneSignedSlip
@@ -40,17 +34,13 @@ from sie.numerics.graded_rule import on_panels
 from sie.problem.scene import Scene
 from sie.profiles.base import Profile
 from sie.profiles.sampled import Sampled
+from sie.profiles.slope import Slope
 from sie.solution import Solution, solve
-from sie.traction.base import Density
-from sie.traction.combination import superposed
-from sie.traction.of_slope import SlopeDensity
 
 Array = NDArray[np.float64]
 
 HOLDS = ("load", "approach")
-# The first distance from the stick zone that is looked at, of its half-width, and how often it is
-# doubled, and halved, until wear ends
-NEXT, DOUBLINGS, HALVINGS = 1e-15, 1100, 200
+HALVINGS = 60  # of the interval that has the end of wear
 PANELS = 8  # of the rule for the volume, in arcosh
 CHECKED, TOLERATED = 101, 1e-9
 # Points of the worn profile on each worn zone and, coarser, on what is left, and how far it reaches
@@ -81,16 +71,31 @@ class WearCertificate(NamedTuple):
         return max(self[:2]) <= TOLERATED and min(self[2:]) >= -TOLERATED
 
 
+@dataclass(frozen=True)
+class Stuck(Profile):
+    """The part of a profile on the stick zone."""
+
+    whole: Profile
+    zone: tuple[float, float]
+
+    @cached_property
+    def pieces(self) -> Slope:
+        """Its slope, whose ends are corners."""
+        return self.whole.pieces.within(*self.zone)
+
+
 @dataclass(frozen=True, eq=False)
 class WearLimit:
     """The final state of fretting wear; `wear_limit` makes it.
 
-    Parameters
+    Attributes
     ----------
     before : Solution
         The contact before wear.
     normal_load : float
         The load in the limit, force per length: P, or less where the approach is held.
+    pressure : Density
+        The pressure in the limit; infinite at the ends of the stick zone.
     """
 
     before: Solution
@@ -99,19 +104,20 @@ class WearLimit:
     @property
     def stick(self) -> tuple[float, float]:
         """The stick zone, which carries all of the load, lengths."""
-        zone = self._hat.contact
-        return zone.x1, zone.x2
+        return self.before.stick[0]
 
     @cached_property
-    def pressure(self) -> Density:
+    def _limit(self) -> Solution:
+        scene = self.before.scene
+        stuck = Stuck(scene.profile, self.stick)
+        P, tilt = self.normal_load, self.before.tilt
+        scene = Scene(profile=stuck, modulus=scene.Estar, normal_load=P, tilt=tilt)
+        return solve(scene, self.before.tol)
+
+    @property
+    def pressure(self) -> Any:
         """The pressure in the limit, a `Density`; infinite at the ends of the stick zone."""
-        return superposed((1.0, self._hat), (1.0, self._flat))
-
-    @cached_property
-    def _flat(self) -> JacobiDensity:
-        """The pressure with sharp edges that is added to p̂."""
-        slope = 0.5 * self.before.scene.Estar * self._turned
-        return CauchyEquation(self.stick, g=slope, b=-1.0, total=self._gained).solve()
+        return self._limit.pressure
 
     def depth(self, x: ArrayLike) -> Array:
         """How much of the indenter, or of both bodies together, is worn away.
@@ -138,13 +144,12 @@ class WearLimit:
     @cached_property
     def volume(self) -> float:
         """∫ of the depth, an area: volume per length of the line of contact."""
-        zone, total = self._hat.contact, 0.0
-        for side, end in zip((-1.0, 1.0), self.worn, strict=True):
-            last = float(_arcosh_excess(_beyond(zone, end, side) / zone.r))
+        r, total = 0.5 * (self.stick[1] - self.stick[0]), 0.0
+        for side, edge, end in zip((-1.0, 1.0), self.stick, self.worn, strict=True):
+            last = 2.0 * math.asinh(math.sqrt(0.5 * abs(end - edge) / r))
             t, weight = (of.ravel() for of in on_panels(np.linspace(0.0, last, PANELS + 1)))
-            distance = zone.r * 2.0 * np.sinh(0.5 * t) ** 2
-            x = zone.x2 + distance if side > 0.0 else zone.x1 - distance
-            total += float(self.depth(x) @ (weight * zone.r * np.sinh(t)))
+            x = edge + side * 2.0 * r * np.sinh(0.5 * t) ** 2
+            total += float(self.depth(x) @ (weight * r * np.sinh(t)))
         return total
 
     @cached_property
@@ -155,94 +160,44 @@ class WearLimit:
         margin = BESIDE * (w2 - w1)
         lo, hi = self.before.scene.profile.domain
         ends = max(w1 - margin, lo), min(w2 + margin, hi)
-        parts = [
-            c1 - (c1 - w1) * near, c2 + (w2 - c2) * near, np.linspace(c1, c2, 2 * POINTS),
-            np.linspace(ends[0], w1, POINTS), np.linspace(w2, ends[1], POINTS),
-        ]  # fmt: skip
-        x = np.unique(np.concatenate(parts))
-        least = 1e-9 * (ends[1] - ends[0])
-        x = x[np.concatenate(([True], np.diff(x) > least))]
+        worn = c1 - (c1 - w1) * near, c2 + (w2 - c2) * near
+        old = [np.linspace(*part, 2 * POINTS) for part in ((ends[0], w1), (c1, c2), (w2, ends[1]))]
+        x = np.unique(np.concatenate((*worn, *old)))
+        x = x[np.append(True, np.diff(x) > 1e-9 * (ends[1] - ends[0]))]
         return Sampled(x, self.before.scene.profile.height(x) + self.depth(x))
 
     def check(self) -> WearCertificate:
-        """The certificate: the equation at other points, the load, and both inequalities.
+        """The certificate: that of the pressure, and that wear takes material away.
 
         Returns
         -------
         WearCertificate
             `.ok` sums it up.
         """
-        zone, state, p = self._hat.contact, self._state, self.pressure
-        slope = state.found.slope(self.before.scene.profile)
-        of_hat = certificate(state.corrective, slope, self.before.tol)
-        values = p(zone.m + zone.r * np.cos(np.pi * (np.arange(CHECKED) + 0.5) / CHECKED))
-        worn = np.concatenate(
-            [np.linspace(c, w, CHECKED) for c, w in zip(self.stick, self.worn, strict=True)]
-        )
-        deepest = float(self.depth(worn).max())
-        return WearCertificate(
-            max(of_hat.error, self._flat.error),
-            abs(p.resultant / self.normal_load - 1.0),
-            min(0.0, float(values.min() / values.max())),
-            min(0.0, float(self._overlap(worn).min() / deepest)) if deepest else 0.0,
-        )
-
-    # -- p̂, and what is added to it ----------------------------------------------------------------
-
-    @property
-    def _state(self) -> OneSignedSlip:
-        state = self.before.tangential
-        assert isinstance(state, OneSignedSlip)
-        return state
-
-    @property
-    def _hat(self) -> SlopeDensity:
-        return self._state.corrective
-
-    @property
-    def _gained(self) -> float:
-        return self.normal_load - self._hat.resultant
-
-    @property
-    def _turned(self) -> float:
-        return self.before.tilt - self._state.found.edges.tilt
-
-    def _gap_hat(self, x: Array) -> Array:
-        state = self._state
-        return gap(x, state.corrective, state.found.slope(self.before.scene.profile))
+        measured = self._limit.check()
+        zones = [np.linspace(*ends, CHECKED) for ends in zip(self.stick, self.worn, strict=True)]
+        overlap = self._overlap(np.concatenate(zones))
+        lowest = float(min(0.0, overlap.min())) / max(float(overlap.max()), 1e-300)
+        force = abs(self.pressure.resultant / self.normal_load - 1.0)
+        return WearCertificate(measured.error, force, min(0.0, measured.lowest_pressure), lowest)
 
     def _overlap(self, x: Array) -> Array:
         """How far the old profile would overlap the body at x; 0 in the stick zone."""
-        zone, out = self._hat.contact, np.zeros(x.shape)
-        rise = 2.0 * self._gained / (math.pi * self.before.scene.Estar)
-        for side in (-1.0, 1.0):
-            beyond = _beyond(zone, x, side)
-            at = beyond > 0.0
-            u = beyond[at] / zone.r
-            turn = side * self._turned * zone.r * np.sqrt(u * (2.0 + u))
-            out[at] = rise * _arcosh_excess(u) - turn - self._gap_hat(x[at])
-        return out
+        slope = self.before.normal.slope(self.before.scene.profile)
+        return -gap(x, self.pressure, slope)
 
     def _end(self, side: float) -> float:
         """The place beside the stick zone where wear ends."""
-        zone = self._hat.contact
-        edge = zone.x2 if side > 0.0 else zone.x1
+        edge = self.stick[side > 0.0]
 
         def worn(distance: float) -> bool:
             return bool(self._overlap(np.array([edge + side * distance]))[0] > 0.0)
 
-        low, high = 0.0, NEXT * zone.r
-        for _ in range(DOUBLINGS):
-            if not worn(high):
-                break
+        low, high = 0.0, 4.0 * float(np.spacing(max(map(abs, self.stick))))
+        while worn(high):
             low, high = high, 2.0 * high
         for _ in range(HALVINGS):
             middle = 0.5 * (low + high)
-            if not low < middle < high or edge + side * middle in (
-                edge + side * low,
-                edge + side * high,
-            ):
-                break
             low, high = (middle, high) if worn(middle) else (low, middle)
         return edge + side * low
 
@@ -312,22 +267,19 @@ def wear_limit(scene: Scene, hold: str = "load", datum: float | None = None) -> 
             f"nothing slips: both edges are sharp and stick under Q = {scene.tangential_load:g}, "
             "and nothing wears; round the edges of the profile"
         )
-    limit = WearLimit(before, before.normal_load)
+    P = before.normal_load
     if hold == "load":
-        return limit
+        return WearLimit(before, P)
     x = np.array([arguments.measure("datum", datum)])
     gap_before = float(before.gap(x)[0])
-    beyond = max(_beyond(limit._hat.contact, float(x[0]), side) for side in (-1.0, 1.0))
     if not 0.0 < gap_before < math.inf:
         raise ValueError(
             f"datum = {x[0]:g} is in the contact {before.edges} or beyond the indenter: give a "
             "place beside the contact, under the indenter"
         )
     # The overlap is linear in the load, and has to be -gap_before
-    u = beyond / limit._hat.contact.r
-    share = 2.0 * _arcosh_excess(np.array(u)) / (math.pi * scene.Estar)
-    missing = float((limit._overlap(x)[0] + gap_before) / share)
-    return WearLimit(before, before.normal_load - missing)
+    once, twice = (float(WearLimit(before, k * P)._overlap(x)[0]) for k in (1.0, 2.0))
+    return WearLimit(before, P * (1.0 - (once + gap_before) / (twice - once)))
 
 
 def _refuse(scene: Scene, hold: str, datum: float | None) -> None:
@@ -358,13 +310,3 @@ def _refuse(scene: Scene, hold: str, datum: float | None) -> None:
         )
     if scene.bonded:
         raise ContactError("infinite friction: nothing slips, and nothing wears; give a finite one")
-
-
-def _beyond(zone: Any, x: Any, side: float) -> Any:
-    """The distance of x outwards from an end of the zone; negative on its inner side."""
-    return -zone.from_right(x) if side > 0.0 else -zone.from_left(x)
-
-
-def _arcosh_excess(u: Any) -> Any:
-    """arcosh(1 + u)."""
-    return 2.0 * np.arcsinh(np.sqrt(0.5 * np.asarray(u)))

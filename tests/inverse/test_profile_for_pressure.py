@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from scipy.interpolate import PchipInterpolator
 from scipy.special import beta
 
 import sie
@@ -48,6 +49,22 @@ def test_of_an_even_pressure_it_is_lundbergs_roller():
     assert solved(roller, 1.0).pressure(S) == pytest.approx(0.5, abs=1e-11)
 
 
+def test_a_table_is_met_at_its_points_and_joined_by_monotone_cubics_of_the_angle():
+    angle = np.linspace(0.0, np.pi, 13)
+    x = -np.cos(angle)
+    p = (2.0 + x) * np.sin(angle)
+    found = solved(sie.profile_for_pressure((x, p), modulus=E), _load_of_table(angle, p))
+    assert found.edges == pytest.approx((-1.0, 1.0), abs=1e-11)
+    assert found.pressure(x[1:-1]) == pytest.approx(p[1:-1], abs=1e-11)
+
+
+def _load_of_table(angle, p):
+    g, w = np.polynomial.legendre.leggauss(20)
+    t = (angle[:-1] + 0.5 * np.diff(angle) * (1.0 + g[:, None])).T
+    values = PchipInterpolator(angle, p)(t) * np.sin(t)
+    return float((values @ w * 0.5 * np.diff(angle)).sum())
+
+
 @pytest.mark.slow
 def test_round_trip_of_two_patches():
     def p(x):
@@ -69,6 +86,9 @@ def test_round_trip_of_two_patches():
         (ellipse, {"half_width": 1.0, "domain": (-1.0, 1.0)}, "exactly one"),
         (ellipse, {"domain": (1.0, -1.0)}, "no contact"),
         (1.0, {"half_width": 1.0}, "not a function"),
+        (([0.0, 1.0], [1.0]), {}, "no table"),
+        (([1.0, 0.0], [1.0, 1.0]), {}, "do not ascend"),
+        ((S, S + 1.0), {"half_width": 1.0}, "from edge to edge"),
     ],
 )
 def test_what_is_no_pressure_is_refused(p, given, what):

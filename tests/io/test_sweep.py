@@ -217,6 +217,14 @@ def test_a_quantity_of_the_user_has_no_name_or_unit_that_it_was_not_given():
     assert found["b"].attrs == {"long_name": "half-width of the contact", "units": "mm"}
 
 
+def test_xarray_writes_the_result_with_its_reasons(tmp_path):
+    xarray = pytest.importorskip("xarray")
+    found = sie.sweep(SCENE, {"normal_load": [0.1, -1.0]}, ["half_width", "edges"])
+    found.to_netcdf(tmp_path / "sweep.nc")
+    with xarray.open_dataset(tmp_path / "sweep.nc") as read:
+        xarray.testing.assert_identical(read.load(), found)
+
+
 def own_quantity(solution):
     return 2.0 * solution.half_width
 

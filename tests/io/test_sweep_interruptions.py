@@ -154,7 +154,7 @@ def test_an_executor_that_takes_no_task_leaves_the_reason():
     assert all("after shutdown" in reason for reason in found["reason"])
 
 
-def test_chunks_that_are_timed_answer_every_point(executor):
+def test_chunks_of_no_given_size_answer_every_point(executor):
     loads = np.linspace(0.1, 1.0, 7)
     found = plain(sie.sweep(SCENE, {"normal_load": loads}, {"b": slow}, executor=executor))
     assert (found["b"] > 0.0).all() and set(found["reason"]) == {""}

@@ -123,6 +123,7 @@ def test_a_failing_claim_is_printed_and_sets_the_exit_status(capsys, tmp_path):
 TRIED = (
     "appendix",
     "collocation",
+    "cracks",
     "economy",
     "growth",
     "paper",
