@@ -42,7 +42,7 @@ if TYPE_CHECKING:  # what a stage needs is imported when it is computed
     from .cracks.edge_intensity import EdgeIntensity
     from .friction.coupled.answer import LoadedContact
     from .friction.coupled.pressed import Pressed
-    from .friction.coupled.traction import OnHalves
+    from .friction.coupled.traction import OnPieces
     from .friction.full_stick import Component
     from .friction.slip_state import Slip, Step
     from .patches.answer import SeveralPatches
@@ -183,7 +183,7 @@ class Solution(Frictionless, StressAnswers, DerivativeAnswers):
         return self.bonded[1]
 
     @cached_property
-    def pressure(self) -> SlopeDensity | Component | OnHalves:
+    def pressure(self) -> SlopeDensity | Component | OnPieces:
         """The contact pressure p, a `Density` in units of stress.
 
         Returns

@@ -15,9 +15,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from sie.errors import ContactError
+from sie.friction.state import intervals
+from sie.numerics.graded_panels import Pieces
 from sie.traction.base import on_line
 
-from .integral import integral, towards_ends
 from .step import Loaded
 from .view import View
 from .work import work
@@ -27,11 +28,9 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-WINDOW = 1.3  # half-widths from the middle: what no contact under Q leaves
 LEAST = 1e-300
-GRADED: Array = 3.0 ** -np.arange(30.0)  # of a half-width: panels towards where γ is not smooth
+ONE = 1e-13  # of the contact: marks that are nearer are one
 PRESSED = 1e-9  # of P: what the state of the normal load may miss
-NARROWEST = 1e-15  # of the contact: slip zones of the normal load, as wide at least
 
 
 @dataclass(frozen=True, eq=False)
@@ -160,32 +159,27 @@ def slipped(after: Loaded, before: Loaded, x: Array) -> Array:
 
     Beside a contact too: places may leave it and come back.
     """
-    out, ends, (lo, hi) = np.zeros(len(x)), after.zones.ends, before.zones.ends[[0, -1]]
-    places = np.array([*before.state.pieces.cuts.tolist(), *after.question.slope.kinks])
-    places = np.concatenate((places, ends[[0, -1]]))
-    near = 0.5 * (hi - lo) * np.concatenate((-GRADED, [0.0], GRADED))
-    inner = (places[:, None] + near).ravel()
-
-    def gain(u: Array) -> Array:
-        return _strain(after, u) - _strain(before, u)
-
+    out, ends = np.zeros(len(x)), after.zones.ends
+    marks = np.array([*before.state.pieces.cuts, *after.question.slope.kinks, *ends[[0, -1]]])
     outer = min(ends[0], x.min(initial=np.inf)), max(ends[-1], x.max(initial=-np.inf))
     for first, last, on_left in ((outer[0], ends[1], True), (ends[-2], outer[1], False)):
         own = (x >= first) & (x <= last)
         if own.any():
-            total = integral(gain, towards_ends(first, last, inner))
-            out[own] = total(x[own]) - (total(np.array([last])) if on_left else 0.0)
+            inside = np.unique(marks[(marks > first) & (marks < last)])
+            rule = Pieces.places(intervals([(first, last)], inside, ONE * (ends[-1] - ends[0])))
+            total = Pieces.integral(rule, _strain(after, rule.x) - _strain(before, rule.x))
+            out[own] = total(x[own]) - (total.last if on_left else 0.0)
     return out
 
 
 def _strain(state: Loaded, x: Array) -> Array:
     """E*/2 g' at places in the contact and beside it."""
     lo, hi = state.zones.ends[[0, -1]]
-    touching = (x >= lo) & (x <= hi)
-    found = np.empty(len(x))
+    found, touching = np.empty(len(x)), (x >= lo) & (x <= hi)
     found[touching] = state.fields.gamma(x[touching])
-    if not touching.all():
-        found[~touching] = state.state.beside_contact(x[~touching])[1]
+    for edge, side in ((lo, -1.0), (hi, 1.0)):
+        own = side * (x - edge) > 0.0
+        found[own] = state.fields.beside(np.abs(x[own] - edge), side)[1]
     return found - state.strain
 
 

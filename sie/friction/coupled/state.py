@@ -234,25 +234,6 @@ class State:
         Q = float(self.halfway.weight @ self.shear_halfway)
         return np.append(moments, (Q - question.Q) / (question.friction * question.P))
 
-    # -- beside the contact ------------------------------------------------------------------------
-
-    def beside_contact(self, x: Array) -> tuple[Array, Array]:
-        """Hp and Hq beside the contact."""
-        left = x < self.middle
-        ends = self.pieces.ends[[0, -1]]
-        anchor = np.where(left, 0, len(self.pieces.cuts) - 1)
-        offset = x - np.where(left, *ends)
-        none, (order, back) = np.zeros(len(x), dtype=int), _sorted(anchor)
-        at = Places(anchor[order], offset[order], x[order], none, none, none)
-        t, n = self.nodes, self.pieces.slip_zones
-        kernel = self._arm(t) ** n / self.pieces.apart(at, t)
-        size = np.exp(self.pieces.log_chi(at) - n * math.log(self.half_width))
-        size *= np.where(at.anchor == 0, (-1.0) ** n, 1.0) * self._arm(at) ** -n / math.pi
-        Hp = size * (kernel @ self._solved[0])
-        q = self.halfway.weight * self.shear_halfway
-        Hq = (1.0 / self.pieces.apart(at, self.halfway)) @ q / math.pi
-        return Hp[back], Hq[back]
-
     # -- rates -------------------------------------------------------------------------------------
 
     def rates(self, dQ: float, strain: float) -> Rates:
@@ -309,11 +290,6 @@ class State:
     def _chi_of_rates(self, at: Places) -> Array:
         values: Array = self.pieces.turns[at.zone] * np.exp(self._log_rates(at))
         return values
-
-
-def _sorted(anchor: NDArray[np.intp]) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    order = np.argsort(anchor, kind="stable")
-    return order, np.argsort(order, kind="stable")
 
 
 class Rates(NamedTuple):

@@ -89,17 +89,6 @@ class Uncoupled(State):
         of_q = np.append(powers[:n], (powers[n] - load) / question.friction) / question.P
         return np.append(of_p, of_q)
 
-    def beside_contact(self, x: Array) -> tuple[Array, Array]:
-        left, last = x < self.middle, len(self.pieces.cuts) - 1
-        order = np.argsort(~left, kind="stable")
-        back = np.argsort(order, kind="stable")
-        anchor = np.where(left, 0, last)[order]
-        offset, none = x[order] - self.pieces.cuts[anchor], np.zeros(len(x), dtype=int)
-        at, t = Places(anchor, offset, x[order], none, none, none), self.halfway
-        tractions = np.stack((self.pressure(t, self.nodes), self.shear_halfway))
-        Hp, Hq = (tractions * t.weight) @ (1.0 / self.pieces.apart(at, t)).T / math.pi
-        return Hp[back], Hq[back]
-
     def rates(self, dQ: float, strain: float) -> Rates:
         """p stays; q changes in the stick zone, by the gradient of a strip bonded there."""
         places = self.pieces.rule(0.5, 1.0)

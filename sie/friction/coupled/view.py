@@ -6,7 +6,7 @@ slip and of the strain.
 
 from __future__ import annotations
 
-from functools import cached_property
+from functools import cached_property, partial
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -15,11 +15,10 @@ from numpy.typing import NDArray
 from sie.contact.known_contact import Edges
 from sie.numerics.interval import Interval
 from sie.profiles.base import Profile
-from sie.traction.base import zero_or_nan
+from sie.traction.base import FAR_AWAY, zero_or_nan
 from sie.traction.in_contact import InContact
 
-from .integral import outwards
-from .two_sided import Known, TwoSidedTraction, both_tractions
+from .traction import EDGE, REACH, OnPieces, Piece, places, tabulated
 
 if TYPE_CHECKING:
     from .step import Loaded
@@ -109,14 +108,43 @@ class View:
         return (lo, *sorted(x for x in places if lo < x < hi), hi)
 
     @cached_property
-    def tractions(self) -> tuple[TwoSidedTraction, TwoSidedTraction]:
-        """p and q with their potentials, which share their panels."""
-        lo, hi = self.stick[0]
-        powers = self.loaded.state.pieces.powers
-        loads = self.loaded.question.P, self.sign * self.loaded.Q
-        known = Known(0.5 * (lo + hi), self.marks, (powers[0], powers[-1]), loads, self.moment)
-        values = (lambda x: self.rows(x)[0], lambda x: self.rows(x)[1])
-        return both_tractions(values, self.rows, known)
+    def _tables(self) -> list[list[Piece]]:
+        """p and q on each piece."""
+        fields, pieces = self.loaded.fields, self.loaded.state.pieces
+        reach = EDGE / (1.0 + min(0.0, *pieces.powers.tolist())) if self.sharp else REACH
+        v, found = tabulated(places(reach)), []
+        cuts = pieces.cuts.tolist()
+        cuts[0], cuts[-1] = (edge - self.origin for edge in self.contact[:2])
+        for k, length in enumerate(pieces.lengths.tolist()):
+            p, q, _ = fields.on_piece(k, v)
+            found.append([Piece(cuts[k], cuts[k + 1], length, f) for f in (p, self.sign * q)])
+        return found
+
+    def _pieces(self, row: int) -> list[Piece]:
+        return [pair[row] for pair in self._tables]
+
+    def _row(self, row: int, x: Array) -> Array:
+        values: Array = self.rows(x)[row]
+        return values
+
+    @cached_property
+    def tractions(self) -> tuple[OnPieces, OnPieces]:
+        """p and q with their potentials."""
+        loads, firsts = (self.loaded.question.P, self.sign * self.loaded.Q), (self.moment, None)
+        p, q = (
+            OnPieces(
+                self.contact,
+                partial(self._row, k),
+                partial(self._pieces, k),
+                loads[k],
+                self.origin,
+                self.marks,
+                firsts[k],
+                self.sharp,
+            )
+            for k in (0, 1)
+        )
+        return p, q
 
     # -- beside the contact ------------------------------------------------------------------------
 
@@ -126,16 +154,10 @@ class View:
         lo, hi = profile.domain
         out: Array = zero_or_nan(flat)
         out[(flat < lo) | (flat > hi) | np.isinf(flat)] = np.inf
-        known, width = np.isfinite(flat) & (out == 0.0), self.contact.r
+        known = np.isfinite(flat) & (out == 0.0)
         for edge, side in ((self.contact.x1, -1.0), (self.contact.x2, 1.0)):
             beside = known & (side * (flat - edge) > 0.0)
-            if beside.any():
-
-                def H(d: Array, edge: float = edge, side: float = side) -> Array:
-                    at = edge - self.origin + side * np.maximum(d, 1e-12 * width)
-                    return side * self.loaded.state.beside_contact(at)[0]
-
-                rise = profile.height(flat[beside]) - profile.height(np.array(edge))
-                raised = outwards(H, np.abs(flat[beside] - edge), width)
-                out[beside] = rise - raised / self.half_modulus
+            apart = np.minimum(np.abs(flat[beside] - edge), FAR_AWAY * self.contact.r)
+            rise = profile.height(flat[beside]) - profile.height(np.array(edge))
+            out[beside] = rise - self.loaded.fields.raised(apart, side) / self.half_modulus
         return out.reshape(np.shape(x))
