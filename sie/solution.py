@@ -639,7 +639,7 @@ class Solution(Frictionless, StressAnswers, DerivativeAnswers):
     def coupling_notes(self) -> tuple[str, ...]:
         """A sentence on what is neglected where β, or β q, is left out, or ()."""
         if self.scene.neglects_beta:
-            from .friction.coupled.departure import departure
+            from .friction.coupled.goodman import departure
             from .friction.coupled.normal import coupled_contact
 
             return (departure(self.scene, self.tol, coupled_contact),)

@@ -6,7 +6,7 @@ beside the flat punch (`flat`), the profile must be met as soon as the edges rea
 
     ∫ P'(σ) D((x - m(σ))/σ) dσ/σ = E*/2 h'(x)      at x = m(s) + s and at x = m(s) - s,
 
-for all s: two equations for P' = dP/ds and m, one where the profile is symmetric and m the axis. On
+for all s: two equations for P' = dP/ds and m. On
 a panel they are collocated: Chebyshev series of P', but for a power of the distance from its
 beginning, and of m. A panel behind a kink of the profile has series in the logarithm of the
 distance from where an edge passed that. The integral is a trapezoidal rule as in `pieces`.
@@ -224,8 +224,7 @@ def collocated(
 ) -> Panel | None:
     """The panel with its series, from one with a guess of m; None if no step converges.
 
-    Of one side alone the middle stays, and the equations are linear. The matrix of Newton's method
-    is kept while steps are short.
+    The matrix of Newton's method is kept while steps are short.
     """
 
     def equations(panel: Panel) -> list[Equations]:
@@ -237,8 +236,6 @@ def collocated(
         np.concatenate(part) for part in zip(*((e.missed, e.loads) for e in now), strict=True)
     )
     panel = replace(panel, series=np.linalg.lstsq(loads, missed, rcond=None)[0])
-    if len(sides) == 1:
-        return panel
     matrix, before = np.zeros((0, 0)), math.inf
     for _ in range(NEWTONS):
         now = equations(panel)

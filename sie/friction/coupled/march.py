@@ -176,7 +176,7 @@ def edge_at(slope: Slope, place: float, sign: float, half_modulus: float) -> Edg
 
 
 class March:
-    """The panels from first touch on; about an axis of symmetry the middle stays."""
+    """The panels from first touch on."""
 
     def __init__(
         self,
@@ -184,22 +184,19 @@ class March:
         slope: Slope,
         half_modulus: float,
         touch: Touch,
-        *,
-        axis: float | None = None,
         exponent: float = 0.0,
     ) -> None:
-        self.flat, self.touch, self.even = flat, touch, axis is not None
+        self.flat, self.touch = flat, touch
         self.panels: list[Panel] = []
         self.base = 0.5 * (touch.hi - touch.lo)
-        self.middle = touch.lo + self.base if axis is None else axis
-        edges = [
+        self.middle = touch.lo + self.base
+        left, right = (
             edge_at(slope, place, sign, half_modulus)
             for place, sign in ((touch.lo, -1.0), (touch.hi, 1.0))
-        ]
-        start = self._start(edges[0] is None or edges[1] is None)
-        assert edges[0] is not None and edges[1] is not None
-        self.edges = (edges[1],) if self.even else (edges[1], edges[0])
-        self.power, self.rate = start
+        )
+        self.power, self.rate = self._start(left is None or right is None)
+        assert left is not None and right is not None
+        self.edges = right, left
         # of a power law, h = C |x|^m: P' is one power then
         self.exponent = exponent
         if exponent:
@@ -223,7 +220,7 @@ class March:
             )
         power = self.flat.exponent - 1.0 + q if self.base else q
         turn = (left / right) ** (1.0 / (q + self.flat.exponent)) if self.base else 1.0
-        return power, 0.0 if self.even else (turn - 1.0) / (turn + 1.0)
+        return power, (turn - 1.0) / (turn + 1.0)
 
     @property
     def s(self) -> float:

@@ -20,7 +20,6 @@ from sie.problem.scene import Scene
 from sie.profiles.slope import Slope
 from sie.progress_bar import reported
 
-from .axis import LOOKS, symmetry_axis
 from .flat import FlatPunch, flat_punch
 from .frozen import Frozen
 from .goodman import goodman_flat
@@ -37,7 +36,7 @@ MOST_KINKS = 8  # of the profile within the contact: each cuts a state at up to 
 NARROWEST_STICK = 1e-9  # of the contact
 RESOLVED = 3e-12  # of P: what a state may miss
 STEEPEST = 1.5  # β f: exponents at the ends of slip zones are then 0.19 and 0.81
-# Points where the symmetry of a profile is measured, and to what part of its largest slope.
+LOOKS = 64  # places at which a slope is looked at
 
 
 @reported("contact of dissimilar bodies")
@@ -53,8 +52,7 @@ def coupled_contact(
     _refuse_friction(flat, scene)
     sign = math.copysign(1.0, scene.beta)
     bound = frictionless(_without_friction(scene))
-    contact, axis = bound.edges.contact, symmetry_axis(scene, bound.edges)
-    slope = bound.slope(scene.profile)
+    contact, slope = bound.edges.contact, bound.slope(scene.profile)
     if _flat(slope, contact):
         P = scene.normal_load
         assert P is not None
@@ -65,8 +63,7 @@ def coupled_contact(
     touch = first_touch(slope, *contact[:2])
     _refuse_many_kinks(slope, contact, touch)
     law = scene.profile.power_law
-    exponent = law.exponent if law is not None and axis is not None else 0.0
-    march = March(flat, slope, half_modulus, touch, axis=axis, exponent=exponent)
+    march = March(flat, slope, half_modulus, touch, law.exponent if law is not None else 0.0)
     # without β q the contact is that without friction
     s, P = _marched(march, None if flat.approximate else scene.normal_load, contact.r)
     P = P if scene.normal_load is None else scene.normal_load
@@ -79,7 +76,6 @@ def coupled_contact(
         Frozen(flat, tuple(march.panels)),
         (march.base, *march.kinks),
         slope,
-        math.nan if axis is None else axis,
         s,
     )
     _refuse_unresolved(state, P)

@@ -8,6 +8,7 @@ integrals over the growth.
 from __future__ import annotations
 
 import itertools
+import math
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
@@ -20,6 +21,7 @@ from sie.numerics.interval import Interval
 from sie.profiles.slope import Slope
 from sie.traction.base import on_line
 
+from .answer import View
 from .fields import Fields
 from .flat import FlatPunch
 from .frozen import Frozen, Gradient
@@ -27,11 +29,11 @@ from .pieces import FINE, Pieces
 from .search import state_of
 from .state import HalfSlope, Question
 from .step import Loaded
-from .view import View
 
 Array = NDArray[np.float64]
 
 WINDOW = 1.3  # half-widths from the middle: what no contact under Q leaves
+STAYED = 1e-9  # half-widths: by less a middle has not moved
 LIGHTER = 0.9  # of the growth beyond the flat base: what sticks then sticks already
 PARTS: Array = np.linspace(0.0625, 0.9375, 8)  # of a slip zone, at which slip is tested
 TOLD = 1e-7  # of the contact: places in narrower slip zones are not told by x
@@ -156,14 +158,12 @@ class Grown(Pressed):
     frozen      integrals over all contacts
     events      half-widths at which the growth began, or an edge passed a kink of the profile
     slope       h'
-    axis        of symmetry; nan if there is none
     s           half the width
     """
 
     frozen: Frozen
     events: tuple[float, ...]
     slope: Slope
-    axis: float
     s: float
 
     @property
@@ -179,6 +179,11 @@ class Grown(Pressed):
         """Half the width of the flat base."""
         return self.events[0]
 
+    @property
+    def axis(self) -> float:
+        """The middle if it stayed, as under a symmetric profile; nan if it moved."""
+        return self.origin if abs(self.middle - self.origin) <= STAYED * self.s else math.nan
+
     @cached_property
     def origin(self) -> float:  # type: ignore[override]
         """The place that touched first, or the middle of the flat base."""
@@ -193,7 +198,7 @@ class Grown(Pressed):
         """γ where the bodies stick."""
         c, m = self.flat.c * self.s, self.frozen.middle(self.s)
         stick = m - c, m + c
-        return Gradient(self.frozen, self.marks_of_growth, stick, self.axis)
+        return Gradient(self.frozen, self.marks_of_growth, stick)
 
     @cached_property
     def loaded(self) -> Loaded:  # type: ignore[override]

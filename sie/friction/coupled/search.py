@@ -14,9 +14,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from .goodman import Uncoupled
 from .pieces import FINE, QUICK, Fineness, Pieces
 from .state import Question, State
-from .uncoupled import Uncoupled
 
 Array = NDArray[np.float64]
 
