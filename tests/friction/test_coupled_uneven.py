@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -12,7 +13,7 @@ import sie
 from oracles import spence
 from sie.friction.coupled import march
 from sie.friction.coupled.flat import flat_punch
-from sie.friction.coupled.growth import Equations, Panel, Side
+from sie.friction.coupled.growth import Equations, Panel
 
 SKEW = sie.Polynomial((0.0, 0.0, 0.5, 0.1, 0.02))
 JUMPS = sie.Piecewise((-9.0, -0.4, 0.4, 9.0), ((-0.4, 2.0), (0.0, 1.0), (0.4, 2.0)))
@@ -65,7 +66,9 @@ def test_both_equations_hold_where_one_edge_hardly_moves(tilt):
 
 def test_equations_of_a_trial_that_moves_an_edge_back_are_finite():
     trial = Panel(0.0, 1.0, 0.0, math.inf, 0.0, np.ones(2), np.array([0.0, 0.6]))
-    equations = Equations(flat_punch(0.3, 0.3), [], trial, Side(lambda rise: rise, -1.0))
+    equations = Equations(
+        flat_punch(0.3, 0.3), [], trial, SimpleNamespace(slope=lambda rise: rise, sign=-1.0)
+    )
     assert np.isfinite(equations.missed).all()
 
 

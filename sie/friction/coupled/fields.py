@@ -144,8 +144,8 @@ class Fields:
         return values
 
     @cached_property
-    def _rules(self) -> tuple[list[Places], list[Array]]:
-        """The four rules, and rows of p, q and γ on each.
+    def whole(self) -> tuple[Places, Array]:
+        """The nodes of all shifts, ascending, and rows of p, q and γ.
 
         With ω the product of the roots of both distances over the stick zones, by (12)
 
@@ -155,7 +155,9 @@ class Fields:
         what the rule leaves out at the end, a point mass over β f, would put q beyond f p.
         """
         state, beta = self.state, self.state.question.beta
-        rules = [state.pieces.rule(shift / SHIFTS) for shift in range(SHIFTS)]
+        every = state.pieces.rule(0.0, finer=SHIFTS)
+        rules = [every.chosen(slice(shift, None, SHIFTS)) for shift in range(SHIFTS)]
+        rules = [at._replace(weight=SHIFTS * at.weight) for at in rules]
         rows = state.rows(rules)
         roots, held = [state.root(at) for at in rules], [state.sticks(at) for at in rules]
         sources = [
@@ -167,36 +169,15 @@ class Fields:
             flow = roots[k] * state.psi(at, rules[other], sources[other])
             rows[k][2, ~sticks] = (beta * rows[k][0] + flow)[~sticks]
             rows[k][1, sticks] = flow[sticks]
-        return rules, rows
+        return every, np.stack(rows, axis=2).reshape(3, -1)
 
     @cached_property
     def tables(self) -> list[tuple[float, Array]]:
         """The first v and the rows of each piece."""
-        rules, rows = self._rules
-        lengths, tables = self.state.pieces.lengths, []
-        for piece in range(len(lengths)):
-            first = rules[0].offset[rules[0].piece == piece][0] / lengths[piece]
-            tables.append((math.log(first), self._merged(rules, rows, piece)))
-        return tables
-
-    def _merged(self, rules: list[Places], rows: list[Array], piece: int) -> Array:
-        columns = [row[:, rule.piece == piece] for rule, row in zip(rules, rows, strict=True)]
-        merged: Array = np.stack(columns, axis=2).reshape(len(rows[0]), -1)
-        return merged
-
-    @cached_property
-    def whole(self) -> tuple[Places, Array]:
-        """The nodes of all shifts, piece by piece in ascending order, and rows of p, q and γ."""
-        rules, rows = self._rules
-        numbers = [
-            SHIFTS * np.arange(len(rule.x), dtype=float)[None] + k for k, rule in enumerate(rules)
-        ]
-        pieces = range(len(self.state.pieces.lengths))
-        order = np.concatenate([self._merged(rules, numbers, piece)[0] for piece in pieces])
-        order = order.astype(int)
-        every = Places(*(np.stack(c, axis=1).ravel()[order] for c in zip(*rules, strict=True)))
-        fields = np.stack(rows, axis=2).reshape(3, -1)[:, order]
-        return every._replace(weight=every.weight / SHIFTS), fields
+        (every, rows), lengths = self.whole, self.state.pieces.lengths
+        ends = np.searchsorted(every.piece, np.arange(len(lengths) + 1))
+        first = np.log(every.offset[ends[:-1]] / lengths).tolist()
+        return [(v, rows[:, lo:hi]) for v, lo, hi in zip(first, ends[:-1], ends[1:], strict=True)]
 
     def from_edge(self, side: float) -> Array:
         """The distances of all nodes from the edge of that side."""

@@ -18,7 +18,7 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -169,15 +169,16 @@ def _slope(series: Array, y: Array) -> Array:
     return values
 
 
-class Side(NamedTuple):
-    """The profile beside the contact on one side, between two places where it is not smooth.
+class Side(Protocol):
+    """The profile beside the contact on one side.
 
-    slope       sign times E*/2 h' at a distance outwards from where the panel begins
     sign        1 on the right
+    slope       sign times E*/2 h' at a distance outwards from where the panel begins
     """
 
-    slope: Callable[[Array], Array]
     sign: float
+
+    def slope(self, rise: Array) -> Array: ...
 
 
 def slope_of(

@@ -21,7 +21,7 @@ from sie.numerics.root_finding import false_position
 from sie.profiles.slope import Slope
 from sie.progress_bar import step_done
 
-from .growth import DEGREE, Panel, Side, collocated
+from .growth import DEGREE, Panel, collocated
 
 if TYPE_CHECKING:
     from .flat import FlatPunch
@@ -76,7 +76,7 @@ class Edge:
     piece: int
     entered: float
     since: float
-    slope: Slope
+    profile: Slope
     half_modulus: float
 
     @property
@@ -87,21 +87,21 @@ class Edge:
     def end(self) -> float:
         """The distance to the next place where the profile is not smooth."""
         ahead = self.piece + (1 if self.sign > 0.0 else 0)
-        return self.sign * (float(self.slope.breaks[ahead]) - self.entered) - self.since
+        return self.sign * (float(self.profile.breaks[ahead]) - self.entered) - self.since
 
     @property
     def stays(self) -> bool:
         """Whether the edge would stay there: at the indenter's end, or where its slope jumps."""
-        if self.piece == (len(self.slope.origins) - 1 if self.sign > 0.0 else 0):
+        if self.piece == (len(self.profile.origins) - 1 if self.sign > 0.0 else 0):
             return True
         ahead = self.piece + (1 if self.sign > 0.0 else 0)
-        return self.slope.corner(float(self.slope.breaks[ahead]))[0] != 0.0
+        return self.profile.corner(float(self.profile.breaks[ahead]))[0] != 0.0
 
-    def values(self, rise: Array) -> Array:
+    def slope(self, rise: Array) -> Array:
         """E*/2 h' ahead, as it rises outwards."""
         u = self.sign * (self.since + rise)
         at = np.array([self.entered])
-        found = self.slope.local(np.array([self.piece]), at, np.zeros(1), u.reshape(1, -1))
+        found = self.profile.local(np.array([self.piece]), at, np.zeros(1), u.reshape(1, -1))
         values: Array = self.sign * self.half_modulus * found.reshape(rise.shape)
         return values
 
@@ -111,7 +111,7 @@ class Edge:
     def passed(self) -> None:
         """Enters the next piece."""
         ahead = self.piece + (1 if self.sign > 0.0 else 0)
-        self.entered, self.since = float(self.slope.breaks[ahead]), 0.0
+        self.entered, self.since = float(self.profile.breaks[ahead]), 0.0
         self.piece += int(self.sign)
 
 
@@ -156,7 +156,7 @@ def _beside(slope: Slope, place: float, sign: float, r: float) -> tuple[float, f
     if side is None:
         return 0.0, math.inf
     d = min(FIRST * r, 1e-3 * side.end)
-    one, two = side.values(np.array([d, 2.0 * d])).tolist()
+    one, two = side.slope(np.array([d, 2.0 * d])).tolist()
     if one <= 0.0 or two <= 0.0:
         return 0.0, 0.0
     power = math.log2(two / one)
@@ -277,8 +277,7 @@ class March:
         series = np.zeros(degree)
         empty = Panel(lo, lo + length, power, behind, middle, series, series)
         shifts = chebyshev.transform(rate * empty.ahead(chebyshev.points(degree)))
-        sides = tuple(Side(edge.values, edge.sign) for edge in self.edges)
-        return collocated(self.flat, self.panels, replace(empty, shifts=shifts), sides)
+        return collocated(self.flat, self.panels, replace(empty, shifts=shifts), self.edges)
 
     def _missed(self, panel: Panel, goal: float) -> float:
         """What the last coefficients of both series carry, in parts of the load and of the goal."""

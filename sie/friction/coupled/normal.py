@@ -48,38 +48,34 @@ def coupled_contact(
     `frictionless` solves the normal problem of a scene; its contact bounds the search.
     """
     punch = goodman_flat if scene.neglects_beta else flat_punch
-    flat, half_modulus = punch(abs(scene.beta), scene.friction), 0.5 * scene.Estar
+    flat = punch(abs(scene.beta), scene.friction)
     _refuse_friction(flat, scene)
-    sign = math.copysign(1.0, scene.beta)
     bound = frictionless(_without_friction(scene))
     contact, slope = bound.edges.contact, bound.slope(scene.profile)
+    common = math.copysign(1.0, scene.beta), 0.5 * scene.Estar, scene.friction
     if _flat(slope, contact):
-        P = scene.normal_load
-        assert P is not None
-        state: Grown | Flat = Flat(
-            flat, P, sign, half_modulus, scene.friction, contact.m, contact.r
-        )
-        return state.edges, state
+        assert scene.normal_load is not None
+        state: Grown | Flat = Flat(flat, scene.normal_load, *common, contact.m, contact.r)
+    else:
+        march, s, P = _grown(scene, flat, slope, contact)
+        frozen, events = Frozen(flat, tuple(march.panels)), (march.base, *march.kinks)
+        state = Grown(flat, P, *common, frozen, events, slope, s)
+        _refuse_unresolved(state, P)
+    return state.edges, state
+
+
+def _grown(
+    scene: Scene, flat: FlatPunch, slope: Slope, contact: Interval
+) -> tuple[March, float, float]:
+    """The growth up to the load or the half-width of a scene, and both."""
     touch = first_touch(slope, *contact[:2])
     _refuse_many_kinks(slope, contact, touch)
-    law = scene.profile.power_law
-    march = March(flat, slope, half_modulus, touch, law.exponent if law is not None else 0.0)
+    law, P = scene.profile.power_law, scene.normal_load
+    exponent = law.exponent if law is not None else 0.0
+    march = March(flat, slope, 0.5 * scene.Estar, touch, exponent)
     # without β q the contact is that without friction
-    s, P = _marched(march, None if flat.approximate else scene.normal_load, contact.r)
-    P = P if scene.normal_load is None else scene.normal_load
-    state = Grown(
-        flat,
-        P,
-        sign,
-        half_modulus,
-        scene.friction,
-        Frozen(flat, tuple(march.panels)),
-        (march.base, *march.kinks),
-        slope,
-        s,
-    )
-    _refuse_unresolved(state, P)
-    return state.edges, state
+    s, load = _marched(march, None if flat.approximate else P, contact.r)
+    return march, s, load if P is None else P
 
 
 def _refuse_friction(flat: FlatPunch, scene: Scene) -> None:
