@@ -157,6 +157,21 @@ class View:
         )
         return p, q
 
+    def relative_slip(self, x: ArrayLike) -> Array:
+        """The slip at x since it came into contact, same shape: 0 outside the contact."""
+
+        def value(flat: Array) -> Array:
+            g, (lo, hi) = np.zeros(flat.shape), self.contact[:2]
+            inside = (flat >= lo) & (flat <= hi)
+            g[inside] = self.sign / self.half_modulus * self._slip(flat[inside] - self.origin)
+            return g
+
+        return on_line(value, x)
+
+    def _slip(self, x: Array) -> Array:
+        """E*/2 times the slip for β > 0, at places about the origin."""
+        raise NotImplementedError
+
     # -- beside the contact ------------------------------------------------------------------------
 
     def gap(self, x: Array, profile: Profile) -> Array:
@@ -218,19 +233,12 @@ class LoadedContact(View):
 
     # -- slip --------------------------------------------------------------------------------------
 
-    def relative_slip(self, x: ArrayLike) -> Array:
-        """The slip at x, same shape: 0 outside the contact."""
-
-        def value(flat: Array) -> Array:
-            lo, hi = self.contact[:2]
-            inside = (flat >= lo) & (flat <= hi)
-            g = np.zeros(flat.shape)
-            at = flat[inside]
-            g[inside] = self.sign / self.half_modulus * self._gained(at - self.origin)
-            g[inside] += self.pressed.relative_slip(at)
-            return g
-
-        return on_line(value, x)
+    def _slip(self, x: Array) -> Array:
+        g = self._gained(x)
+        lo, hi = (edge - self.origin for edge in self.pressed.contact[:2])
+        touched = (x >= lo) & (x <= hi)
+        g[touched] += self.pressed._slip(x[touched])
+        return g
 
     def _gained(self, x: Array) -> Array:
         """E*/2 times the slip since P alone, turn by turn."""

@@ -214,11 +214,11 @@ class Gradient:
     """γ where the bodies stick, from tables between marks that are made where they are asked for.
 
     They are in the variable of `pieces`, in which it is smooth whatever its power at a mark. Given
-    are the marks and the stick zone.
+    are the marks, the stick zone, and the axis if the middle stayed, else nan.
     """
 
     def __init__(
-        self, frozen: Frozen, marks: tuple[float, ...], stick: tuple[float, float]
+        self, frozen: Frozen, marks: tuple[float, ...], stick: tuple[float, float], axis: float
     ) -> None:
         last, c = frozen.panels[-1], frozen.flat.c
         middle = last.middle + last.whole_shift
@@ -226,10 +226,12 @@ class Gradient:
         ends = middle - c * last.hi, middle + c * last.hi
         inner = [x for x in marks if ends[0] < x < ends[1]]
         self.frozen, self.cuts = frozen, np.array(sorted({*ends, *inner, *self.base}))
-        self.stick = stick
+        self.stick, self.axis = stick, axis
         self._known: dict[int, tuple[float, Array]] = {}
 
     def __call__(self, x: Array) -> Array:
+        if math.isfinite(self.axis):
+            x = self.axis + np.abs(x - self.axis)
         k = np.clip(np.searchsorted(self.cuts, x, side="right") - 1, 0, len(self.cuts) - 2)
         values = np.zeros(len(x))
         for piece in np.unique(k):

@@ -43,6 +43,7 @@ SHORT_STEP = 1e-2  # after such a step the matrix is kept
 STEEP, LEAST_SHARE = 0.9999, 1e-3  # of 1, |m'|; of a step, the part that may be taken
 SHIFTED = 1e-4  # of the distance from an edge: for derivatives of the kernel
 NOISY = 1e-10
+STILL = 1e-15  # half-widths: a middle that moves by less stays, as under a symmetric profile
 GRID: Array = np.linspace(-1.0, 1.0, 65)
 LEAST_RISE = 1e-3  # of s: how far an edge moves at least in trials
 
@@ -254,7 +255,8 @@ def collocated(
         moved = float(np.abs(change).max()) / panel.length
         size = max(float(np.abs(step[:n]).max() / np.abs(panel.series).max()), moved)
         if share == 1.0 and (size <= SETTLED or (before <= ROUGH and size > 0.5 * before)):
-            return panel
+            stays = float(np.abs(panel.shifts).max()) <= STILL * panel.hi
+            return replace(panel, shifts=np.zeros(n)) if stays else panel
         before = size / share
     return None
 

@@ -14,12 +14,11 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from sie.numerics.gauss_jacobi import with_weight
 from sie.numerics.interval import Interval
 from sie.profiles.slope import Slope
-from sie.traction.base import on_line
 
 from .answer import View
 from .fields import Fields
@@ -113,21 +112,6 @@ class Pressed(View):
         way = "outwards" if self.sign > 0.0 else "inwards"
         return f"{way} on both sides while the normal load grew; β couples p and q"
 
-    def relative_slip(self, x: ArrayLike) -> Array:
-        """The slip at x since it came into contact, same shape: 0 outside the contact."""
-
-        def value(flat: Array) -> Array:
-            g, (lo, hi) = np.zeros(flat.shape), self.contact[:2]
-            inside = (flat >= lo) & (flat <= hi)
-            g[inside] = self.sign / self.half_modulus * self._slip(flat[inside] - self.origin)
-            return g
-
-        return on_line(value, x)
-
-    def _slip(self, x: Array) -> Array:
-        """E*/2 times the slip for β > 0, at places about the origin."""
-        raise NotImplementedError
-
     @cached_property
     def least_slip(self) -> float:
         """The least slip outwards in a slip zone, over the largest."""
@@ -198,7 +182,7 @@ class Grown(Pressed):
         """γ where the bodies stick."""
         c, m = self.flat.c * self.s, self.frozen.middle(self.s)
         stick = m - c, m + c
-        return Gradient(self.frozen, self.marks_of_growth, stick)
+        return Gradient(self.frozen, self.marks_of_growth, stick, self.axis)
 
     @cached_property
     def loaded(self) -> Loaded:  # type: ignore[override]
