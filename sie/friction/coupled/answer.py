@@ -96,20 +96,18 @@ class View:
 
     def rows(self, x: Array, rest: Array | None = None) -> Array:
         """Rows of p and q in contact."""
-        p, q, _ = self.loaded.fields(x - self.origin, rest)
+        return self._rows(x - self.origin, rest)
+
+    def _rows(self, x: Array, rest: Array | None = None) -> Array:
+        p, q, _ = self.loaded.fields(x, rest)
         return np.stack((p, self.sign * q))
 
     @property
     def values(self) -> InContact:
         """The tractions about the origin."""
         lo, hi = self.loaded.zones.ends[[0, -1]].tolist()
-
-        def rows(x: Array, rest: Array) -> Array:
-            p, q, _ = self.loaded.fields(x, rest)
-            return np.stack((p, self.sign * q))
-
         marks = (lo, *(x - self.origin for x in self.marks[1:-1]), hi)
-        return InContact(Interval(lo, hi), marks, rows, self.origin, self.sharp)
+        return InContact(Interval(lo, hi), marks, self._rows, self.origin, self.sharp)
 
     @cached_property
     def marks(self) -> tuple[float, ...]:
@@ -141,7 +139,7 @@ class View:
     @cached_property
     def tractions(self) -> tuple[OnPieces, OnPieces]:
         """p and q with their potentials."""
-        loads, firsts = (self.loaded.question.P, self.sign * self.loaded.Q), (self.moment, None)
+        loads = self.loaded.question.P, self.sign * self.loaded.Q
         p, q = (
             OnPieces(
                 self.contact,
@@ -150,7 +148,6 @@ class View:
                 loads[k],
                 self.origin,
                 self.marks,
-                firsts[k],
                 self.sharp,
             )
             for k in (0, 1)

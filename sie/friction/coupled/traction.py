@@ -153,19 +153,18 @@ class OnPieces(Density):
     contact     its edges
     values      its values in the contact
     tables      computes its pieces, about a place
-    load        its resultant
+    resultant   ∫f dx
     middle      that place
-    first       ∫q x dx, where it is known
+    marks       where it is not smooth, ascending, with the edges
     sharp       whether it is infinite at the edges
     """
 
     contact: Interval
     values: Callable[[Array], Array] = field(repr=False)
     tables: Callable[[], list[Piece]] = field(repr=False)
-    load: float
+    resultant: float
     middle: float
     marks: tuple[float, ...]
-    first: float | None = None
     sharp: bool = False
 
     @cached_property
@@ -180,15 +179,9 @@ class OnPieces(Density):
     def breaks(self) -> tuple[float, ...]:
         return self.marks
 
-    @property
-    def resultant(self) -> float:  # type: ignore[override]
-        return self.load
-
     @cached_property
     def moment(self) -> float:  # type: ignore[override]
-        if self.first is not None:
-            return self.first
-        total = self.middle * self.load
+        total = self.middle * self.resultant
         for piece in self.pieces:
             from_lo, from_hi, mass = piece.rules[False, False]
             total += float(mass @ np.append(piece.lo + from_lo, piece.hi - from_hi))
