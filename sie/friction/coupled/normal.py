@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from sie.contact.known_contact import Edges, Normal
 from sie.errors import ContactError
 from sie.numerics.interval import EPS, Interval
+from sie.numerics.root_finding import false_position
 from sie.problem.scene import Scene
 from sie.profiles.slope import Slope
 from sie.progress_bar import reported
@@ -31,7 +32,7 @@ Array = NDArray[np.float64]
 
 WIDER = 1.0 + 64.0 * EPS  # than the frictionless contact: as far as P' is sought at first
 MORE = 1.1  # where a load asks for more
-NEARLY, BISECTIONS = 1e-14, 60  # of the load; and steps to it
+NEARLY = 1e-14  # of the load
 MOST_KINKS = 8  # of the profile within the contact: each cuts a state at up to five places
 NARROWEST_STICK = 1e-9  # of the contact
 RESOLVED = 3e-12  # of P: what a state may miss
@@ -148,17 +149,13 @@ def _marched(march: March, P: float | None, goal: float) -> tuple[float, float]:
 
 def _at_load(panel: Panel, missing: float) -> float:
     """How far along the panel it carries that load."""
-    lo, hi = 0.0, panel.length
-    d = hi * missing / panel.load(hi)
-    for _ in range(BISECTIONS):
-        missed = panel.load(d) - missing
-        lo, hi = (lo, d) if missed > 0.0 else (d, hi)
-        if abs(missed) <= NEARLY * missing:
-            break
-        d -= missed / float(panel(np.array(d)))
-        if not lo < d < hi:
-            d = 0.5 * (lo + hi)
-    return d
+    return false_position(
+        lambda d: panel.load(d) - missing,
+        0.0,
+        panel.length,
+        (-missing, panel.load(panel.length) - missing),
+        lambda _lo, _hi, missed: abs(missed) <= NEARLY * missing,
+    )
 
 
 def _at_corner(march: March) -> str:
