@@ -123,17 +123,12 @@ class Loaded:
     def _farther(self, Q: float, strain: float) -> float:
         """How far other loads are from where the loads turned, over how far these are."""
         assert self.before is not None
-        unit = self.friction * self.question.P / self.peak
+        unit = sum(self.zones.widths)
         now, then = (
             abs(load - self.before.Q) + unit * abs(other - self.before.strain)
             for load, other in ((Q, strain), (self.Q, self.strain))
         )
         return now / then
-
-    @property
-    def peak(self) -> float:
-        """The largest f p."""
-        return self.friction * float(self.fields.nodes[1][0].max())
 
     def returned(self, Q: float, strain: float) -> Loaded | None:
         """The earlier state under the same loads, if the loads closed a loop since then.
