@@ -42,7 +42,7 @@ if TYPE_CHECKING:  # what a stage needs is imported when it is computed
     from .cracks.edge_intensity import EdgeIntensity
     from .friction.coupled.answer import LoadedContact
     from .friction.coupled.pressed import Pressed
-    from .friction.coupled.traction import OnHalves
+    from .friction.coupled.traction import OnPieces
     from .friction.full_stick import Component
     from .friction.slip_state import Slip, Step
     from .patches.answer import SeveralPatches
@@ -183,7 +183,7 @@ class Solution(Frictionless, StressAnswers, DerivativeAnswers):
         return self.bonded[1]
 
     @cached_property
-    def pressure(self) -> SlopeDensity | Component | OnHalves:
+    def pressure(self) -> SlopeDensity | Component | OnPieces:
         """The contact pressure p, a `Density` in units of stress.
 
         Returns
@@ -639,7 +639,7 @@ class Solution(Frictionless, StressAnswers, DerivativeAnswers):
     def coupling_notes(self) -> tuple[str, ...]:
         """A sentence on what is neglected where β, or β q, is left out, or ()."""
         if self.scene.neglects_beta:
-            from .friction.coupled.departure import departure
+            from .friction.coupled.goodman import departure
             from .friction.coupled.normal import coupled_contact
 
             return (departure(self.scene, self.tol, coupled_contact),)

@@ -16,7 +16,7 @@ from __future__ import annotations
 
 import math
 from functools import cached_property
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,13 +28,17 @@ from sie.contact.small_strains import notes
 from sie.numerics.gauss_jacobi import gauss_jacobi
 from sie.numerics.interval import EPS
 from sie.problem.scene import Scene
-from sie.profiles.base import Profile
 from sie.progress_bar import reported
-from sie.traction.base import Density
 from sie.traction.in_contact import InContact
 
 from .result import Certificate, ShearCertificate
 from .shear_check import ENDS, excess
+
+if TYPE_CHECKING:
+    from sie.friction.coupled.answer import LoadedContact
+    from sie.friction.coupled.pressed import Pressed
+
+    State: TypeAlias = Pressed | LoadedContact
 
 Array = NDArray[np.float64]
 
@@ -53,41 +57,8 @@ LEAST = float(np.finfo(float).tiny)
 OUTSIDE = (1.0 + 1e-6, 1.001, 1.1, 2.0, 10.0)  # half-widths at which the gap is tested
 
 
-class _Sheared(Protocol):
-    """A state whose slip gradient is kept in stick.
-
-    values       p and q in contact
-    kept         a zone that stuck since an earlier state, and that; None if it always did
-    slip_zones   (lo, hi, sign of q)
-    strain_kept  what a bulk stress changed γ in that zone by
-    least_slip   the least slip in its direction, over the largest; positive by the friction law
-    kind         the slip in words
-    """
-
-    @property
-    def values(self) -> InContact: ...
-    @property
-    def kept(self) -> tuple[tuple[float, float], Any]: ...
-    @property
-    def strain_kept(self) -> float: ...
-    @property
-    def slip_zones(self) -> tuple[tuple[float, float, float], ...]: ...
-    @property
-    def least_slip(self) -> float: ...
-    @property
-    def kind(self) -> str: ...
-
-
-class _Pressed(_Sheared, Protocol):
-    """A state whose pressure is a part of it; its tractions are p and q with their potentials."""
-
-    @property
-    def tractions(self) -> tuple[Density, Density]: ...
-    def gap(self, x: Array, profile: Profile) -> Array: ...
-
-
 @reported("certificate")
-def coupled_certificate(state: _Pressed, scene: Scene, tol: float) -> Certificate:
+def coupled_certificate(state: State, scene: Scene, tol: float) -> Certificate:
     """Both equations and equilibrium, measured on a state of a scene."""
     v, nodes = state.values, Nodes(state.values)
     at = nodes.looked_at
@@ -118,7 +89,7 @@ def coupled_certificate(state: _Pressed, scene: Scene, tol: float) -> Certificat
 
 
 def shear_certificate(
-    state: _Sheared, scene: Scene, tol: float, nodes: Nodes | None = None
+    state: State, scene: Scene, tol: float, nodes: Nodes | None = None
 ) -> ShearCertificate:
     """The law of friction, equilibrium, and (12) with what came before."""
     nodes = nodes or Nodes(state.values)
@@ -142,7 +113,7 @@ def shear_certificate(
     )
 
 
-def _change_of_gradient(state: _Sheared, nodes: Nodes, beta: float) -> tuple[float, float]:
+def _change_of_gradient(state: State, nodes: Nodes, beta: float) -> tuple[float, float]:
     """The largest change of γ in the zone that it is kept in, and what rounding changes in it.
 
     Without a zone nothing is known, and doubles tell too few places of a narrow one. Where the

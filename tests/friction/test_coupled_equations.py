@@ -11,7 +11,8 @@ from pressed_cases import PROFILES, solved
 
 import sie
 from sie.certificate.coupled_check import coupled_certificate
-from sie.friction.coupled.half_potential import DEGREE, HalfPotential, Panels
+from sie.friction.coupled.traction import smooth_between
+from sie.numerics.interval import Interval
 
 # -- the two equations -----------------------------------------------------------------------------
 
@@ -73,14 +74,16 @@ def test_potentials_are_those_of_a_plain_quadrature_far_from_the_surface(name):
 
 
 @pytest.mark.parametrize("depth", [1e-3, 1e-13, 1e-200])
-def test_potential_of_a_constant_is_a_logarithm_however_near_a_node_of_its_rule(depth):
-    series = np.zeros((2, DEGREE))
-    series[0, 0] = 1.0
-    half = HalfPotential(Panels(np.array([0.0, 1.0]), np.array([1.0, 2.0]), series, 0.5))
-    z = np.append(half.quadrature[0][:DEGREE], [-0.3, 3.0]) + 1j * depth
-    F, dF = half(z, derivative=True)
-    np.testing.assert_allclose(F, np.log(z / (z - 1.0)) / math.pi, rtol=1e-14)
-    np.testing.assert_allclose(dF, (1.0 / z - 1.0 / (z - 1.0)) / math.pi, rtol=1e-13)
+@pytest.mark.parametrize("marks", [[], [0.3], [-0.2, 0.3]])
+def test_potential_of_a_half_ellipse_is_the_closed_form_at_any_depth(depth, marks):
+    half_ellipse = smooth_between(
+        Interval(-1.0, 1.0), lambda x: np.sqrt(1.0 - x * x), marks, 0.5 * math.pi
+    )
+    z = np.array([-1.7, -0.6, 0.3, 0.9, 1.4]) + 1j * depth
+    root = np.sqrt(z - 1.0) * np.sqrt(z + 1.0)
+    F, dF = half_ellipse.potentials(z)
+    np.testing.assert_allclose(F, z - root, rtol=1e-12)
+    np.testing.assert_allclose(dF[[0, 1, 3, 4]], (1.0 - z / root)[[0, 1, 3, 4]], rtol=1e-11)
 
 
 @pytest.mark.parametrize("name", ["flat", "parabola", "rounded flat"])
@@ -95,36 +98,6 @@ def test_a_potential_at_many_points_is_that_at_each(name):
         assert many[k] == pytest.approx(one_by_one, abs=rounding * np.abs(one_by_one).max())
 
 
-def test_a_potential_at_many_points_takes_one_rule_for_several_panels(monkeypatch):
-    density = solved(PROFILES["parabola"], 0.07, 0.3).shear
-    x, y = np.meshgrid(np.linspace(-2.0, 2.0, 41), np.linspace(0.02, 2.0, 41))
-    terms = []
-    sums = HalfPotential._of_few
-
-    def counted(self, z, rule, *others):
-        terms.append(len(z) * len(rule[0]))
-        return sums(self, z, rule, *others)
-
-    monkeypatch.setattr(HalfPotential, "_of_few", counted)
-    density.cauchy(x + 1j * y)
-    size = sum(half.panels.series.size for half in density.halves)
-    assert sum(terms) < 0.3 * x.size * size
-
-
-def test_potential_and_derivative_together_take_each_half_once(monkeypatch):
-    density = solved(PROFILES["parabola"]).shear
-    halves = []
-    half = HalfPotential.__call__
-
-    def counted(self, z, derivative):
-        halves.append(derivative)
-        return half(self, z, derivative)
-
-    monkeypatch.setattr(HalfPotential, "__call__", counted)
-    density.potentials(np.array([0.3 + 0.2j, 2.0 + 1.0j]))
-    assert halves == [True, True]
-
-
 @pytest.mark.parametrize("side", [1, -1, 0])
 def test_potential_and_derivative_are_those_that_are_asked_for_alone(side):
     density = solved(PROFILES["parabola"]).shear
@@ -135,11 +108,11 @@ def test_potential_and_derivative_are_those_that_are_asked_for_alone(side):
 
 
 def test_potential_far_away_is_the_load_over_the_distance():
-    half = solved(sie.Parabola(1.0)).tractions.pressure.halves[0]
+    pressure = solved(sie.Parabola(1.0)).pressure
     z = np.array([1e8j, 1e99j, 1e120 + 1e120j])
-    F, dF = half(z, derivative=True)
-    np.testing.assert_allclose(F, 0.5 / (math.pi * z), rtol=1e-7)
-    np.testing.assert_allclose(dF, -0.5 / (math.pi * z * z), rtol=1e-7)
+    F, dF = pressure.potentials(z)
+    np.testing.assert_allclose(F, 1.0 / (math.pi * z), rtol=1e-7)
+    np.testing.assert_allclose(dF, -1.0 / (math.pi * z * z), rtol=1e-7)
 
 
 def test_surface_stress_is_in_balance_with_the_tractions():

@@ -14,8 +14,6 @@ from analytic import goodman
 from oracles import spence
 from sie.friction.coupled import flat as coupled_flat
 from sie.friction.coupled.flat import flat_punch
-from sie.friction.coupled.half_potential import HalfPotential
-from sie.friction.coupled.traction import resolved_panels
 
 # Half-width of the stick zone and b p(0)/P of a flat punch, and P R/(E* b²) M of a parabola, in 32
 # digits of another formulation (mpmath) and by collocation of the printed equations on graded
@@ -122,25 +120,6 @@ def test_friction_far_above_one_is_certified_or_refused(profile):
 def test_exponents_of_large_friction_keep_their_digits():
     """Beside the edge p goes with the power -h, h = 1/2 - θ = arctan(1/(β f))/π."""
     assert flat_punch(0.5, 1e9).exponent == pytest.approx(2e-9 / math.pi, rel=1e-15)
-
-
-def test_panels_end_where_doubles_do_not_tell_a_jump_from_the_end():
-    (panels,) = resolved_panels(lambda y, _: 1.0 * (y < 1.0 - 1e-14), (1.0,), 0.5)
-    assert np.isfinite(panels.series).all()
-
-
-def test_panels_of_a_traction_end_at_its_rounding():
-    places = []
-
-    def rough(y, _):
-        places.append(y.size)
-        return np.sqrt(1.0 - y) * (1.0 + 1e-10 * np.sin(1e12 * y))
-
-    (panels,) = resolved_panels(rough, (1.0,), 0.5)
-    assert sum(places) < 1e4
-    assert HalfPotential(panels).traction(np.array([0.3])) == pytest.approx(
-        math.sqrt(0.7), rel=1e-9
-    )
 
 
 @pytest.mark.parametrize(

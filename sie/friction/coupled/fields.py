@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -40,29 +41,30 @@ class Fields:
 
     def __call__(self, x: Array, rest: Array | None = None) -> Array:
         """Rows of p, q and γ at places in contact, at distances `rest` from the nearer edge."""
-        cuts, (k, lo, hi) = self.state.pieces.cuts, self._located(x, rest)
+        k, lo, hi = self._located(x, rest)
         with np.errstate(divide="ignore"):
             v = np.log(np.maximum(lo, 0.0)) - np.log(np.maximum(hi, 0.0))
-        v = np.clip(v, -LAST, LAST)
-        rows, last, step = np.empty((3, len(x))), len(cuts) - 2, self.state.pieces.fineness.step
-        for piece in np.unique(k):
-            own = k == piece
-            first, table = self.tables[piece]
-            lowest, highest = (self._last_pressure(piece, side) for side in (-1, 1))
-            ends = -self._last_shear(piece, -1), self._last_shear(piece, 1)
-            for row, far in (([0, 2], (-lowest, highest)), ([1], ends)):
-                place = (np.clip(v[own], *far) - first) * (SHIFTS / step)
-                rows[np.ix_(row, own)] = interpolated(table[row], place)
-            for side in (-1, 1):
-                if 0 <= piece + side <= last:
-                    self._next_to_cut((int(piece), side), own, v, rows)
-        powers = self.state.pieces.powers
-        for edge, side, sign in ((0, k == 0, -1.0), (-1, k == len(cuts) - 2, 1.0)):
-            beyond = side & (sign * v > FARTHEST)
-            rows[:2, beyond] *= np.exp(powers[edge] * (FARTHEST - sign * v[beyond]))
-        signs = self.state.pieces.sign[self.state.pieces.zone_of_piece[k]]
-        slips = signs != 0.0
-        rows[1, slips] = signs[slips] * self.state.question.friction * rows[0, slips]
+        v, rows = np.clip(v, -LAST, LAST), np.empty((3, len(x)))
+        for piece in np.unique(k).tolist():
+            rows[:, k == piece] = self.on_piece(piece, v[k == piece])
+        return rows
+
+    def on_piece(self, piece: int, v: Array) -> Array:
+        """Rows of p, q and γ at places of a piece."""
+        pieces, rows, (first, table) = self.state.pieces, np.empty((3, len(v))), self.tables[piece]
+        step = pieces.fineness.step / SHIFTS
+        for row, far in (([0, 2], self._last_pressure), ([1], self._last_shear)):
+            place = np.clip(v, -far(piece, -1), far(piece, 1)) - first
+            rows[row] = interpolated(table[row], place / step)
+        for side in (-1, 1):
+            if 0 <= piece + side < len(pieces.lengths):
+                self._next_to_cut(piece, side, v, rows)
+            else:
+                beyond = np.maximum(side * v - FARTHEST, 0.0)
+                rows[:2] *= np.exp(-pieces.powers[-1 if side > 0 else 0] * beyond)
+        sign = pieces.sign[pieces.zone_of_piece[piece]]
+        if sign:
+            rows[1] = sign * self.state.question.friction * rows[0]
         return rows
 
     def _located(self, x: Array, rest: Array | None) -> tuple[NDArray[np.intp], Array, Array]:
@@ -110,20 +112,18 @@ class Fields:
         more = 0.5 * max(math.log(pieces.lengths[piece] / width), 0.0)
         return self._within(piece, side, min(DEEPEST, FARTHEST + more))
 
-    def _next_to_cut(
-        self, where: tuple[int, int], own: NDArray[np.bool_], v: Array, rows: Array
-    ) -> None:
+    def _next_to_cut(self, piece: int, side: int, v: Array, rows: Array) -> None:
         """Sets p and q too near to a cut on that side of a piece for what tables tell.
 
         At marks both may have a logarithm; next to slip f p - |q| is a power of the distance.
         """
-        (piece, side), pieces = where, self.state.pieces
+        pieces = self.state.pieces
         signs, power = pieces.sign[pieces.zone_of_piece], pieces.powers[piece + (side > 0)]
         (first, table), step = self.tables[piece], pieces.fineness.step
         for row, last in enumerate(
             (self._last_pressure(piece, side), self._last_shear(piece, side))
         ):
-            near = np.flatnonzero(own & (side * v > last))
+            near = np.flatnonzero(side * v > last)
             if not near.size or (row == 0 and power):
                 continue
             place = side * np.array([last, last - 1.0])
@@ -144,8 +144,8 @@ class Fields:
         return values
 
     @cached_property
-    def _rules(self) -> tuple[list[Places], list[Array]]:
-        """The four rules, and rows of p, q and γ on each.
+    def whole(self) -> tuple[Places, Array]:
+        """The nodes of all shifts, ascending, and rows of p, q and γ.
 
         With ω the product of the roots of both distances over the stick zones, by (12)
 
@@ -155,7 +155,9 @@ class Fields:
         what the rule leaves out at the end, a point mass over β f, would put q beyond f p.
         """
         state, beta = self.state, self.state.question.beta
-        rules = [state.pieces.rule(shift / SHIFTS) for shift in range(SHIFTS)]
+        every = state.pieces.rule(0.0, finer=SHIFTS)
+        rules = [every.chosen(slice(shift, None, SHIFTS)) for shift in range(SHIFTS)]
+        rules = [at._replace(weight=SHIFTS * at.weight) for at in rules]
         rows = state.rows(rules)
         roots, held = [state.root(at) for at in rules], [state.sticks(at) for at in rules]
         sources = [
@@ -167,36 +169,33 @@ class Fields:
             flow = roots[k] * state.psi(at, rules[other], sources[other])
             rows[k][2, ~sticks] = (beta * rows[k][0] + flow)[~sticks]
             rows[k][1, sticks] = flow[sticks]
-        return rules, rows
+        return every, np.stack(rows, axis=2).reshape(3, -1)
 
     @cached_property
     def tables(self) -> list[tuple[float, Array]]:
         """The first v and the rows of each piece."""
-        rules, rows = self._rules
-        lengths, tables = self.state.pieces.lengths, []
-        for piece in range(len(lengths)):
-            first = rules[0].offset[rules[0].piece == piece][0] / lengths[piece]
-            tables.append((math.log(first), self._merged(rules, rows, piece)))
-        return tables
+        (every, rows), lengths = self.whole, self.state.pieces.lengths
+        ends = np.searchsorted(every.piece, np.arange(len(lengths) + 1))
+        first = np.log(every.offset[ends[:-1]] / lengths).tolist()
+        return [(v, rows[:, lo:hi]) for v, lo, hi in zip(first, ends[:-1], ends[1:], strict=True)]
 
-    def _merged(self, rules: list[Places], rows: list[Array], piece: int) -> Array:
-        columns = [row[:, rule.piece == piece] for rule, row in zip(rules, rows, strict=True)]
-        merged: Array = np.stack(columns, axis=2).reshape(len(rows[0]), -1)
-        return merged
+    def from_edge(self, side: float) -> Array:
+        """The distances of all nodes from the edge of that side."""
+        pieces, t = self.state.pieces, self.whole[0]
+        return pieces.from_cut(t, 0) if side < 0.0 else -pieces.from_cut(t, len(pieces.cuts) - 1)
 
-    @cached_property
-    def whole(self) -> tuple[Places, Array]:
-        """The nodes of all shifts, piece by piece in ascending order, and rows of p, q and γ."""
-        rules, rows = self._rules
-        numbers = [
-            SHIFTS * np.arange(len(rule.x), dtype=float)[None] + k for k, rule in enumerate(rules)
-        ]
-        pieces = range(len(self.state.pieces.lengths))
-        order = np.concatenate([self._merged(rules, numbers, piece)[0] for piece in pieces])
-        order = order.astype(int)
-        every = Places(*(np.stack(c, axis=1).ravel()[order] for c in zip(*rules, strict=True)))
-        fields = np.stack(rows, axis=2).reshape(3, -1)[:, order]
-        return every._replace(weight=every.weight / SHIFTS), fields
+    def raised(self, apart: Array, side: float) -> Array:
+        """∫Hp dx from an edge to places so far beside it, outwards."""
+        t, (p, _, _) = self.whole
+        values: Array = np.log1p(apart[:, None] / self.from_edge(side)) @ (t.weight * p) / math.pi
+        return values
+
+    def beside(self, apart: Array, side: float) -> Array:
+        """Hp and Hq so far beside an edge."""
+        t, fields = self.whole
+        kernel = side / (apart[:, None] + self.from_edge(side)) / math.pi
+        values: Array = (t.weight * fields[:2]) @ kernel.T
+        return values
 
     @cached_property
     def nodes(self) -> tuple[Places, Array]:
@@ -206,11 +205,11 @@ class Fields:
         return every.chosen(kept), fields[:, kept]
 
 
-def interpolated(table: Array, place: Array, points: int = POINTS) -> Array:
-    """Columns of a table at fractional places by Lagrange's polynomials."""
-    first = np.clip(np.floor(place).astype(int) - points // 2 + 1, 0, table.shape[1] - points)
-    apart, total = place - first, np.zeros(len(place))
-    values = np.zeros((len(table), len(place)))
+def interpolated(table: Array, place: Any, points: int = POINTS) -> Any:
+    """Columns of a table at fractional places, or next to the line, by Lagrange's polynomials."""
+    first = np.clip(np.floor(place.real).astype(int) - points // 2 + 1, 0, table.shape[1] - points)
+    apart, total = place - first, np.zeros_like(place)
+    values = np.zeros((len(table), len(place)), dtype=place.dtype)
     for j, weight in enumerate(_binomial(points).tolist()):
         share = weight / np.where(apart == j, AT_NODE, apart - j)
         total += share

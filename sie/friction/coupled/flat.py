@@ -39,7 +39,7 @@ from numpy.typing import NDArray
 from sie.numerics.elliptic import Modulus, modulus_of_ratio
 
 from .fields import SHIFTS, Fields, cumulative, interpolated
-from .pieces import FINE, Pieces, Places
+from .pieces import FINE, Pieces
 from .state import HalfSlope, Question, State
 
 Array = NDArray[np.float64]
@@ -145,11 +145,9 @@ class FlatPunch:
         lowest = math.floor((-33.0 + math.log(0.5 * self.rest)) / step)
         w = step * np.arange(lowest, 0)
         E = 2.0 * np.exp(w) / -np.expm1(w)
-        fields, anchor = self._fields, np.full(len(E), 3)
-        none = np.zeros(len(E), dtype=int)
-        (t, (p, q, _)), outside = fields.whole, Places(anchor, E, 1.0 + E, none, none, none)
+        t, (p, q, _) = self._fields.whole
         moments = np.stack((p, q * t.x)) * t.weight / math.pi
-        values = moments @ (1.0 / fields.state.pieces.apart(outside, t)).T
+        values = moments @ (1.0 / (E[:, None] + self._fields.from_edge(1.0))).T
         values *= (1.0 + E) * (E * (2.0 + E) / (1.0 + E) ** 2) ** self.exponent
         at_infinity = moments.sum(axis=1, keepdims=True)
         whole = np.concatenate((values, at_infinity, values[:, : -MIRRORED - 1 : -1]), axis=1)

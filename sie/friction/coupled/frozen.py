@@ -214,7 +214,7 @@ class Gradient:
     """γ where the bodies stick, from tables between marks that are made where they are asked for.
 
     They are in the variable of `pieces`, in which it is smooth whatever its power at a mark. Given
-    are the marks, the stick zone, and the axis of symmetry, nan if there is none.
+    are the marks, the stick zone, and the axis if the middle stayed, else nan.
     """
 
     def __init__(

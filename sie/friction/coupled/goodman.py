@@ -1,6 +1,18 @@
-"""The flat punch in Goodman's approximation (`uncoupled`), where p = P/(π w), and its stick zone.
+"""Goodman's approximation: β q is left out of equation (1), which makes p that without friction.
 
-    K'(k)/K(k) = β/f      of the modulus k = c/b.
+    H1 = Hp,      γ = Hq + β p      β > 0,   q = s f p where the bodies slip.
+
+With w(z)² the product of the distances from both edges, bounded at these, and ω of `State.root`,
+
+    p = w/π PV∫ (H1/w)/(t - x) dt,        1/π ∫q/(z - t) dt = ω/π ∫ν/(z - t) dt,
+
+ν = (γ - β p)/|ω| in stick, q/ω in slip. p is bounded if ∫H1/w dt = 0, and ∫t H1/w dt is πP up to a
+factor; q is bounded at the ends of n stick zones if the moments ∫ν t^k dt vanish for k < n, and
+that with k = n is Q.
+
+Under a flat punch p = P/(π w), and the stick zone is that of the modulus k = c/b with
+
+    K'(k)/K(k) = β/f.
 
 Goodman (1962), J. Appl. Mech. 29, 515; docs/derivations/goodman.md.
 """
@@ -8,22 +20,102 @@ Goodman (1962), J. Appl. Mech. 29, 515; docs/derivations/goodman.md.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from sie.contact.normal import normal_contact
+from sie.contact.pressure import pressure
+from sie.errors import ContactError
 from sie.numerics.elliptic import modulus_of_ratio
+from sie.problem.scene import Scene
 
 from .flat import NARROWEST_RATIO, FlatPunch, half_rule, squares
 from .pieces import Places
-from .state import State
-from .uncoupled import Uncoupled
+from .state import Rates, State
 
 Array = NDArray[np.float64]
 
 # beyond it c = 4 exp(-π K'/2K) is lost even beside a double's smallest lengths; c² is a double
 WIDEST_RATIO = 200.0
+NEGLECTED = "note: β q is left out of the normal equation (Goodman's approximation)"
+
+
+@dataclass(frozen=True, eq=False)
+class Uncoupled(State):
+    """p, q and γ of Goodman's approximation for zones that need not be right."""
+
+    def _w(self, at: Places) -> Array:
+        """w over half the width, negative as χ of a slip zone is."""
+        to_left, to_right = self._to_edges(at)
+        values: Array = -np.sqrt(np.abs(to_left * to_right)) / self.half_width
+        return values
+
+    def _mass(self, at: Places) -> Array:
+        values: Array = -self.question.slope(at.x) * at.weight / self._w(at)
+        return values
+
+    def pressure(self, at: Places, sources: Places) -> Array:
+        """p at places half a step from the sources."""
+        values: Array = self._w(at) * self.psi(at, sources, self._mass(sources))
+        return values
+
+    def pressure_in_slip(self, at: Places) -> Array:
+        return self.pressure(at, self.nodes)
+
+    def _known(self, at: Places, sources: Places) -> Array:
+        """p, q in slip, and γ in stick."""
+        p, sticks = self.pressure(at, sources), self.sticks(at)
+        gamma = np.zeros(len(p))
+        gamma[sticks] = self.question.gamma(at.x[sticks])
+        return np.stack((p, self.pieces.sign[at.zone] * self.question.friction * p, gamma))
+
+    def rows(self, rules: list[Places]) -> list[Array]:
+        half = len(rules) // 2
+        return [self._known(at, rules[k - half]) for k, at in enumerate(rules)]
+
+    @cached_property
+    def _on_nodes(self) -> tuple[Array, float]:
+        """ν times weights on the nodes, and ∫p dt."""
+        t = self.nodes
+        p, q, gamma = self._known(t, self.halfway)
+        sources = np.where(self.sticks(t), self.question.beta * p - gamma, q) / self.root(t)
+        return sources * t.weight, float(p @ t.weight)
+
+    @cached_property
+    def shear_halfway(self) -> Array:
+        at = self.halfway
+        _, q, _ = self._known(at, self.nodes)
+        sticks = self.sticks(at)
+        held = at.chosen(sticks)
+        q[sticks] = self.root(held) * self.psi(held, self.nodes, self._on_nodes[0])
+        return q
+
+    @cached_property
+    def missed(self) -> Array:
+        question, arm, mass = self.question, self._arm(self.nodes), self._mass(self.nodes)
+        of_p = np.array([mass.sum(), mass @ arm - question.P]) / question.P
+        n, (sources, carried) = self.pieces.signs.count(0), self._on_nodes
+        powers = np.array([sources @ arm**k for k in range(n + 1)]) * self.half_width**n
+        # Q as a part of what p is on the same nodes: next to sliding their errors are one
+        load = question.Q * carried / question.P
+        of_q = np.append(powers[:n], (powers[n] - load) / question.friction) / question.P
+        return np.append(of_p, of_q)
+
+    def rates(self, dQ: float, strain: float) -> Rates:
+        """p stays; q changes in the stick zone, by the gradient of a strip bonded there."""
+        places = self.pieces.rule(0.5, 1.0)
+        places = places.chosen(~self.sticks(places))
+        (zone,) = np.flatnonzero(self.pieces.sign == 0.0)
+        first, last = self.pieces.cut_of_ends[[zone, zone + 1]].tolist()
+        from_first, from_last = (self.pieces.from_cut(places, cut) for cut in (first, last))
+        far = dQ / math.pi - 0.5 * strain * (from_first + from_last)
+        gamma = strain + np.sign(from_first) * far / np.sqrt(from_first * from_last)
+        return Rates(places, gamma)
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,3 +157,32 @@ def goodman_flat(beta: float, friction: float) -> GoodmanFlat:
     t, near, _ = half_rule()
     _, square = squares(modulus, t, near)
     return GoodmanFlat(beta, friction, bonded, modulus, 1.0 / (math.pi * np.sqrt(square)))
+
+
+def departure(scene: Scene, tol: float, coupled_contact: Callable[..., Any]) -> str:
+    """A sentence; with figures for the normal load on a symmetric convex profile.
+
+    `coupled_contact` finds the contact with both couplings.
+    """
+    if scene.slides:
+        return f"{NEGLECTED}: in full sliding the pressure is that without friction"
+    try:
+        if scene.tilt or scene.moment:
+            raise ContactError("not symmetric")
+        upright = replace(scene, coupling="full", tangential_load=0.0, moment=None)
+        _, state = coupled_contact(upright, lambda one: normal_contact(one, tol))
+        if math.isnan(state.axis):
+            raise ContactError("not symmetric")
+    except ContactError:
+        return f"{NEGLECTED}; how far the answer is from the coupled one is not known here"
+    k, c = goodman_flat(abs(scene.beta), scene.friction).c, state.flat.c
+    found = f"c/b = {k:.6g} instead of {c:.6g} ({_percent(k, c)})"
+    simple = normal_contact(scene, tol)
+    axis = np.array([state.axis])
+    p, coupled = float(pressure(simple, scene, tol)(axis)[0]), float(state.rows(axis)[0, 0])
+    peak = f" and p = {p:.6g} instead of {coupled:.6g} ({_percent(p, coupled)}) on the axis"
+    return f"{NEGLECTED}: under the normal load {found}{peak if math.isfinite(p + coupled) else ''}"
+
+
+def _percent(one: float, other: float) -> str:
+    return f"{100.0 * (one - other) / other:+.2g} %"

@@ -6,7 +6,7 @@ beside the flat punch (`flat`), the profile must be met as soon as the edges rea
 
     ∫ P'(σ) D((x - m(σ))/σ) dσ/σ = E*/2 h'(x)      at x = m(s) + s and at x = m(s) - s,
 
-for all s: two equations for P' = dP/ds and m, one where the profile is symmetric and m the axis. On
+for all s: two equations for P' = dP/ds and m. On
 a panel they are collocated: Chebyshev series of P', but for a power of the distance from its
 beginning, and of m. A panel behind a kink of the profile has series in the logarithm of the
 distance from where an edge passed that. The integral is a trapezoidal rule as in `pieces`.
@@ -18,7 +18,7 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -43,6 +43,7 @@ SHORT_STEP = 1e-2  # after such a step the matrix is kept
 STEEP, LEAST_SHARE = 0.9999, 1e-3  # of 1, |m'|; of a step, the part that may be taken
 SHIFTED = 1e-4  # of the distance from an edge: for derivatives of the kernel
 NOISY = 1e-10
+STILL = 1e-15  # half-widths: a middle that moves by less stays, as under a symmetric profile
 GRID: Array = np.linspace(-1.0, 1.0, 65)
 LEAST_RISE = 1e-3  # of s: how far an edge moves at least in trials
 
@@ -169,15 +170,16 @@ def _slope(series: Array, y: Array) -> Array:
     return values
 
 
-class Side(NamedTuple):
-    """The profile beside the contact on one side, between two places where it is not smooth.
+class Side(Protocol):
+    """The profile beside the contact on one side.
 
-    slope       sign times E*/2 h' at a distance outwards from where the panel begins
     sign        1 on the right
+    slope       sign times E*/2 h' at a distance outwards from where the panel begins
     """
 
-    slope: Callable[[Array], Array]
     sign: float
+
+    def slope(self, rise: Array) -> Array: ...
 
 
 def slope_of(
@@ -224,8 +226,7 @@ def collocated(
 ) -> Panel | None:
     """The panel with its series, from one with a guess of m; None if no step converges.
 
-    Of one side alone the middle stays, and the equations are linear. The matrix of Newton's method
-    is kept while steps are short.
+    The matrix of Newton's method is kept while steps are short.
     """
 
     def equations(panel: Panel) -> list[Equations]:
@@ -237,8 +238,6 @@ def collocated(
         np.concatenate(part) for part in zip(*((e.missed, e.loads) for e in now), strict=True)
     )
     panel = replace(panel, series=np.linalg.lstsq(loads, missed, rcond=None)[0])
-    if len(sides) == 1:
-        return panel
     matrix, before = np.zeros((0, 0)), math.inf
     for _ in range(NEWTONS):
         now = equations(panel)
@@ -256,7 +255,8 @@ def collocated(
         moved = float(np.abs(change).max()) / panel.length
         size = max(float(np.abs(step[:n]).max() / np.abs(panel.series).max()), moved)
         if share == 1.0 and (size <= SETTLED or (before <= ROUGH and size > 0.5 * before)):
-            return panel
+            stays = float(np.abs(panel.shifts).max()) <= STILL * panel.hi
+            return replace(panel, shifts=np.zeros(n)) if stays else panel
         before = size / share
     return None
 

@@ -21,7 +21,7 @@ from sie.numerics.root_finding import false_position
 from sie.profiles.slope import Slope
 from sie.progress_bar import step_done
 
-from .growth import DEGREE, Panel, Side, collocated
+from .growth import DEGREE, Panel, collocated
 
 if TYPE_CHECKING:
     from .flat import FlatPunch
@@ -76,7 +76,7 @@ class Edge:
     piece: int
     entered: float
     since: float
-    slope: Slope
+    profile: Slope
     half_modulus: float
 
     @property
@@ -87,20 +87,20 @@ class Edge:
     def end(self) -> float:
         """The distance to the next place where the profile is not smooth."""
         ahead = self.piece + (1 if self.sign > 0.0 else 0)
-        return self.sign * (float(self.slope.breaks[ahead]) - self.entered) - self.since
+        return self.sign * (float(self.profile.breaks[ahead]) - self.entered) - self.since
 
     @property
     def stays(self) -> bool:
         """Whether the edge would stay there: at the indenter's end, or where its slope jumps."""
-        if self.piece == (len(self.slope.origins) - 1 if self.sign > 0.0 else 0):
+        if self.piece == (len(self.profile.origins) - 1 if self.sign > 0.0 else 0):
             return True
         ahead = self.piece + (1 if self.sign > 0.0 else 0)
-        return self.slope.corner(float(self.slope.breaks[ahead]))[0] != 0.0
+        return self.profile.corner(float(self.profile.breaks[ahead]))[0] != 0.0
 
-    def values(self, rise: Array) -> Array:
+    def slope(self, rise: Array) -> Array:
         """E*/2 h' ahead, as it rises outwards."""
         u = self.sign * (self.since + rise)
-        found = self.slope.value(np.array([self.piece]), self.entered, u.ravel())
+        found = self.profile.value(np.array([self.piece]), self.entered, u.ravel())
         values: Array = self.sign * self.half_modulus * found.reshape(rise.shape)
         return values
 
@@ -110,7 +110,7 @@ class Edge:
     def passed(self) -> None:
         """Enters the next piece."""
         ahead = self.piece + (1 if self.sign > 0.0 else 0)
-        self.entered, self.since = float(self.slope.breaks[ahead]), 0.0
+        self.entered, self.since = float(self.profile.breaks[ahead]), 0.0
         self.piece += int(self.sign)
 
 
@@ -154,7 +154,7 @@ def _beside(slope: Slope, place: float, sign: float, r: float) -> tuple[float, f
     if side is None:
         return 0.0, math.inf
     d = min(FIRST * r, 1e-3 * side.end)
-    one, two = side.values(np.array([d, 2.0 * d])).tolist()
+    one, two = side.slope(np.array([d, 2.0 * d])).tolist()
     if one <= 0.0 or two <= 0.0:
         return 0.0, 0.0
     power = math.log2(two / one)
@@ -174,7 +174,7 @@ def edge_at(slope: Slope, place: float, sign: float, half_modulus: float) -> Edg
 
 
 class March:
-    """The panels from first touch on; about an axis of symmetry the middle stays."""
+    """The panels from first touch on."""
 
     def __init__(
         self,
@@ -182,22 +182,19 @@ class March:
         slope: Slope,
         half_modulus: float,
         touch: Touch,
-        *,
-        axis: float | None = None,
         exponent: float = 0.0,
     ) -> None:
-        self.flat, self.touch, self.even = flat, touch, axis is not None
+        self.flat, self.touch = flat, touch
         self.panels: list[Panel] = []
         self.base = 0.5 * (touch.hi - touch.lo)
-        self.middle = touch.lo + self.base if axis is None else axis
-        edges = [
+        self.middle = touch.lo + self.base
+        left, right = (
             edge_at(slope, place, sign, half_modulus)
             for place, sign in ((touch.lo, -1.0), (touch.hi, 1.0))
-        ]
-        start = self._start(edges[0] is None or edges[1] is None)
-        assert edges[0] is not None and edges[1] is not None
-        self.edges = (edges[1],) if self.even else (edges[1], edges[0])
-        self.power, self.rate = start
+        )
+        self.power, self.rate = self._start(left is None or right is None)
+        assert left is not None and right is not None
+        self.edges = right, left
         # of a power law, h = C |x|^m: P' is one power then
         self.exponent = exponent
         if exponent:
@@ -221,7 +218,7 @@ class March:
             )
         power = self.flat.exponent - 1.0 + q if self.base else q
         turn = (left / right) ** (1.0 / (q + self.flat.exponent)) if self.base else 1.0
-        return power, 0.0 if self.even else (turn - 1.0) / (turn + 1.0)
+        return power, (turn - 1.0) / (turn + 1.0)
 
     @property
     def s(self) -> float:
@@ -278,8 +275,7 @@ class March:
         series = np.zeros(degree)
         empty = Panel(lo, lo + length, power, behind, middle, series, series)
         shifts = chebyshev.transform(rate * empty.ahead(chebyshev.points(degree)))
-        sides = tuple(Side(edge.values, edge.sign) for edge in self.edges)
-        return collocated(self.flat, self.panels, replace(empty, shifts=shifts), sides)
+        return collocated(self.flat, self.panels, replace(empty, shifts=shifts), self.edges)
 
     def _missed(self, panel: Panel, goal: float) -> float:
         """What the last coefficients of both series carry, in parts of the load and of the goal."""

@@ -16,11 +16,11 @@ from numpy.typing import NDArray
 from sie.contact.known_contact import Edges, Normal
 from sie.errors import ContactError
 from sie.numerics.interval import EPS, Interval
+from sie.numerics.root_finding import false_position
 from sie.problem.scene import Scene
 from sie.profiles.slope import Slope
 from sie.progress_bar import reported
 
-from .axis import LOOKS, symmetry_axis
 from .flat import FlatPunch, flat_punch
 from .frozen import Frozen
 from .goodman import goodman_flat
@@ -32,12 +32,12 @@ Array = NDArray[np.float64]
 
 WIDER = 1.0 + 64.0 * EPS  # than the frictionless contact: as far as P' is sought at first
 MORE = 1.1  # where a load asks for more
-NEARLY, BISECTIONS = 1e-14, 60  # of the load; and steps to it
+NEARLY = 1e-14  # of the load
 MOST_KINKS = 8  # of the profile within the contact: each cuts a state at up to five places
 NARROWEST_STICK = 1e-9  # of the contact
 RESOLVED = 3e-12  # of P: what a state may miss
 STEEPEST = 1.5  # β f: exponents at the ends of slip zones are then 0.19 and 0.81
-# Points where the symmetry of a profile is measured, and to what part of its largest slope.
+LOOKS = 64  # places at which a slope is looked at
 
 
 @reported("contact of dissimilar bodies")
@@ -49,41 +49,34 @@ def coupled_contact(
     `frictionless` solves the normal problem of a scene; its contact bounds the search.
     """
     punch = goodman_flat if scene.neglects_beta else flat_punch
-    flat, half_modulus = punch(abs(scene.beta), scene.friction), 0.5 * scene.Estar
+    flat = punch(abs(scene.beta), scene.friction)
     _refuse_friction(flat, scene)
-    sign = math.copysign(1.0, scene.beta)
     bound = frictionless(_without_friction(scene))
-    contact, axis = bound.edges.contact, symmetry_axis(scene, bound.edges)
-    slope = bound.slope(scene.profile)
+    contact, slope = bound.edges.contact, bound.slope(scene.profile)
+    common = math.copysign(1.0, scene.beta), 0.5 * scene.Estar, scene.friction
     if _flat(slope, contact):
-        P = scene.normal_load
-        assert P is not None
-        state: Grown | Flat = Flat(
-            flat, P, sign, half_modulus, scene.friction, contact.m, contact.r
-        )
-        return state.edges, state
+        assert scene.normal_load is not None
+        state: Grown | Flat = Flat(flat, scene.normal_load, *common, contact.m, contact.r)
+    else:
+        march, s, P = _grown(scene, flat, slope, contact)
+        frozen, events = Frozen(flat, tuple(march.panels)), (march.base, *march.kinks)
+        state = Grown(flat, P, *common, frozen, events, slope, s)
+        _refuse_unresolved(state, P)
+    return state.edges, state
+
+
+def _grown(
+    scene: Scene, flat: FlatPunch, slope: Slope, contact: Interval
+) -> tuple[March, float, float]:
+    """The growth up to the load or the half-width of a scene, and both."""
     touch = first_touch(slope, *contact[:2])
     _refuse_many_kinks(slope, contact, touch)
-    law = scene.profile.power_law
-    exponent = law.exponent if law is not None and axis is not None else 0.0
-    march = March(flat, slope, half_modulus, touch, axis=axis, exponent=exponent)
+    law, P = scene.profile.power_law, scene.normal_load
+    exponent = law.exponent if law is not None else 0.0
+    march = March(flat, slope, 0.5 * scene.Estar, touch, exponent)
     # without β q the contact is that without friction
-    s, P = _marched(march, None if flat.approximate else scene.normal_load, contact.r)
-    P = P if scene.normal_load is None else scene.normal_load
-    state = Grown(
-        flat,
-        P,
-        sign,
-        half_modulus,
-        scene.friction,
-        Frozen(flat, tuple(march.panels)),
-        (march.base, *march.kinks),
-        slope,
-        math.nan if axis is None else axis,
-        s,
-    )
-    _refuse_unresolved(state, P)
-    return state.edges, state
+    s, load = _marched(march, None if flat.approximate else P, contact.r)
+    return march, s, load if P is None else P
 
 
 def _refuse_friction(flat: FlatPunch, scene: Scene) -> None:
@@ -156,17 +149,13 @@ def _marched(march: March, P: float | None, goal: float) -> tuple[float, float]:
 
 def _at_load(panel: Panel, missing: float) -> float:
     """How far along the panel it carries that load."""
-    lo, hi = 0.0, panel.length
-    d = hi * missing / panel.load(hi)
-    for _ in range(BISECTIONS):
-        missed = panel.load(d) - missing
-        lo, hi = (lo, d) if missed > 0.0 else (d, hi)
-        if abs(missed) <= NEARLY * missing:
-            break
-        d -= missed / float(panel(np.array(d)))
-        if not lo < d < hi:
-            d = 0.5 * (lo + hi)
-    return d
+    return false_position(
+        lambda d: panel.load(d) - missing,
+        0.0,
+        panel.length,
+        (-missing, panel.load(panel.length) - missing),
+        lambda _lo, _hi, missed: abs(missed) <= NEARLY * missing,
+    )
 
 
 def _at_corner(march: March) -> str:

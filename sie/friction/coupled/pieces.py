@@ -61,10 +61,9 @@ class Places(NamedTuple):
     zone: Index
     piece: Index
 
-    def chosen(self, mask: NDArray[np.bool_]) -> Places:
+    def chosen(self, some: NDArray[np.bool_] | slice) -> Places:
         """Some of them."""
-        anchor, offset, x, weight, zone, piece = self
-        return Places(anchor[mask], offset[mask], x[mask], weight[mask], zone[mask], piece[mask])
+        return Places._make(column[some] for column in self)
 
 
 @dataclass(frozen=True, eq=False)
@@ -173,8 +172,8 @@ class Pieces:
             apart[i, :i] = np.cumsum(self.lengths[:i][::-1])[::-1]
         return apart - apart.T
 
-    def rule(self, shift: float, lowered: float = 0.0) -> Places:
-        """Nodes at v = (k + shift) h on every piece.
+    def rule(self, shift: float, lowered: float = 0.0, finer: int = 1) -> Places:
+        """Nodes at v = (k + shift) h on every piece, or those of several shifts together.
 
         `lowered`: what the exponents of the integrands at the ends of zones are smaller by.
         """
@@ -191,14 +190,14 @@ class Pieces:
         columns = []
         for k, length in enumerate(self.lengths.tolist()):
             lo, hi = (math.ceil(reach[k + side] / h) for side in (0, 1))
-            v = h * (np.arange(-lo, hi + 1) + shift)
+            v = h * (np.arange(-lo * finer, (hi + 1) * finer) / finer + shift)
             e = np.exp(-np.abs(v))
             near, far, on_left = length * e / (1.0 + e), length / (1.0 + e), v < 0.0
             columns.append(
                 (
                     np.where(on_left, k, k + 1),
                     np.where(on_left, near, -near),
-                    h * near * far / length,
+                    h / finer * near * far / length,
                     np.full(len(v), k),
                 )
             )

@@ -8,18 +8,19 @@ integrals over the growth.
 from __future__ import annotations
 
 import itertools
+import math
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from sie.numerics.gauss_jacobi import with_weight
 from sie.numerics.interval import Interval
 from sie.profiles.slope import Slope
-from sie.traction.base import on_line
 
+from .answer import View
 from .fields import Fields
 from .flat import FlatPunch
 from .frozen import Frozen, Gradient
@@ -27,11 +28,11 @@ from .pieces import FINE, Pieces
 from .search import state_of
 from .state import HalfSlope, Question
 from .step import Loaded
-from .view import View
 
 Array = NDArray[np.float64]
 
 WINDOW = 1.3  # half-widths from the middle: what no contact under Q leaves
+STAYED = 1e-9  # half-widths: by less a middle has not moved
 LIGHTER = 0.9  # of the growth beyond the flat base: what sticks then sticks already
 PARTS: Array = np.linspace(0.0625, 0.9375, 8)  # of a slip zone, at which slip is tested
 TOLD = 1e-7  # of the contact: places in narrower slip zones are not told by x
@@ -111,21 +112,6 @@ class Pressed(View):
         way = "outwards" if self.sign > 0.0 else "inwards"
         return f"{way} on both sides while the normal load grew; β couples p and q"
 
-    def relative_slip(self, x: ArrayLike) -> Array:
-        """The slip at x since it came into contact, same shape: 0 outside the contact."""
-
-        def value(flat: Array) -> Array:
-            g, (lo, hi) = np.zeros(flat.shape), self.contact[:2]
-            inside = (flat >= lo) & (flat <= hi)
-            g[inside] = self.sign / self.half_modulus * self._slip(flat[inside] - self.origin)
-            return g
-
-        return on_line(value, x)
-
-    def _slip(self, x: Array) -> Array:
-        """E*/2 times the slip for β > 0, at places about the origin."""
-        raise NotImplementedError
-
     @cached_property
     def least_slip(self) -> float:
         """The least slip outwards in a slip zone, over the largest."""
@@ -156,14 +142,12 @@ class Grown(Pressed):
     frozen      integrals over all contacts
     events      half-widths at which the growth began, or an edge passed a kink of the profile
     slope       h'
-    axis        of symmetry; nan if there is none
     s           half the width
     """
 
     frozen: Frozen
     events: tuple[float, ...]
     slope: Slope
-    axis: float
     s: float
 
     @property
@@ -178,6 +162,11 @@ class Grown(Pressed):
     def base(self) -> float:
         """Half the width of the flat base."""
         return self.events[0]
+
+    @property
+    def axis(self) -> float:
+        """The middle if it stayed, as under a symmetric profile; nan if it moved."""
+        return self.origin if abs(self.middle - self.origin) <= STAYED * self.s else math.nan
 
     @cached_property
     def origin(self) -> float:  # type: ignore[override]

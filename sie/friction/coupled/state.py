@@ -122,9 +122,7 @@ class State:
         sticks, chi = self.sticks(t), self.chi(t)
         size = np.exp(self.pieces.log_chi(eta) - n * math.log(self.half_width))
         chi_beside = np.where(eta.anchor == 0, (-1.0) ** n, 1.0) * size
-        kernel = self.pieces.apart(eta, t)
-        np.divide(1.0 / math.pi, kernel, out=kernel)
-        weight = t.weight / chi
+        kernel, weight = self.cauchy(eta, t), t.weight / chi
         factor = weight * self._arm(t) ** n
         L = kernel * (chi_beside * self._arm(eta) ** -n)[:, None]
         L *= factor
@@ -160,16 +158,19 @@ class State:
 
     def psi(self, at: Places, sources: Places | None = None, mass: Array | None = None) -> Array:
         """PVΨ at places half a step from the sources, the nodes unless given."""
-        kernel = self.pieces.apart(at, self.nodes if sources is None else sources)
-        np.divide(1.0 / math.pi, kernel, out=kernel)
+        kernel = self.cauchy(at, self.nodes if sources is None else sources)
         values: Array = kernel @ (self._solved[0] if mass is None else mass)
         return values
 
+    def cauchy(self, at: Places, sources: Places) -> Array:
+        """1/(π (x - t)) of all pairs."""
+        kernel = self.pieces.apart(at, sources)
+        return np.divide(1.0 / math.pi, kernel, out=kernel)
+
     def A(self, at: Places, sources: Places) -> Array:
         """A in contact, at places half a step from the sources."""
-        kernel = self.pieces.apart(at, self.beside)
-        np.divide(-1.0 / math.pi, kernel, out=kernel)
-        values: Array = kernel @ (self.beside.weight * self._solved[1]) + self.of_slope(at, sources)
+        D = self.beside.weight * self._solved[1]
+        values: Array = self.of_slope(at, sources) - self.cauchy(at, self.beside) @ D
         return values
 
     def rows(self, rules: list[Places]) -> list[Array]:
@@ -194,8 +195,7 @@ class State:
             mass = masses[k - half] * sources.weight / chi[k - half]
             flow[slips] = chi[k][slips] * self.psi(at.chosen(slips), sources, mass)
             limit = self.pieces.sign[at.zone] * question.friction
-            kappa = limit * beta
-            p = np.where(sticks, masses[k], cos * flow - kappa * H1[k] / (1.0 + kappa**2))
+            p = np.where(sticks, masses[k], self._in_slip(at, flow, H1[k]))
             found.append(np.stack((p, limit * p, gammas[k])))
         return found
 
@@ -216,12 +216,17 @@ class State:
     def shear_halfway(self) -> Array:
         """q on the nodes halfway."""
         at, question = self.halfway, self.question
-        sticks, psi, H1 = self.sticks(at), self.psi(at), question.slope(at.x)
-        flow = self.chi(at) * psi
-        q = (flow - H1) / question.beta
-        kappa = self.pieces.sign[at.zone] * question.beta * question.friction
-        slip = math.cos(math.pi * question.theta) * flow - kappa * H1 / (1.0 + kappa**2)
-        values: Array = np.where(sticks, q, self.pieces.sign[at.zone] * question.friction * slip)
+        flow, H1 = self.chi(at) * self.psi(at), question.slope(at.x)
+        limit = self.pieces.sign[at.zone] * question.friction
+        slip = limit * self._in_slip(at, flow, H1)
+        values: Array = np.where(self.sticks(at), (flow - H1) / question.beta, slip)
+        return values
+
+    def _in_slip(self, at: Places, flow: Array, H1: Array) -> Array:
+        """p in slip by χ Ψ."""
+        kappa = self.pieces.sign[at.zone] * self.question.beta * self.question.friction
+        cos = math.cos(math.pi * self.question.theta)
+        values: Array = cos * flow - kappa * H1 / (1.0 + kappa**2)
         return values
 
     @cached_property
@@ -234,25 +239,6 @@ class State:
         Q = float(self.halfway.weight @ self.shear_halfway)
         return np.append(moments, (Q - question.Q) / (question.friction * question.P))
 
-    # -- beside the contact ------------------------------------------------------------------------
-
-    def beside_contact(self, x: Array) -> tuple[Array, Array]:
-        """Hp and Hq beside the contact."""
-        left = x < self.middle
-        ends = self.pieces.ends[[0, -1]]
-        anchor = np.where(left, 0, len(self.pieces.cuts) - 1)
-        offset = x - np.where(left, *ends)
-        none, (order, back) = np.zeros(len(x), dtype=int), _sorted(anchor)
-        at = Places(anchor[order], offset[order], x[order], none, none, none)
-        t, n = self.nodes, self.pieces.slip_zones
-        kernel = self._arm(t) ** n / self.pieces.apart(at, t)
-        size = np.exp(self.pieces.log_chi(at) - n * math.log(self.half_width))
-        size *= np.where(at.anchor == 0, (-1.0) ** n, 1.0) * self._arm(at) ** -n / math.pi
-        Hp = size * (kernel @ self._solved[0])
-        q = self.halfway.weight * self.shear_halfway
-        Hq = (1.0 / self.pieces.apart(at, self.halfway)) @ q / math.pi
-        return Hp[back], Hq[back]
-
     # -- rates -------------------------------------------------------------------------------------
 
     def rates(self, dQ: float, strain: float) -> Rates:
@@ -261,59 +247,50 @@ class State:
         All ends e move, so that exponents are smaller by 1: F = χ (Ψ + polynomial)/Π(z - e), the
         polynomial of the degree n - 2 as P is constant.
         """
-        question, pieces, n = self.question, self.pieces, self.pieces.slip_zones
-        beta, eta = question.beta, pieces.outside(1.0)
-        t, at = pieces.rule(0.0, 1.0), pieces.rule(0.5, 1.0)
-        t = t.chosen(self.sticks(t))
-        chi, chi_at = self._chi_of_rates(t), self._chi_of_rates(at)
-        chi_beside = np.where(eta.anchor == 0, (-1.0) ** n, 1.0) * np.exp(self._log_rates(eta))
-        kernel = pieces.apart(eta, t)
-        np.divide(1.0 / math.pi, kernel, out=kernel)
-        # in units of χ, which is infinite at the edges
-        L = kernel * (t.weight / chi)
-        M = kernel.T * (eta.weight * chi_beside) / (1.0 - beta**2)
-        source = np.full(len(t.x), -beta / (1.0 - beta**2))
-        right = np.stack((np.ones(len(eta.x)), L @ source), axis=1)
-        D = np.linalg.solve(np.eye(len(eta.x)) - L @ M, right)
-        p = M @ D
-        p[:, 1] += source
-        psi = self.psi(at, t, p * (t.weight / chi)[:, None])
-        psi[:, 0] += 1.0
-        flow, sticks = chi_at[:, None] * psi, self.sticks(at)
+        question, pieces, eta = self.question, self.pieces, self.pieces.outside(1.0)
+        at, beta, chi_beside = pieces.rule(0.5, 1.0), question.beta, self._chi_of_rates(eta, True)
+        psi, D = self._rates_solved(at, eta, chi_beside)
+        flow, sticks = self._chi_of_rates(at)[:, None] * psi, self.sticks(at)
         sign = pieces.sign[at.zone][:, None]
         slipping = math.cos(math.pi * question.theta) * flow
         q = np.where(sticks[:, None], flow / beta, sign * question.friction * slipping)
-        mixed = np.array([0.0, strain])
         resultants = at.weight @ q
-        mixed[0] = (dQ - resultants[1] * strain) / resultants[0]
-        slips = ~sticks
-        places = at.chosen(slips)
-        kernel = pieces.apart(places, eta)
-        np.divide(-1.0 / math.pi, kernel, out=kernel)
-        A = kernel @ (eta.weight * chi_beside * (D @ mixed))
-        gamma = (A - (1.0 - beta**2) * (slipping[slips] @ mixed)) / beta
+        mixed = np.array([(dQ - resultants[1] * strain) / resultants[0], strain])
+        places = at.chosen(~sticks)
+        A = -self.cauchy(places, eta) @ (eta.weight * chi_beside * (D @ mixed))
+        gamma = (A - (1.0 - beta**2) * (slipping[~sticks] @ mixed)) / beta
         return Rates(places, gamma)
+
+    def _rates_solved(self, at: Places, eta: Places, chi_beside: Array) -> tuple[Array, Array]:
+        """F/χ at places in contact, and D/χ beside it, of the polynomial 1 and of γ = 1 in stick.
+
+        χ is infinite at the edges.
+        """
+        pieces, beta = self.pieces, self.question.beta
+        t = pieces.rule(0.0, 1.0)
+        t = t.chosen(self.sticks(t))
+        kernel, weight = self.cauchy(eta, t), t.weight / self._chi_of_rates(t)
+        L = kernel * weight
+        M = kernel.T * (eta.weight * chi_beside) / (1.0 - beta**2)
+        source = np.full(len(t.x), -beta / (1.0 - beta**2))
+        right = np.stack((np.ones(len(eta.x)), L @ source), axis=1)
+        D = np.asarray(np.linalg.solve(np.eye(len(eta.x)) - L @ M, right), dtype=float)
+        p = M @ D
+        p[:, 1] += source
+        psi = self.psi(at, t, p * weight[:, None])
+        psi[:, 0] += 1.0
+        return psi, D
 
     def pressure_in_slip(self, at: Places) -> Array:
         """p at places in slip half a step from the nodes."""
-        kappa = self.pieces.sign[at.zone] * self.question.beta * self.question.friction
-        p = math.cos(math.pi * self.question.theta) * self.chi(at) * self.psi(at)
-        values: Array = p - kappa * self.question.slope(at.x) / (1.0 + kappa**2)
-        return values
+        return self._in_slip(at, self.chi(at) * self.psi(at), self.question.slope(at.x))
 
-    def _log_rates(self, at: Places) -> Array:
+    def _chi_of_rates(self, at: Places, beside: bool = False) -> Array:
         n = self.pieces.slip_zones
-        values: Array = self.pieces.log_chi(at, 1.0) + n * math.log(self.half_width)
+        size = np.exp(self.pieces.log_chi(at, 1.0) + n * math.log(self.half_width))
+        turns = np.where(at.anchor == 0, (-1.0) ** n, 1.0) if beside else self.pieces.turns[at.zone]
+        values: Array = turns * size
         return values
-
-    def _chi_of_rates(self, at: Places) -> Array:
-        values: Array = self.pieces.turns[at.zone] * np.exp(self._log_rates(at))
-        return values
-
-
-def _sorted(anchor: NDArray[np.intp]) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    order = np.argsort(anchor, kind="stable")
-    return order, np.argsort(order, kind="stable")
 
 
 class Rates(NamedTuple):

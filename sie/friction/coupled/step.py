@@ -16,10 +16,9 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from .cells import Carried, cuts_between, zones_on_cells
 from .fields import Fields, cumulative, summed
 from .pieces import Places
-from .search import Zones, settled, zones_between
+from .search import Carried, Zones, cuts_between, settled, zones_between, zones_of, zones_on_cells
 from .state import Question, State
 
 Array = NDArray[np.float64]
@@ -27,7 +26,6 @@ Array = NDArray[np.float64]
 CLOSED = 1e-12  # of f P: loads that are the same
 TOLERATED = 1e-9  # of the largest f p, and of the largest slip: what the verdict forgives
 AWAY = 0.05  # of the stick zone: how far its ends go about, times the root of the part of f P
-BEYOND, MOST_OTHERS = 0.02, 4  # of the way from a mark to the edge; starts beyond marks
 HALVINGS = 2  # of a step whose end is not found at once
 
 
@@ -63,8 +61,7 @@ class Loaded:
 
     @cached_property
     def zones(self) -> Zones:
-        pieces = self.state.pieces
-        return Zones(pieces.left, pieces.widths, pieces.signs)
+        return zones_of(self.state)
 
     @cached_property
     def marks(self) -> tuple[float, ...]:
@@ -120,33 +117,18 @@ class Loaded:
     def _starts(self, Q: float, strain: float) -> Iterator[tuple[Loaded, Zones | None]]:
         """States from which a step may be solved, and zones to start from."""
         if self.before is not None and self._farther(Q, strain) > 1.0:
-            yield self.before, self.ahead(Q, strain)
             yield self.before, guess(self.before, Q, strain)
-        near = guess(self, Q, strain)
-        yield self, near
-        yield from ((self, other) for other in beyond_marks(near, self.marks))
-
-    def ahead(self, Q: float, strain: float) -> Zones:
-        """The zones if slip goes on, which widen about as the loads since the turn."""
-        left, stick, right = self.zones.widths
-        grown = min(self._farther(Q, strain), 1.0 + 0.5 * stick / (left + right))
-        more = (grown - 1.0) * (left + right)
-        return Zones(self.zones.left, (grown * left, stick - more, grown * right), self.zones.signs)
+        yield self, guess(self, Q, strain)
 
     def _farther(self, Q: float, strain: float) -> float:
         """How far other loads are from where the loads turned, over how far these are."""
         assert self.before is not None
-        unit = self.friction * self.question.P / self.peak
+        unit = sum(self.zones.widths)
         now, then = (
             abs(load - self.before.Q) + unit * abs(other - self.before.strain)
             for load, other in ((Q, strain), (self.Q, self.strain))
         )
         return now / then
-
-    @property
-    def peak(self) -> float:
-        """The largest f p."""
-        return self.friction * float(self.fields.nodes[1][0].max())
 
     def returned(self, Q: float, strain: float) -> Loaded | None:
         """The earlier state under the same loads, if the loads closed a loop since then.
@@ -299,22 +281,6 @@ def guess(base: Loaded, Q: float, strain: float) -> Zones | None:
     if found is None:
         return nearly_sliding(base, Q, sliding) if sliding is not None else None
     return kept_within(found, base.zones, abs(dQ) / (base.friction * P))
-
-
-def beyond_marks(near: Zones | None, marks: tuple[float, ...]) -> Iterator[Zones]:
-    """Zones whose stick reaches beyond the next marks.
-
-    Between marks of loads that return, q is ± f p already: no end of stick is better than others.
-    """
-    if near is None or len(near.signs) != 3:
-        return
-    x1, e1, e2, x2 = near.ends.tolist()
-    lefts = [mark - BEYOND * (mark - x1) for mark in marks[::-1] if x1 < mark < e1]
-    rights = [mark + BEYOND * (x2 - mark) for mark in marks if e2 < mark < x2]
-    pairs = list(zip(lefts[-1:], rights[-1:], strict=False))
-    pairs += [(e1, right) for right in rights[::-1]] + [(left, e2) for left in lefts[::-1]]
-    for first, last in pairs[:MOST_OTHERS]:
-        yield zones_between(np.array([x1, first, last, x2]), near.signs)
 
 
 def nearly_sliding(base: Loaded, Q: float, sliding: State) -> Zones | None:

@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import math
 from bisect import insort
-from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import pairwise
@@ -20,9 +19,9 @@ from numpy.typing import NDArray
 
 from sie.errors import ContactError
 
-from .search import ROUGHLY, Zones, passing, settled
+from .search import ROUGHLY, Zones, passing, settled, zones_of
 from .state import Question, State
-from .step import Loaded, beyond_marks, guess, slip_along
+from .step import Loaded, guess, slip_along
 
 Array = NDArray[np.float64]
 
@@ -33,20 +32,7 @@ CLOSE = 1e-5  # parts that are one, where zones are told from known ones
 NARROW = 1e-5  # of an interval: the power there is taken for that farther in
 SMALL = 0.03  # of a step: where powers may be told from later ones
 TURNED = 1e-4  # of the power: what slip against q may take from it
-# Parts of a step before a loop is closed at its end
-TOWARDS_RETURN = (
-    0.5,
-    0.8,
-    0.9,
-    0.95,
-    0.98,
-    0.99,
-    0.995,
-    0.998,
-    0.999,
-    0.9995,
-    0.9999,
-)
+TOWARDS_RETURN = [1.0 - 0.4**k for k in range(1, 11)]  # parts before a loop is closed at the end
 APART = 1e-6  # of the step: marks that are passed nearer to its ends are not divided at
 
 
@@ -125,12 +111,7 @@ class Way:
         """The zones at the end, where a loop that is closed there has not yet been left."""
         if not self.returns:
             return self.after.zones
-        for part in TOWARDS_RETURN:
-            state = self._found(part)
-            if state is None:
-                raise _unknown()
-            self._keep(part, state)
-        return self.known[-1][1]
+        return [self._zones(part) for part in TOWARDS_RETURN][-1]
 
     @cached_property
     def _beginning(self) -> Array:
@@ -148,40 +129,28 @@ class Way:
         start = self._beginning[end]
         ahead = abs(mark - start)
         places = {part: abs(zones.ends[end] - start) for part, zones in self.known}
-        later = min(part for part, place in places.items() if place > ahead)
+        later = min((part for part, place in places.items() if place > ahead), default=None)
+        if later is None:
+            raise _unknown()
         sooner = max((part for part in places if part < later), default=0.0)
         done = places.get(sooner, 0.0)
         part = sooner + (later - sooner) * (ahead - done) / (places[later] - done)
-        zones = self.near(part)
+        zones = self.near(part) or guess(self.base, *self.loads(part))
         found = passing(self.question, (part, zones), self.marks, end, mark) if zones else None
         if found is None or not 0.0 < found[0] < 1.0:
             raise _unknown()
-        self._keep(*found)
+        insort(self.known, (found[0], zones_of(found[1])))
         return found[0]
 
-    def _starts(self, part: float) -> Iterator[Zones]:
-        """Zones to start from at a part, the likelier first."""
-        near = self.near(part)
-        if near is not None:
-            yield near
-        other = self.guess(part)
-        if other is not None:
-            yield other
-            yield from beyond_marks(other, self.marks)
-
     def near(self, part: float) -> Zones | None:
-        """Zones next to those at a part, from those that are known, or else from cells.
+        """Zones next to those at a part, from those that are known, if there are enough.
 
         After a turn widths grow about as powers of the part.
         """
-        if not self.known:
-            return None
         closest = sorted(self.known, key=lambda known: abs(known[0] - part))[:2]
-        (a, one), (b, other) = closest[0], closest[-1]
-        if a == part:
-            return one
-        if a == b:
-            return self.guess(part)
+        if len(closest) < 2 or closest[0][0] == part:
+            return next((zones for known, zones in closest if known == part), None)
+        (a, one), (b, other) = closest
         outside = self.turned and part < min(a, b)
         weight = math.log(part / a) / math.log(b / a) if outside else (part - a) / (b - a)
         edges, share = other.ends[[0, -1]], 1.0 - weight
@@ -189,26 +158,17 @@ class Way:
             edges, share = self.previous.zones.ends[[0, -1]], part / a
         x1, x2 = edges + share * (one.ends[[0, -1]] - edges)
         slips, more = (np.log([known.widths[0], known.widths[-1]]) for known in (one, other))
-        left, right = np.exp(slips + weight * (more - slips)).tolist()
-        if left + right >= x2 - x1:
-            return self.guess(part)
-        return Zones(float(x1), (left, float(x2 - x1) - left - right, right), one.signs)
-
-    def guess(self, part: float) -> Zones | None:
-        """Zones next to those at a part, from cells."""
-        Q, strain = self.loads(part)
-        return guess(self.base, Q, strain)
+        widths = slips + weight * (more - slips)
+        if float(widths.max()) >= math.log(x2 - x1):
+            return None
+        left, right = np.exp(widths).tolist()
+        stick = float(x2 - x1) - left - right
+        return Zones(float(x1), (left, stick, right), one.signs) if stick > 0.0 else None
 
     def loads(self, part: float) -> tuple[float, float]:
         """Q and strain at a part of the step."""
         (dQ, strain), rest = self.after.step, 1.0 - part
         return self.after.Q - rest * dQ, self.after.strain - rest * strain
-
-    def _keep(self, part: float, state: State) -> None:
-        pieces = state.pieces
-        if any(abs(part - other) <= CLOSE * part for other, _ in self.known):
-            return
-        insort(self.known, (part, Zones(pieces.left, pieces.widths, pieces.signs)))
 
     def power(self, part: float) -> float | None:
         """∫ f p |dg| dx at a part of the step, per part.
@@ -223,14 +183,30 @@ class Way:
             return None
         if state is None or state.pieces.signs != self._ending.signs:
             raise _unknown()
-        self._keep(part, state)
         return power(state, *self.after.step)
 
     def _found(self, part: float) -> State | None:
         """The state at a part of the step, roughly."""
-        question = self.question(part)
-        found = (settled(question, zones, self.marks, ROUGHLY) for zones in self._starts(part))
-        return next((state for state in found if state is not None), None)
+        state, loads = self._settled(part, self.near(part)), self.loads(part)
+        if state is None:
+            state = self._settled(part, guess(self.base, *loads))
+        if state is None:
+            found = self.previous.stepped(*loads, 0)
+            if found is None or (found.base or found.before) is not self.base:
+                return None
+            state = found.state
+        if all(abs(part - other) > CLOSE * part for other, _ in self.known):
+            insort(self.known, (part, zones_of(state)))
+        return state
+
+    def _settled(self, part: float, start: Zones | None) -> State | None:
+        return settled(self.question(part), start, self.marks, ROUGHLY) if start else None
+
+    def _zones(self, part: float) -> Zones:
+        state = self._found(part)
+        if state is None:
+            raise _unknown()
+        return zones_of(state)
 
 
 def power(state: State, dQ: float, strain: float) -> float:

@@ -11,9 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie.errors import ContactError
+from sie.friction.coupled.traction import smooth_between
 from sie.friction.loading import contact_under
 from sie.friction.loads import Loads
-from sie.friction.panel_shear import PanelShear
 from sie.friction.part_answers import drag, slip
 from sie.friction.slip_state import Slip
 from sie.friction.state import SAME, State, between, intervals
@@ -178,7 +178,7 @@ class CourseSlip(PathSlip):
             inside = marks[(marks > x1 + room) & (marks < x2 - room)]
             rule = Rule.graded(intervals([(x1, x2)], inside, room))
             load = float(rule.weight @ state.shear.on(rule))
-            return PanelShear(zone, state.shear, inside.tolist(), load, contact.limit)
+            return smooth_between(zone, state.shear, inside.tolist(), load)
 
         found = [of_patch(*patch) for patch in contact.patches]
         return found[0] if len(found) == 1 else superposed(*((1.0, q) for q in found))
