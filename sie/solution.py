@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Collection, Sequence
 from dataclasses import replace
-from functools import partial
+from functools import cached_property, partial
 from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
@@ -29,7 +29,6 @@ from .problem.request import ECONOMY, sheared
 from .problem.scene import Scene
 from .profiles.placed_traces import traces_in
 from .stages import changed_scene, kept_stages
-from .stages import stage as cached_property  # its first reading is logged
 from .stress_answers import StressAnswers
 from .traction.base import ZERO, Density, on_line
 from .traction.combination import scaled

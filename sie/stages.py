@@ -1,22 +1,12 @@
-"""Results that are computed when they are read first, and which of them a change of a scene keeps.
-
-The log says which were computed, and how long that took. It is Python's: `logging.getLogger("sie")`
-and its children say nothing unless a program gives them a handler and a level, like
-`logging.basicConfig(level="DEBUG")`.
-"""
+"""Which results of a solution a change of its scene keeps."""
 
 from __future__ import annotations
 
-import logging
-import time
 from collections.abc import Mapping
 from dataclasses import fields, replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from .problem.scene import Scene
-
-LOG = logging.getLogger("sie")
-LOG.addHandler(logging.NullHandler())
 
 FIELDS = frozenset(f.name for f in fields(Scene))
 # The fields and properties of a scene that each stage depends on.
@@ -33,25 +23,6 @@ STAGES = {
     **dict.fromkeys(OF_SHEAR, SHEAR),
     **dict.fromkeys(("pressed", "locked_in"), PRESSED),
 }
-
-if TYPE_CHECKING:
-    from functools import cached_property
-
-    stage = cached_property
-else:
-    from functools import cached_property
-
-    class stage(cached_property):  # a function's name, as cached_property has it
-        """A `functools.cached_property` whose first reading is logged."""
-
-        def __get__(self, owner: Any, kind: type | None = None) -> Any:
-            """The value, computed if it is not there yet."""
-            if owner is None or not LOG.isEnabledFor(logging.DEBUG):
-                return super().__get__(owner, kind)
-            start = time.perf_counter()
-            value = super().__get__(owner, kind)
-            LOG.debug("%s: %.3g ms", self.attrname, 1e3 * (time.perf_counter() - start))
-            return value
 
 
 def changed_scene(scene: Scene, changes: Mapping[str, Any]) -> Scene:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from functools import partial
+from functools import cached_property, partial
 from typing import TYPE_CHECKING
 
 from numpy.typing import ArrayLike
@@ -12,7 +12,6 @@ from .errors import ContactError
 from .problem.material import Elastic
 from .problem.request import refuse_unknown_poisson
 from .problem.scene import Scene
-from .stages import stage as cached_property  # its first reading is logged
 from .stress.half_plane import Stress, Tractions
 from .stress.yield_limit import (
     Criterion,

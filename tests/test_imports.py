@@ -28,7 +28,6 @@ APART = {
 # before it.
 LAYERS = (
     (
-        "interrupt",
         "inheritance",
         "errors",
         "files",

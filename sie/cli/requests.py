@@ -20,7 +20,6 @@ from sie.io.answers import wanted
 from sie.io.scene_file import SceneFile
 from sie.io.stress_grid import SUFFIXES
 from sie.problem.request import WANTS
-from sie.stages import LOG
 
 from .parser import STANDARD
 
@@ -33,18 +32,12 @@ def scene_of(arguments: argparse.Namespace) -> SceneFile:
     want = scene_file.wants("--want", [name for name in ",".join(words).split(",") if name])
     if words and not want:
         raise ValueError(f"--want names nothing: give {choices(WANTS)}")
-    if arguments.scene is None:
-        raise ValueError(
-            f"give the scene file first: sie {arguments.command} scene.toml; "
-            "`sie example` lists some to start from"
-        )
     standard = arguments.scene == STANDARD
     file = (
         scene_file.parse(_standard_input(), "standard input")
         if standard
         else scene_file.read(arguments.scene)
     )
-    LOG.info("read %s: %r", arguments.scene, file.scene)
     return replace(file, want=want or wanted(file))
 
 

@@ -6,14 +6,16 @@ of another path all points, and of a scene without path its one state.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
+from sie.arguments import named_rows
 from sie.cracks.stress_intensity import stress_intensity
 from sie.progress_bar import reported
 
-from .crack_table import EDGES
-from .scene_file import SceneFile
+from .scene_file import SceneFile, Units
+from .scene_keys import EDGES
 
 if TYPE_CHECKING:
     from sie.solution import Solution
@@ -59,3 +61,23 @@ def _edge(states: Sequence[Solution], name: str) -> float:
             f'[crack] at = "{name}": no tangential load makes an edge trail; give at = x'
         )
     return pushed.edges[0 if (Q > 0.0) == (name == EDGES[0]) else 1]
+
+
+def crack_summary(crack: dict[str, Any], units: Units) -> str:
+    """The answer of `crack_answer` in lines."""
+    unit = f"{units.stress} √{units.length}"
+    rows = [("cracks", f"from x = {crack['x']:.6g}, {len(crack['mode_1'])} states; K in {unit}")]
+    for i, depth in enumerate(crack["depth"]):
+        K_1, K_2 = ([K[i] for K in crack[name]] for name in ("mode_1", "mode_2"))
+        text = (
+            f"K_I {min(K_1):.5g} to {max(K_1):.5g}, range {crack['range_1'][i]:.5g};  "
+            f"K_II {min(K_2):.5g} to {max(K_2):.5g}, range {crack['range_2'][i]:.5g}"
+        )
+        if "threshold" in crack:
+            text += f";  threshold {crack['threshold'][i]:.5g}"
+        rows.append((f"{depth:.6g} {units.length}", text))
+    if "arrest" in crack:
+        depth = crack["arrest"]
+        grows = f"not down to {crack['depth'][-1]:.6g} {units.length}"
+        rows.append(("arrest", grows if math.isinf(depth) else f"at {depth:.6g} {units.length}"))
+    return named_rows(*rows)

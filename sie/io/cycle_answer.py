@@ -22,8 +22,7 @@ from sie.stress.fretting import Cycle
 from sie.stress.half_plane import Tractions
 from sie.stress.surface_search import ROUNDS, by_value, columns, largest
 
-from .fatigue_table import DEPTHS, Fatigue
-from .scene_file import SceneFile
+from .scene_file import Fatigue, SceneFile
 
 if TYPE_CHECKING:
     from sie.solution import Solution
@@ -31,6 +30,7 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 COMPONENTS = ("xx", "yy", "xy")
+DEPTHS = (0.01, 0.1)  # of the largest half-width, where none is given
 SLIP_ROUNDS = 4  # of narrowing for what depends on the slip
 
 
@@ -70,7 +70,8 @@ def cycle_of(solution: Solution, file: SceneFile) -> dict[str, Any]:
     answer |= _slip(Cycle(history[start:]), tractions, widest)
     x = columns(tractions, 0.0)
     answer["surface"] = {name: _stress_range(cycle, x, name) for name in COMPONENTS}
-    depths = file.fatigue.depth or tuple(part * widest.half_width for part in DEPTHS)
+    given = file.fatigue.depth or tuple(part * widest.half_width for part in DEPTHS)
+    depths = given if isinstance(given, tuple) else (given,)
     known = isinstance(history.scene.body, Elastic)
     return answer | _parameters(cycle, file.fatigue, (0.0, *depths), known)
 

@@ -55,7 +55,7 @@ def summary(
 
         parts.append(cycle_summary(more["cycle"], file))
     if "crack" in more:
-        from .crack_table import crack_summary  # noqa: PLC0415
+        from .crack_answer import crack_summary  # noqa: PLC0415
 
         parts.append(crack_summary(more["crack"], file.units))
     printed = solution.check().notes if "check" in wanted(file) else ()

@@ -22,9 +22,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from sie import __version__
 from sie.files import table_of_columns
 from sie.problem.request import GRID
 from sie.stress.half_plane import Stress
+
+from .scene_file import SceneFile
 
 if TYPE_CHECKING:
     from sie.solution import Solution
@@ -64,15 +67,16 @@ class Grid:
         return self.solution.stress(self.x, self.y[:, None])
 
 
-def file_bytes(grid: Grid, suffix: str, head: tuple[str, ...] = ()) -> bytes:
-    """The grid as a file of that suffix, with `head` as lines of comment.
-
-    ValueError for a suffix that is not known.
-    """
-    writers = {"csv": _csv, "npz": _npz, "vti": _vti}
-    if suffix not in writers:
-        raise ValueError(f'a grid cannot be written as ".{suffix}": choose .{", .".join(SUFFIXES)}')
-    return writers[suffix](grid, tuple(map(_one_line, head)))
+def file_bytes(grid: Grid, suffix: str, file: SceneFile) -> bytes:
+    """The grid as a file of one of SUFFIXES, with lines of comment on the scene and its units."""
+    units, (x1, x2) = file.units, grid.solution.edges
+    head = (
+        f"{file.title or 'plane contact'} (sie {__version__})",
+        repr(grid.solution.scene),
+        f"lengths in {units.length}, stresses in {units.stress}, j2 in its square",
+        f"contact from x1 = {x1!r} to x2 = {x2!r}",
+    )
+    return {"csv": _csv, "npz": _npz, "vti": _vti}[suffix](grid, tuple(map(_one_line, head)))
 
 
 def _one_line(text: str) -> str:

@@ -168,7 +168,7 @@ def test_the_command_gives_nodal_forces(folder, capsys):
 @pytest.mark.parametrize(
     ("options", "words"),
     [
-        ("", "give the mesh and its node set"),
+        ("", "needs --nodes, --set"),
         ("--nodes deck.inp --set OUTR", 'did you mean "OUTER"'),
         ("--nodes deck.inp --set OUTER --body above", "is not in the indenter"),
         ("--nodes nothing.inp --set OUTER", "No such file"),

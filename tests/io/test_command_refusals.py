@@ -13,11 +13,13 @@ from sie.cli import main
 from sie.io import scene_file
 
 BAD = {
-    "no command": ("", "arguments are required"),
+    "no command": ("", "sie needs COMMAND"),
     "unknown command": ("slove scene.toml", "did you mean solve?"),
     "a file for a command": ("scene.toml", "like sie solve scene.toml"),
-    "no scene": ("solve", "give the scene file first"),
-    "an option that swallows the scene": ("solve --want scene.toml", '"scene.toml" is not known'),
+    "no scene": ("solve", "sie solve needs scene.toml: write files first, then options"),
+    "an option that swallows the scene": ("solve --want scene.toml", "needs scene.toml"),
+    "no mesh": ("compare scene.toml --json", "sie compare needs fem.csv"),
+    "a command of an earlier version": ("completion bash", "`sie --help` lists them"),
     "no such scene": ("solve none.toml", "does not exist"),
     "directory": ("solve .", "is a directory"),
     "a scene without a name": ("solve ''", "the name of the scene file is empty"),
@@ -41,9 +43,7 @@ BAD = {
     "a height in words": ("compare scene.toml fem.csv --surface top", "top is not a height"),
     "a height that is none": ("compare scene.toml fem.csv --surface nan", "nan is not a height"),
     "an unknown body": ("compare scene.toml fem.csv --body left", "give below or above"),
-    "an output for a scene": ("solve --json out.json --want edges", "give the scene file first"),
     "a file too many": ("compare scene.toml fem.csv third.csv", '"third.csv" is not understood'),
-    "unknown level of the log": ("solve scene.toml --log all", "all"),
     "unknown suffix of a field": ("solve scene.toml --field f.vtu", "use .csv, .npz, .vti"),
     "a grid of one column": ("solve scene.toml --field f.npz --grid 1x5", "1x5 is not a grid"),
     "a grid without a field": ("solve scene.toml --grid 5x5", "give --field FILE too"),

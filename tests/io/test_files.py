@@ -2,7 +2,6 @@
 overwritten.
 """
 
-import functools
 import os
 import signal
 import subprocess
@@ -218,35 +217,3 @@ def test_a_pipe_closed_early_is_exit_code_141_and_costs_no_file(argv, folder, cl
     found = subprocess.run(command, stdout=closed_pipe, stderr=subprocess.PIPE, check=False)
     assert (found.returncode, found.stderr) == (141, b"")
     assert Path("out.csv").exists() == ("out.csv" in argv)
-
-
-# -- Ctrl-C ---------------------------------------------------------------------------------------
-
-IMPORTING = """
-import os, signal, sys
-class Interrupting:
-    def find_spec(self, name, path=None, target=None):
-        if name == os.environ["INTERRUPTED_IMPORT"]:
-            os.kill(os.getpid(), signal.SIGINT)
-sys.meta_path.insert(0, Interrupting())
-"""
-
-
-@pytest.mark.slow(but=1)
-@posix
-@pytest.mark.parametrize("module", ["numpy", "sie.io.report"])
-@pytest.mark.parametrize("start", ["as a script", "-m sie"])
-def test_an_interruption_while_modules_are_imported_is_a_sentence(start, module, folder):
-    (folder / "sitecustomize.py").write_text(IMPORTING)
-    (folder / "sie").write_text("import sys\nfrom sie.cli import main\nsys.exit(main())\n")
-    path = os.pathsep.join([str(folder), *(place for place in sys.path if place)])
-    environment = os.environ | {"INTERRUPTED_IMPORT": module, "PYTHONPATH": path}
-    begin = ["-m", "sie"] if start == "-m sie" else ["sie"]
-    command = [sys.executable, *begin, "solve", "scene.toml"]
-    # A background job inherits that SIGINT is ignored.
-    heeded = functools.partial(signal.signal, signal.SIGINT, signal.SIG_DFL)
-    found = subprocess.run(
-        command, env=environment, capture_output=True, check=False, preexec_fn=heeded
-    )
-    assert (found.returncode, found.stdout) == (130, b"")
-    assert found.stderr == b"sie: interrupted by Ctrl-C\n"
