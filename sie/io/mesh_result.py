@@ -14,6 +14,7 @@ two sides of an extruded mesh, are averaged.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -22,9 +23,12 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from sie.io.mesh_files import formats
-from sie.io.mesh_files.names import QUANTITIES, STRESSES, TRACTIONS
-from sie.io.mesh_files.raw import Columns, Raw, chosen, row_means
+from sie import files
+from sie.profiles.trace_files import MESH
+
+from .mesh_files import abaqus_report, by_meshio, calculix_frd, node_lists, text_table
+from .mesh_files.names import QUANTITIES, STRESSES, TRACTIONS, chosen_names
+from .mesh_files.raw import Columns, Raw, chosen, row_means
 
 Array = NDArray[np.float64]
 
@@ -33,6 +37,8 @@ Array = NDArray[np.float64]
 COINCIDENT = 1e-8
 # Σ_yy at one end of the file has to be this many times that at the other.
 CLEARLY_LARGER = 2.0
+# CalculiX: "contact stress (slave node,press,tang1,tang2) for all contact elements and time 1.0".
+_PRINTED = re.compile(r"^ [a-z ]+\([^)\n]*\).* for .*\btime\b", re.MULTILINE)
 
 
 class Points(NamedTuple):
@@ -73,14 +79,9 @@ class Mesh:
     others: tuple[str, ...] = ()
     notes: tuple[str, ...] = ()
 
-    def points(self, quantity: str) -> tuple[Array, Array, Array]:
-        """(x, y, values) where the quantity is compared."""
-        field = self.fields[quantity]
-        return field.x, field.y, field.values
-
     def scattered(self, quantity: str) -> bool:
-        """Whether these points are not on a line at one depth."""
-        x, y, _ = self.points(quantity)
+        """Whether its points are not on a line at one depth."""
+        x, y, _, _ = self.fields[quantity]
         return bool(np.ptp(y) > 0.0 or np.ptp(x) == 0.0)
 
     def weights(self, quantity: str) -> Array:
@@ -90,8 +91,7 @@ class Mesh:
         ones, and at an end as far outwards as inwards: the pressure goes on beyond the last node
         or centre in contact.
         """
-        x, _, _ = self.points(quantity)
-        widths = self.fields[quantity].widths
+        x, _, _, widths = self.fields[quantity]
         if len(widths):
             return np.asarray(widths)
         if self.scattered(quantity):
@@ -99,6 +99,9 @@ class Mesh:
         middle = 0.5 * (x[1:] + x[:-1])
         ends = np.concatenate(([2.0 * x[0] - middle[0]], middle, [2.0 * x[-1] - middle[-1]]))
         return np.diff(ends)
+
+
+# -- files -----------------------------------------------------------------------------------------
 
 
 def read_mesh(
@@ -114,7 +117,38 @@ def read_mesh(
     `body` "below" or "above" it, and `columns` has names of columns by x, y, p, q, sxx, ....
     ValueError where the file cannot be compared.
     """
-    return _placed(formats.read(path, nodes, columns), surface, body)
+    path, columns = Path(path), columns or {}
+    raw = _raw(path, None if nodes is None else Path(nodes), columns)
+    for quantity, name in columns.items():
+        if not any(quantity in group for group in raw.groups):
+            raise ValueError(
+                f'{path.name} has no column "{name}" for {quantity}: '
+                "give the name as it stands in the file"
+            )
+    return _placed(raw, surface, body)
+
+
+def _raw(path: Path, nodes: Path | None, columns: Mapping[str, str]) -> Raw:
+    """What the file holds, by the reader that its suffix or its first lines ask for."""
+    means = chosen_names(columns)
+    mesh = None if nodes is None else node_lists.coordinates(nodes)
+    suffix = path.suffix.lower()
+    if suffix == ".frd":
+        return calculix_frd.read(path, means)
+    if suffix in by_meshio.SUFFIXES:
+        return by_meshio.read(path, means)
+    text = files.content(path, MESH.size).decode("latin-1")
+    if _PRINTED.search(text):
+        raise ValueError(
+            f"{path.name} is printed output of CalculiX, without coordinates: have a .frd written, "
+            "by *CONTACT FILE with CSTR and *EL FILE with S, and compare that"
+        )
+    if abaqus_report.TITLE in text:
+        return abaqus_report.read(path, mesh, means)
+    return node_lists.read(path, mesh, means) or text_table.read(path, means)
+
+
+# -- places ----------------------------------------------------------------------------------------
 
 
 def _placed(raw: Raw, surface: float | None, body: str) -> Mesh:

@@ -15,7 +15,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 
-from sie.io.mesh_difference import EXACT, Comparison
+from sie.io.mesh_comparison import EXACT, Comparison
 from sie.io.sample_points import abscissae, ceiling
 from sie.io.scene_file import UNITS, Units
 from sie.solution import Solution
@@ -111,7 +111,7 @@ class _Both(NamedTuple):
 
 
 def _both(solution: Solution, comparison: Comparison, name: str) -> _Both:
-    x, y, values = comparison.mesh.points(name)
+    x, y, values, _ = comparison.mesh.fields[name]
     (x1, x2), r = solution.edges, solution.half_width
     beside = BESIDE_IN_BODY if comparison.mesh.scattered(name) else BESIDE
     near = (x >= x1 - beside * r) & (x <= x2 + beside * r)

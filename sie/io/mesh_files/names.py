@@ -110,10 +110,10 @@ def meaning(name: str) -> str:
     return _TABLE.get(spelt) or (decisive[0] if len(decisive) == 1 else "")
 
 
-def chosen(columns: Mapping[str, str]) -> Meaning:
+def chosen_names(columns: Mapping[str, str]) -> Meaning:
     """The meaning of names where `columns` has those of some quantities.
 
-    >>> means = chosen({"p": "Last [MPa]"})
+    >>> means = chosen_names({"p": "Last [MPa]"})
     >>> means("Last [MPa]"), means("CPRESS"), means("CSHEAR1")
     ('p', '', 'q')
     """
