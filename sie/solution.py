@@ -733,7 +733,7 @@ class Solution(Frictionless, StressAnswers, DerivativeAnswers):
         return of_solution(self, ax, what, units)
 
     def _repr_html_(self) -> str:
-        from sie.io.html_report import html
+        from sie.io.report import html
 
         return html(self)
 

@@ -240,11 +240,6 @@ class History(PathContacts, Sequence[Solution]):
             row["energy_lost"] = point.energy_lost if P else 0.0
         return row
 
-    def _repr_html_(self) -> str:
-        from sie.io.html_report import history_html  # noqa: PLC0415 -- a higher layer
-
-        return history_html(self)
-
     # -- for steps and states ----------------------------------------------------------------------
 
     def in_parts(self, before: TurningPoint, loads: Loads) -> TurningPoint:

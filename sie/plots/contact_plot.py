@@ -25,7 +25,6 @@ from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from sie.io.answers import slip_of
@@ -55,7 +54,7 @@ GROUND = 0.28  # thickness of the half-plane in the lower panel, relative to the
 
 def picture(
     solution: Solution, units: Units = UNITS, title: str = "", width: float = style.WIDTH
-) -> Figure:
+) -> style.Picture:
     """A Matplotlib figure of the pressure and the gap, and of shear and slip if there are any.
 
     `units` are labels, `width` is in inches. The figure is not registered with pyplot: save it with

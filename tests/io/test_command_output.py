@@ -90,7 +90,7 @@ def test_the_shear_of_bonded_bodies_is_reported(tmp_path):
         profile=sie.Flat(2.0), modulus=500.0, dundurs=0.3, poisson=0.3, normal_load=20.0,
         friction=np.inf, tangential_load=3.0,
     )  # fmt: skip
-    told = str(report.shear_rows(sie.solve(flat), scene_file.UNITS))
+    told = str(report.Rows(sie.solve(flat), scene_file.UNITS).shear())
     assert "Q = 3" in told and "bonded" in told and "inf" not in told
 
 

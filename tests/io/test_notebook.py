@@ -82,21 +82,6 @@ def test_a_solution_is_a_table_and_a_picture():
     assert not re.search(r"nan|None|\n\n", html.partition("<img")[0])
 
 
-def test_a_history_is_a_table_of_its_points_and_a_picture():
-    html = HISTORY._repr_html_()
-    assert html.count("<tr>") == len(HISTORY) + 1 and html.count("<img") == 1
-    assert ">P</td>" in html and ">Q</td>" in html and ">σ</td>" in html
-    assert not re.search(r"nan|None|\[", html.partition("<img")[0])
-    lo, hi = HISTORY[-1].stick[0]
-    assert f"{lo:.6g} to {hi:.6g}" in html and f">{HISTORY[-1].energy_lost:.6g}<" in html
-
-
-def test_of_a_long_history_the_first_and_the_last_points_are_shown():
-    pressed = sie.Path([(10.0, 0.0), (20.0, 0.0)]).subdivided(30)
-    html = sie.follow(PUNCH.scene, pressed)._repr_html_()
-    assert html.count("<tr>") == 1 + 20 + 1 and "... 11 more" in html
-
-
 @pytest.mark.parametrize("found", [SHEARED.check(), sie.plan(PUNCH.scene)], ids=["check", "plan"])
 def test_a_certificate_and_a_plan_are_shown_as_their_tables(found):
     assert found._repr_html_() == f"<pre>{escape(str(found))}</pre>"
