@@ -29,7 +29,7 @@ LINES = {
     "patches": 5260,
     "paths": 1040,
     "plots": 1030,
-    "problem": 950,
+    "problem": 930,
     "profiles": 5570,
     "sensitivity": 1350,
     "stress": 2490,

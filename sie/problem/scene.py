@@ -17,6 +17,15 @@ from sie.profiles.base import Profile
 from .material import RIGID, Body, Elastic, Rigid, coupling, dundurs, pair_modulus, share
 
 COUPLINGS = ("full", "goodman")
+# The loads: what they have to be, and their largest size.
+NUMBERS = (
+    ("normal_load", arguments.positive, arguments.LARGEST_LOAD),
+    ("half_width", arguments.positive, arguments.LARGEST),
+    ("tilt", arguments.measure, arguments.LARGEST),
+    ("moment", arguments.measure, arguments.LARGEST_COEFFICIENT),
+    ("tangential_load", arguments.measure, arguments.LARGEST_LOAD),
+    ("bulk_stress", arguments.measure, arguments.LARGEST),
+)
 
 
 def refuse_no_scene(scene: Any) -> None:
@@ -245,89 +254,75 @@ class Scene:
         if self.poisson is not None:
             self._set("poisson", Elastic(1.0, self.poisson).poisson)
 
-    def _check_loads(self) -> None:
-        self._check_size()
-        self._check_tilt()
-        self._set("friction", arguments.real("friction", self.friction))
-        if self.friction != math.inf:
-            arguments.not_negative("friction", self.friction)
-            if self.friction:
-                arguments.positive("friction", self.friction)
-        self._set(
-            "tangential_load",
-            arguments.measure("tangential_load", self.tangential_load, arguments.LARGEST_LOAD),
-        )
-        self._set("bulk_stress", arguments.measure("bulk_stress", self.bulk_stress))
-        if self.tangential_load != 0.0 and self.friction == 0.0:
-            raise ValueError(
-                f"tangential_load = {self.tangential_load:g} without friction: a frictionless "
-                "contact carries none; give friction > 0"
-            )
-        self._check_sliding()
-        self._check_coupling()
-
-    def _check_size(self) -> None:
-        if (self.normal_load is None) == (self.half_width is None):
-            what = "neither" if self.normal_load is None else "both"
-            raise ValueError(
-                f"{what} of normal_load and half_width given: give exactly one, the other follows"
-            )
-        for name in ("normal_load", "half_width"):
+    def _check_numbers(self) -> None:
+        """Each load is a number of its kind, or not given."""
+        for name, checked, largest in NUMBERS:
             if getattr(self, name) is not None:
-                largest = arguments.LARGEST_LOAD if name == "normal_load" else arguments.LARGEST
-                self._set(name, arguments.positive(name, getattr(self, name), largest))
-
-    def _check_tilt(self) -> None:
-        self._set("tilt", arguments.measure("tilt", self.tilt))
-        if self.moment is not None:
-            self._set(
-                "moment", arguments.measure("moment", self.moment, arguments.LARGEST_COEFFICIENT)
-            )
-            if self.half_width is not None:
-                raise ValueError(
-                    f"both half_width = {self.half_width:g} and moment = {self.moment:g} given: "
-                    "give normal_load beside a moment, or tilt beside a half_width"
-                )
-            if self.tilt != 0.0:
-                raise ValueError(
-                    f"both tilt = {self.tilt:g} and moment = {self.moment:g} given: give one, the "
-                    "other follows"
-                )
-
-    def _check_sliding(self) -> None:
+                self._set(name, checked(name, getattr(self, name), largest))
+        self._set("friction", arguments.real("friction", self.friction))
+        if self.friction not in (0.0, math.inf):
+            arguments.positive("friction", arguments.not_negative("friction", self.friction))
         if not arguments.among(self.sliding, (-1, 0, 1)):
             raise ValueError(
                 f"sliding = {self.sliding!r}: give +1 or -1, the direction in which the indenter "
                 "slides, or 0"
             )
         self._set("sliding", int(self.sliding))
-        if self.sliding and self.tangential_load:
-            raise ValueError(
-                f"both sliding = {self.sliding} and tangential_load = {self.tangential_load:g} "
-                "given: in full sliding Q = ±f P follows"
-            )
-        if self.sliding and self.friction == math.inf:
-            raise ValueError(
-                f"sliding = {self.sliding} with infinite friction: nothing slides; give a finite "
-                "friction"
-            )
-        if self.sliding and self.friction == 0.0:
-            raise ValueError(
-                f"sliding = {self.sliding} without friction: there is no shear traction; leave it "
-                "0, or give friction > 0"
-            )
-
-    def _check_coupling(self) -> None:
         if not arguments.among(self.coupling, COUPLINGS):
             raise ValueError(
                 f"coupling = {self.coupling!r} is not known: give 'full', or 'goodman' to leave "
                 "β q out of the normal equation"
             )
-        if self.coupling == "goodman" and self.friction == math.inf:
+
+    def _check_loads(self) -> None:
+        """The loads fit together."""
+        if (self.normal_load is None) == (self.half_width is None):
+            what = "neither" if self.normal_load is None else "both"
             raise ValueError(
-                "coupling = 'goodman' with infinite friction: full stick of dissimilar bodies is "
-                "solved without an approximation; leave coupling out"
+                f"{what} of normal_load and half_width given: give exactly one, the other follows"
             )
+        self._check_numbers()
+        moment, Q, sliding = self.moment is not None, self.tangential_load, self.sliding
+        bonded, slippery = self.friction == math.inf, self.friction == 0.0
+        for refused, why in (
+            (
+                moment and self.half_width is not None,
+                f"both half_width = {self.half_width!r} and moment = {self.moment!r} given: give "
+                "normal_load beside a moment, or tilt beside a half_width",
+            ),
+            (
+                moment and self.tilt != 0.0,
+                f"both tilt = {self.tilt:g} and moment = {self.moment!r} given: give one, the "
+                "other follows",
+            ),
+            (
+                Q != 0.0 and slippery,
+                f"tangential_load = {Q:g} without friction: a frictionless contact carries none; "
+                "give friction > 0",
+            ),
+            (
+                sliding and Q != 0.0,
+                f"both sliding = {sliding} and tangential_load = {Q:g} given: in full sliding "
+                "Q = ±f P follows",
+            ),
+            (
+                sliding and bonded,
+                f"sliding = {sliding} with infinite friction: nothing slides; give a finite "
+                "friction",
+            ),
+            (
+                sliding and slippery,
+                f"sliding = {sliding} without friction: there is no shear traction; leave it 0, "
+                "or give friction > 0",
+            ),
+            (
+                bonded and self.coupling == "goodman",
+                "coupling = 'goodman' with infinite friction: full stick of dissimilar bodies is "
+                "solved without an approximation; leave coupling out",
+            ),
+        ):
+            if refused:
+                raise ValueError(why)
 
     def _set(self, name: str, value: Any) -> None:
         object.__setattr__(self, name, value)
