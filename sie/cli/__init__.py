@@ -184,7 +184,7 @@ def _example(arguments: argparse.Namespace) -> int:
 
 def _export_boundary(arguments: argparse.Namespace) -> int:
     """Print the lines that give the nodes of a set the exact displacements or forces."""
-    from sie.io.mesh_files.node_sets import nodes_of_set
+    from sie.io.mesh_files.node_lists import nodes_of_set
 
     outputs, file = _asked(arguments)
     labels, mesh = nodes_of_set(arguments.nodes, arguments.set)
@@ -206,8 +206,9 @@ def _benchmark_set(arguments: argparse.Namespace) -> int:
 
     folder = files.empty_folder(arguments.folder)
     contents = {folder / name: data for name, data in benchmark_set().items()}
-    folders = {path.parent for path in contents} | {folder}
-    with files.making_folders(folders), files.writing(contents):
+    for path in contents:
+        path.parent.mkdir(parents=True, exist_ok=True)
+    with files.writing(contents):
         print_text(f"wrote {len(contents)} files, see {folder / 'README.md'}\n")
     return CERTIFIED
 

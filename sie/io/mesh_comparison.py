@@ -163,7 +163,7 @@ def compare(solution: Solution, mesh: Mesh, tol: float) -> Comparison:
 
 
 def _difference(name: str, solution: Solution, mesh: Mesh) -> Difference:
-    (x, y, values, _), weight = mesh.fields[name], mesh.weights(name)
+    (x, y, values), weight = mesh.fields[name], mesh.weights(name)
     exact = EXACT[name](solution, x, y)
     finite = np.isfinite(exact)
     f, e, w = exact[finite], (values - exact)[finite], weight[finite]
@@ -240,7 +240,7 @@ def _refuse_elsewhere(solution: Solution, mesh: Mesh) -> None:
 def _known(solution: Solution, mesh: Mesh) -> Mesh:
     """The mesh without what the scene does not determine. ValueError if nothing remains."""
     fields, notes = dict(mesh.fields), list(mesh.notes)
-    for name, (x, y, _, _) in mesh.fields.items():
+    for name, (x, y, _) in mesh.fields.items():
         try:
             EXACT[name](solution, x[:1], y[:1])
         except ValueError as problem:
@@ -276,7 +276,7 @@ def _mirrored(solution: Solution, mesh: Mesh) -> Mesh:
     traction = next((name for name in TRACTIONS if name in mesh.fields), None)
     if traction is None:
         return mesh
-    x, _, values, _ = mesh.fields[traction]
+    x, _, values = mesh.fields[traction]
     first, last = x[[0, -1]] - centre
     one_sided = first >= -SAME * r or last <= SAME * r
     loaded = x[np.abs(values) > LOADED * np.abs(values).max()]
@@ -296,9 +296,8 @@ def _mirrored(solution: Solution, mesh: Mesh) -> Mesh:
 
 def _with_image(name: str, field: Points, centre: float) -> Points:
     """The points and their mirror images; those on the axis once."""
-    x, y, values, widths = field
-    sign = -1.0 if name in ODD else 1.0
-    image = Points(2.0 * centre - x, y, sign * values, widths)
+    x, y, values = field
+    image = Points(2.0 * centre - x, y, -values if name in ODD else values)
     return joined([image.chosen(np.abs(x - centre) > SAME * np.ptp(x)), field])
 
 
@@ -306,7 +305,7 @@ def _with_sign_of_shear(solution: Solution, mesh: Mesh) -> Mesh:
     """The mesh with q turned over where that is nearer to the exact one."""
     if "q" not in mesh.fields:
         return mesh
-    x, _, q, _ = field = mesh.fields["q"]
+    x, _, q = field = mesh.fields["q"]
     exact = solution.shear(x)
     finite = np.isfinite(exact)
     if mesh.weights("q")[finite] @ (exact * q)[finite] >= 0.0:

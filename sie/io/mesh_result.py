@@ -42,28 +42,21 @@ _PRINTED = re.compile(r"^ [a-z ]+\([^)\n]*\).* for .*\btime\b", re.MULTILINE)
 
 
 class Points(NamedTuple):
-    """A quantity at points (x, depth), by ascending x; widths of element faces, or ()."""
+    """A quantity at points (x, depth), by ascending x."""
 
     x: Array
     y: Array
     values: Array
-    widths: Array | tuple[()] = ()
 
     def chosen(self, which: Any) -> Points:
         """Some of the points, or all of them in another order."""
-        x, y, values, widths = self
-        some = np.asarray(widths)[which] if len(widths) else ()
-        return Points(x[which], y[which], values[which], some)
+        return Points(*(column[which] for column in self))
 
 
 def joined(parts: Sequence[Points]) -> Points:
     """The points of all parts, by ascending x."""
-    x, y, values = (
-        np.concatenate(columns) for columns in zip(*(p[:3] for p in parts), strict=True)
-    )
-    widths = np.concatenate([part.widths for part in parts])
-    both = Points(x, y, values, widths if len(widths) == len(x) else ())
-    return both.chosen(np.lexsort((y, x)))
+    both = Points(*(np.concatenate(columns) for columns in zip(*parts, strict=True)))
+    return both.chosen(np.lexsort((both.y, both.x)))
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,19 +74,16 @@ class Mesh:
 
     def scattered(self, quantity: str) -> bool:
         """Whether its points are not on a line at one depth."""
-        x, y, _, _ = self.fields[quantity]
+        x, y, _ = self.fields[quantity]
         return bool(np.ptp(y) > 0.0 or np.ptp(x) == 0.0)
 
     def weights(self, quantity: str) -> Array:
         """Weights of the points: lengths of a line, equal ones where points are scattered.
 
-        The lengths are those of the element faces. Between nodes they reach half-way to the next
-        ones, and at an end as far outwards as inwards: the pressure goes on beyond the last node
-        or centre in contact.
+        The lengths reach half-way to the next points, and at an end as far outwards as inwards: the
+        pressure goes on beyond the last node or centre in contact.
         """
-        x, _, _, widths = self.fields[quantity]
-        if len(widths):
-            return np.asarray(widths)
+        x = self.fields[quantity].x
         if self.scattered(quantity):
             return np.ones_like(x)
         middle = 0.5 * (x[1:] + x[:-1])
@@ -165,11 +155,11 @@ def _placed(raw: Raw, surface: float | None, body: str) -> Mesh:
             if columns.keys() & set(names):
                 placed, more = _averaged(*place(raw, columns, height, body))
                 for name in columns.keys() & set(names):
-                    x, y, widths = placed["x"], placed["y"], placed.get("width", ())
-                    parts.setdefault(name, []).append(Points(x, y, placed[name], widths))
+                    points = Points(placed["x"], placed["y"], placed[name])
+                    parts.setdefault(name, []).append(points)
                 notes += [note for note in more if note not in notes]
     fields = {name: joined(parts[name]) for name in QUANTITIES if name in parts}
-    for name, (x, _, _, _) in fields.items():
+    for name, (x, _, _) in fields.items():
         if len(x) < 2 or (name in TRACTIONS and x[0] == x[-1]):
             where = " on the surface, y = 0, where it is compared" if name in TRACTIONS else ""
             raise ValueError(

@@ -111,7 +111,7 @@ class _Both(NamedTuple):
 
 
 def _both(solution: Solution, comparison: Comparison, name: str) -> _Both:
-    x, y, values, _ = comparison.mesh.fields[name]
+    x, y, values = comparison.mesh.fields[name]
     (x1, x2), r = solution.edges, solution.half_width
     beside = BESIDE_IN_BODY if comparison.mesh.scattered(name) else BESIDE
     near = (x >= x1 - beside * r) & (x <= x2 + beside * r)

@@ -104,7 +104,7 @@ def errors(scene: sie.Scene, count: int, loaded: float = 1.0) -> dict[str, float
         mesh = compare(solution, read_mesh(file.with_suffix(".frd")), 1.0).mesh
     found = {}
     for name in STRESSES:
-        x, y, values, _ = mesh.fields[name]
+        x, y, values = mesh.fields[name]
         exact = EXACT[name](solution, x, y)
         found[name] = float(np.sqrt(np.mean((values - exact) ** 2)) / np.abs(exact).max())
     return found

@@ -88,9 +88,8 @@ def _of_cells(mesh: Any, bodies: dict[int, int], means: Meaning) -> Iterator[Col
         if fields:
             cells = np.asarray(block.data)
             x, y = points[cells][..., 0], points[cells][..., 1]
-            width = {"width": np.ptp(x, axis=1)} if set(fields) <= set(TRACTIONS) else {}
             body = np.array([bodies.get(n, 0) for n in cells[:, 0].tolist()], dtype=float)
-            yield {"x": x.mean(axis=1), "y": y.mean(axis=1), **fields, **width, "body": body}
+            yield {"x": x.mean(axis=1), "y": y.mean(axis=1), **fields, "body": body}
 
 
 def _fields(data: dict[str, Any], means: Meaning) -> dict[str, Array]:
