@@ -22,7 +22,7 @@ LINES = {
     "examples": 10,
     "friction": 11520,
     "inverse": 320,
-    "io": 4890,
+    "io": 4900,
     "live": 1170,
     "many": 950,
     "numerics": 2170,
