@@ -319,10 +319,13 @@ class Solution(StressAnswers, DerivativeAnswers):
 
         return of_solution(self, ax, what, units)
 
-    def _repr_html_(self) -> str:
-        from sie.io.report import html
-
-        return html(self)
+    def _repr_png_(self) -> bytes | None:
+        """The picture that a notebook shows, where Matplotlib is installed."""
+        try:
+            from sie.plots.contact_plot import picture
+        except ImportError:
+            return None
+        return picture(self)._repr_png_()
 
     def with_(self, **changes: Any) -> Solution:
         """The solution of a changed scene, which keeps the stages that cannot have changed.

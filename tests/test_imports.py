@@ -58,7 +58,6 @@ LAYERS = (
 # import when they are called.
 HANDED_UP = {
     ("sie.paths.history", "sie.plots.one_axes"),
-    ("sie.io.report", "sie.plots.contact_plot"),
     ("sie.problem.scene", "sie.io.scene_writing"),
     ("sie.profiles.base", "sie.profiles.derived"),
     ("sie.io.benchmark_set", "sie.plots.contact_plot"),
@@ -68,7 +67,7 @@ HANDED_UP = {
     ("sie.sensitivity.derivative", "sie.io.sample_points"),
     ("sie.solution", "sie.paths.history"),
     ("sie.stress_answers", "sie.io.boundary_data"),
-    ("sie.solution", "sie.io.report"),
+    ("sie.solution", "sie.plots.contact_plot"),
     ("sie.solution", "sie.plots.one_axes"),
     ("sie.stress.fretting", "sie.cracks.stress_intensity"),
     ("sie.cracks.stress_intensity", "sie.plots.one_axes"),

@@ -88,8 +88,7 @@ def _solve(arguments: argparse.Namespace) -> int:
     outputs, file = _asked(arguments)
     if arguments.grid and not arguments.field:
         raise ValueError(
-            "--grid is the number of points that --field writes: "
-            "give --field FILE too, with one of the suffixes .csv, .npz, .vti"
+            "--grid is the number of points that --field writes: give --field FILE too"
         )
     _refuse_lacking(file)
     if "yield" in file.want or "field" in outputs:
@@ -297,10 +296,9 @@ def _content(
 ) -> bytes:
     """The content of a file that `sie solve` writes."""
     if kind == "field":
-        from sie.io.stress_grid import Grid, file_bytes
+        from sie.io.stress_grid import Grid
 
-        grid = Grid(solution, *(arguments.grid or GRID))
-        return file_bytes(grid, path.suffix[1:].lower(), file)
+        return Grid(solution, *(arguments.grid or GRID)).csv(file).encode()
     if kind == "plot":
         return _bytes(_picture(solution, file), path)
     from sie.io import export

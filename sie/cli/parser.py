@@ -143,7 +143,7 @@ def _of_solve() -> dict[str, Option]:
         "--plot": ("FILE", f"{plot} (needs Matplotlib)", {}),
         "--csv": ("FILE", table, {}),
         "--json": ("FILE", everything, {"nargs": "?", "const": STANDARD}),
-        "--field": ("FILE", "write the stress on a grid: .csv, .npz or .vti (ParaView)", {}),
+        "--field": ("FILE", "write the stress on a grid as a table", {}),
         "--grid": ("NXxNY", f"points of that grid ({GRID[0]}x{GRID[1]})", {"type": _grid}),
         "--points": ("N", "points in the contact, about (%(default)s)", points),
         "--tol": (

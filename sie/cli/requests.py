@@ -18,7 +18,6 @@ from sie.arguments import choices
 from sie.io import scene_file
 from sie.io.answers import wanted
 from sie.io.scene_file import SceneFile
-from sie.io.stress_grid import SUFFIXES
 from sie.problem.request import WANTS
 
 from .parser import STANDARD
@@ -51,7 +50,7 @@ def outputs_of(arguments: argparse.Namespace) -> dict[str, pathlib.Path]:
     """The destination of each kind of output. ValueError unless all can be written."""
     given = ((kind, getattr(arguments, kind, None)) for kind in OUTPUTS)
     outputs = {kind: pathlib.Path(name) for kind, name in given if name is not None}
-    known = {"plot": picture_style().suffixes() if "plot" in outputs else (), "field": SUFFIXES}
+    known = {"plot": picture_style().suffixes() if "plot" in outputs else (), "field": ("csv",)}
     for kind in known.keys() & outputs.keys():
         if outputs[kind].suffix[1:].lower() not in known[kind]:
             raise ValueError(

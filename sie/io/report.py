@@ -1,27 +1,21 @@
-"""An answer to read: rounded to six digits, with a picture of the pressure in text.
-
-A notebook shows the same rows as a table, with the picture of the contact.
-"""
+"""An answer to read: rounded to six digits, with a picture of the pressure in text."""
 
 from __future__ import annotations
 
-import base64
 import math
 import textwrap
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from html import escape
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from sie.arguments import WIDE, named_rows
-from sie.errors import ContactError
 from sie.problem.request import energy_costs
 
 from .answers import energy_of, notes_of, readings_of, slipping, wanted
 from .sample_points import SAME_PEAK, ceiling, full, peak, reach
-from .scene_file import UNITS, SceneFile, Units
+from .scene_file import SceneFile, Units
 
 if TYPE_CHECKING:
     from sie.paths.history import History
@@ -317,40 +311,3 @@ def text_picture(solution: Solution, units: Units, width: int = WIDE) -> str:
             f"{'':>{margin}}  {left}{right:>{columns - len(left)}}",
         ]
     )
-
-
-# -- notebooks -------------------------------------------------------------------------------------
-
-
-def html(solution: Solution) -> str:
-    """The rows as a table, and the picture; the sentence of a refusal without an answer.
-
-    The units are the labels that scene files have by default; nothing is converted.
-    """
-    shown = Rows(solution, UNITS)
-    try:
-        check = solution.check()
-        rows = [
-            *shown.edges(),
-            *shown.pressure(),
-            *(shown.shear() if solution.carries_shear else ()),
-        ]
-    except ContactError as error:
-        return f"<div>{escape(repr(solution.scene))}<br>{escape(str(error))}</div>"
-    rows.append(("certificate", f"{'met' if check.ok else 'NOT met'}: {check.error:.1e}"))
-    cell = '<td style="text-align:left">{}</td>'
-    lines = ("".join(cell.format(escape(text)) for text in row) for row in rows)
-    table = f"<table>{''.join(f'<tr>{line}</tr>' for line in lines)}</table>"
-    units = f"in {UNITS.length}, {UNITS.force}, {UNITS.stress}, or other consistent units"
-    return f"<div>{table}<small>{units}</small>{_picture(solution)}</div>"
-
-
-def _picture(solution: Solution) -> str:
-    """The picture of the contact; nothing without Matplotlib."""
-    try:
-        from sie.plots.contact_plot import picture  # noqa: PLC0415 -- a higher layer
-    except ImportError:
-        return ""
-    png = picture(solution)._repr_png_()
-    data = base64.b64encode(png).decode()
-    return f'<br><img style="width:3.35in" src="data:image/png;base64,{data}">'
