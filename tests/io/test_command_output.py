@@ -111,18 +111,6 @@ def test_json_and_csv_go_to_a_file_or_alone_to_standard_output(scene, tmp_path, 
     assert capsys.readouterr().out.startswith("# Fretting pad")
 
 
-@pytest.mark.parametrize(
-    ("kind", "says"),
-    [
-        ("parabola", "# x and gap in mm, p in MPa,"),
-        ("partial-slip", "# x and gap and slip in mm, p and q in MPa,"),
-    ],
-)
-def test_csv_names_the_unit_of_every_column(kind, says, tmp_path, capsys):
-    main(["solve", example(kind, tmp_path), "--csv", "-", "--points", "20"])
-    assert says in capsys.readouterr().out
-
-
 def test_csv_points_resolve_a_rounded_edge_of_a_thousandth_of_the_contact():
     solution = sie.solve(
         sie.Scene(
@@ -239,12 +227,6 @@ poisson = 0.3
 [load]
 normal_load = {load}
 """
-
-
-def test_the_row_of_the_examples_touches_in_several_patches(tmp_path, capsys):
-    assert main(["solve", example("row", tmp_path)]) == 0
-    out = capsys.readouterr().out
-    assert "patches         3\n" in out and "% of the load on [" in out
 
 
 def wave(load, tmp_path):

@@ -103,26 +103,10 @@ def test_json_has_slip_energy_stresses_and_parameters_of_the_last_cycle(solve, c
         assert (surface["y"], below["y"]) == (0.0, 0.02)
 
 
-@pytest.mark.slow
-def test_the_report_fits_in_eighty_columns(solve):
-    _, out, _ = solve(CYCLE + MATERIAL, "shear")
-    assert max(map(len, out.splitlines())) <= 80
-    for word in ("slip amplitude", "Ruiz' κ2", "range of σ_xx", "SWT", "Findley", "Fatemi-Socie"):
-        assert f"\n{word}" in out
-    assert "of the limit, 100 MPa" in out
-
-
 def test_steps_are_divided_unless_parts_is_one(solve):
     pair = CYCLE.replace("[body]\nyoung = 115e3\npoisson = 0.32", "[pair]\nmodulus = 64e3")
     _, out, _ = solve(pair + "[fatigue]\nparts = 3\n", "--json")
     assert json.loads(out)["cycle"]["states"] == 7
-
-
-def test_without_constants_of_the_material_no_parameter_is_named(solve):
-    pair = CYCLE.replace("[body]\nyoung = 115e3\npoisson = 0.32", "[pair]\nmodulus = 64e3")
-    status, out, _ = solve(pair)
-    assert status == 0 and "range of σ_xx" in out
-    assert not {"SWT", "Findley", "Fatemi-Socie"} & set(out.split())
 
 
 @pytest.mark.slow

@@ -11,7 +11,6 @@ from pathlib import Path
 import pytest
 from command import run
 
-from sie import files
 from sie.cli import main
 
 posix = pytest.mark.skipif(os.name == "nt", reason="devices, pipes and signals are otherwise")
@@ -162,13 +161,6 @@ def test_a_killed_run_leaves_every_file_as_it_was(place, folder):
     found = subprocess.run([sys.executable, "-c", KILLED, place], check=False, capture_output=True)
     assert found.returncode == -signal.SIGKILL, found.stderr
     assert Path("out.csv").read_bytes() == Path("out.json").read_bytes() == b"old"
-
-
-def test_two_runs_may_write_into_one_folder_at_a_time(folder):
-    with files.writing({folder / "out.csv": b"first"}):
-        files.write_files({folder / "other.csv": b"second"})
-    assert (folder / "out.csv").read_bytes() == b"first"
-    assert not list(folder.glob(".sie-*"))
 
 
 @pytest.mark.slow

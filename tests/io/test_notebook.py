@@ -81,33 +81,3 @@ def test_a_solution_is_shown_by_its_picture_where_there_is_matplotlib(monkeypatc
 @pytest.mark.parametrize("found", [SHEARED.check(), sie.plan(PUNCH.scene)], ids=["check", "plan"])
 def test_a_certificate_and_a_plan_are_shown_as_their_tables(found):
     assert found._repr_html_() == f"<pre>{escape(str(found))}</pre>"
-
-
-# -- a real kernel --------------------------------------------------------------------------------
-
-CELLS = [
-    "import sie; from sie.io.scene_file import example, parse",
-    "file = parse(example('fretting-cycle')); sie.solve(file.scene)",
-    "sie.follow(file.scene, file.load_path).plot()",
-    "from sie import progress_bar; progress_bar.PATIENCE = 0.0\n"
-    "found = sie.sweep(file.scene, {'normal_load': [500.0, 600.0]})",
-    "row = sie.Row([sie.Parabola(1.0), sie.Parabola(1.0).shifted(3.0)])\n"
-    "two = sie.solve(sie.Scene(profile=row, modulus=1.0, normal_load=0.3)).patches",
-]
-
-
-@pytest.mark.slow
-def test_a_kernel_shows_the_pictures_and_the_bars():
-    nbclient, nbformat = pytest.importorskip("nbclient"), pytest.importorskip("nbformat")
-    pytest.importorskip("ipykernel")
-    cells = [nbformat.v4.new_code_cell(cell) for cell in CELLS]
-    notebook = nbformat.v4.new_notebook(cells=cells)
-    nbclient.NotebookClient(notebook, timeout=120, kernel_name="python3").execute()
-    outputs = [cell.outputs for cell in notebook.cells]
-    assert "image/png" in outputs[1][0].data and "image/png" in outputs[2][0].data
-    try:
-        import tqdm  # noqa: F401, PLC0415
-    except ImportError:
-        return
-    assert any("sweep" in str(output) for output in outputs[3])
-    assert any("patches of contact" in str(output) for output in outputs[4])

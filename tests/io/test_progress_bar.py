@@ -66,14 +66,6 @@ def test_nothing_is_drawn_in_the_first_second(clock, bars):
     assert not bars
 
 
-def test_the_line_changes_ten_times_a_second_at_most(clock, bars):
-    with Progress("search") as work:
-        for k in range(300):
-            clock.now = 1.0 + k / 100.0
-            work.update()
-    assert len(bars[0].shown) == pytest.approx(30, abs=1)
-
-
 def test_steps_inside_are_named_behind_the_outermost_work(clock, bars):
     with Progress("sie solve"):
         for _ in counted("load path", range(2), 2):
@@ -121,8 +113,6 @@ def told(monkeypatch):
 
 
 X = np.linspace(-2.0, 2.0, 201)
-WAVY = sie.Sampled(X, X**2 / 2.0 + 0.1 * np.cos(12.0 * X))
-ROUGH = sie.Scene(profile=WAVY, modulus=1.0, normal_load=0.3)
 ROW = sie.Row([sie.Parabola(1.0), sie.Parabola(1.0).shifted(3.0)])
 SEVERAL = sie.Scene(profile=ROW, modulus=1.0, normal_load=0.3)
 PUNCH = parse(example("rounded-flat")).scene
