@@ -15,7 +15,7 @@ import hashlib
 import math
 from dataclasses import replace
 from importlib import resources
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from sie import __version__
 from sie.paths.history import follow
@@ -34,7 +34,7 @@ BOX = 4.0  # half-widths of the box's sides from the contact's middle
 PER_HALF_WIDTH = 20  # elements of the deck
 PLACES = (0.0, 0.25, 0.5, 0.75, 0.9)  # of the half-width, from the centre of the last patch
 ROUNDING = 1e-12  # half-widths
-WITHOUT_FRICTION = {"friction": 0.0, "sliding": 0, "tangential_load": 0.0}
+WITHOUT_FRICTION: dict[str, Any] = {"friction": 0.0, "sliding": 0, "tangential_load": 0.0}
 WANT = ("edges", "pressure", "gap", "shear", "check", "stress", "yield", "tension")
 
 
@@ -100,7 +100,8 @@ def _states(file: SceneFile) -> list[Solution]:
     if not scene.friction or scene.coupled:
         return history
     P = history[0].normal_load
-    return [history[0].with_(normal_load=P, bulk_stress=0.0, **WITHOUT_FRICTION), *history]
+    pressed = replace(scene, normal_load=P, half_width=None, bulk_stress=0.0, **WITHOUT_FRICTION)
+    return [solve(pressed), *history]
 
 
 def _page(name: str, title: str, rows: list[tuple[str, str, str]], certificate: float) -> str:
@@ -201,5 +202,5 @@ def _without_friction(solution: Solution) -> list[Target]:
     scene = solution.scene
     if not scene.slides or scene.beta:
         return []
-    plain = _of_stress(solution.with_(**WITHOUT_FRICTION))
+    plain = _of_stress(solve(replace(scene, **WITHOUT_FRICTION)))
     return [t._replace(name=f"{t.name}, without friction") for t in plain]
