@@ -100,7 +100,7 @@ def _finish(axes: Axes, view: _View) -> None:
     if not full(view.solution):
         style.edge_lines(axes, view.solution.patches, view.factor, zorder=2.5)
     style.plain(axes)
-    axes.set_xlim(view.left * view.factor, view.right * view.factor)
+    axes.set_xlim(*(end * view.factor for end in view.ends))
 
 
 # -- the quantities ------------------------------------------------------------------------------
@@ -176,12 +176,10 @@ class _View:
         return largest or self.solution.normal_load / self.solution.scene.Estar
 
     @property
-    def left(self) -> float:
-        return self.solution.edges[0] - reach(self.solution)
-
-    @property
-    def right(self) -> float:
-        return self.solution.edges[1] + reach(self.solution)
+    def ends(self) -> tuple[float, float]:
+        """The window along x."""
+        (x1, x2), beside = self.solution.edges, reach(self.solution)
+        return x1 - beside, x2 + beside
 
     @property
     def factor(self) -> float:
@@ -203,7 +201,7 @@ def _draw_pressure(axes: Axes, view: _View) -> None:
     style.curve(axes, x * view.factor, p * scale, style.BLUE, width, zorder=3, label="pressure")
     axes.set_ylim(0.0, top)
     axes.set_yticks(style.ticks(top))
-    axes.set_ylabel(f"$p$ ({stress})", fontproperties=style.font())
+    style.named(axes, y=f"$p$ ({stress})")
     _mark_peak(axes, view, scale)
     _label_peak(axes, view)
     if not full(view.solution):
@@ -215,14 +213,8 @@ def _draw_gap(axes: Axes, view: _View) -> None:
     top = 1.08 * view.highest * scale
     axes.axhspan(-GROUND * top, 0.0, color=HALF_PLANE, linewidth=0.0, zorder=0)
     style.zero_line(axes, zorder=2)
-    axes.fill_between(
-        view.x * view.factor,
-        view.loaded * scale,
-        2.0 * top,
-        color=INDENTER,
-        linewidth=0.0,
-        zorder=0,
-    )
+    filled: dict[str, Any] = {"color": INDENTER, "linewidth": 0.0, "zorder": 0}
+    axes.fill_between(view.x * view.factor, view.loaded * scale, 2.0 * top, **filled)
     before = "$h(x)$, unloaded" if view.solution.tilt == 0.0 else "$h(x)$ + tilt, unloaded"
     dashed: dict[str, Any] = {"linestyle": style.DASHED, "zorder": 4, "label": before}
     _draw_surface(axes, view, view.unloaded * scale, style.INK, 0.8, **dashed)
@@ -230,7 +222,7 @@ def _draw_gap(axes: Axes, view: _View) -> None:
     _draw_surface(axes, view, view.loaded * scale, style.VERMILLION, 1.3, **under)
     axes.set_ylim(-GROUND * top, top)
     axes.set_yticks(style.ticks(top))
-    axes.set_ylabel(f"gap ({length})", fontproperties=style.font())
+    style.named(axes, y=f"gap ({length})")
     style.legend(axes, columns=2, length=2.4)
     _name_bodies(axes, view)
 
@@ -256,7 +248,7 @@ def _draw_shear(axes: Axes, view: _View) -> None:
     style.zero_line(axes)
     top = style.HEADROOM * largest * scale
     axes.set_ylim(-top if both else min(-0.1 * top, 0.0), top)
-    axes.set_ylabel(f"$q$ ({stress})", fontproperties=style.font())
+    style.named(axes, y=f"$q$ ({stress})")
     style.legend(axes, columns=3)
 
 
@@ -266,7 +258,7 @@ def _draw_slip(axes: Axes, view: _View) -> None:
     style.zero_line(axes)
     slip = np.where(np.isfinite(view.inside), view.slip, np.nan) * scale
     style.curve(axes, view.inside * view.factor, slip, style.BLUE, 1.3, zorder=3, label="slip")
-    axes.set_ylabel(f"slip ({length})", fontproperties=style.font())
+    style.named(axes, y=f"slip ({length})")
 
 
 def _shade_stick(axes: Axes, view: _View) -> None:
@@ -291,9 +283,9 @@ def _draw_surface(
     lo, hi = view.solution.scene.profile.domain
     x, wall = view.x, [4.0 * view.highest * style.scaled(view.highest, view.units.length)[0]]
     corners = view.solution.scene.profile.ends_are_corners  # the end of a trace has no side
-    if view.left < lo and corners[0]:
+    if view.ends[0] < lo and corners[0]:
         x, y = np.concatenate((x[:1], x)), np.concatenate((wall, y))
-    if view.right > hi and corners[1]:
+    if view.ends[1] > hi and corners[1]:
         x, y = np.concatenate((x, x[-1:])), np.concatenate((y, wall))
     style.curve(axes, x * view.factor, y, color, width, **given)
 
@@ -310,60 +302,32 @@ def _mark_peak(axes: Axes, view: _View, scale: float) -> None:
         )
     if not view.cut:
         largest, where = peak(view.solution)
-        axes.plot(
-            np.array(where) * view.factor,
-            np.full(len(where), largest * scale),
-            "o",
-            color=style.BLUE,
-            markersize=2.2,
-            zorder=4,
-        )
+        dots: dict[str, Any] = {"color": style.BLUE, "markersize": 2.2, "zorder": 4}
+        height = np.full(len(where), largest * scale)
+        axes.plot(np.array(where) * view.factor, height, "o", **dots)
 
 
 def _label_peak(axes: Axes, view: _View) -> None:
     """The value of the peak above it, towards the middle of the panel, or beside an arrow."""
     largest, where = peak(view.solution)
-    text = (
-        rf"$p_{{\mathrm{{max}}}}$ = {style.quantity(largest, largest, view.units.stress)}"
-        if math.isfinite(largest)
-        else r"$p \to \infty$"
-    )
-    place = (0.5 * (min(where) + max(where)) - view.left) / (view.right - view.left)
+    text = r"$p \to \infty$"
+    if math.isfinite(largest):
+        value = style.quantity(largest, largest, view.units.stress)
+        text = rf"$p_{{\mathrm{{max}}}}$ = {value}"
+    place = (0.5 * (min(where) + max(where)) - view.ends[0]) / np.ptp(view.ends)
     beside = 0.03 if view.cut and len(where) == 1 else 0.0
-    side = (
-        "left"
-        if place < (0.6 if beside else 0.35)
-        else "right"
-        if place > (0.6 if beside else 0.65)
-        else "center"
-    )
+    left, right = (0.6, 0.6) if beside else (0.35, 0.65)
+    side = "left" if place < left else "right" if place > right else "center"
     shift = {"left": beside, "right": -beside, "center": 0.0}[side]
-    axes.text(
-        place + shift,
-        0.97,
-        text,
-        transform=axes.transAxes,
-        ha=side,
-        va="top",
-        color=style.BLUE,
-        fontproperties=style.font(style.SMALL),
-        bbox=style.opaque("white"),
-    )
+    frame: dict[str, Any] = {"transform": axes.transAxes, "bbox": style.opaque("white")}
+    style.word(axes, place + shift, 0.97, text, ha=side, va="top", color=style.BLUE, **frame)
 
 
 def _label_edges(axes: Axes, view: _View) -> None:
     frame = axes.get_xaxis_transform()
     for name, edge in zip(("x_1", "x_2"), view.solution.edges, strict=True):
         text = f"${name}$ = {style.quantity(edge, view.solution.half_width, view.units.length)}"
-        axes.text(
-            edge * view.factor,
-            1.02,
-            text,
-            transform=frame,
-            ha="center",
-            va="bottom",
-            fontproperties=style.font(style.SMALL),
-        )
+        style.word(axes, edge * view.factor, 1.02, text, va="bottom", transform=frame)
 
 
 def _name_bodies(axes: Axes, view: _View) -> None:
@@ -376,15 +340,5 @@ def _name_bodies(axes: Axes, view: _View) -> None:
         ("half-plane", centre, 0.5 * bottom, HALF_PLANE),
         ("indenter", freest, 0.72 * top, INDENTER),
     ):
-        axes.text(
-            x * view.factor,
-            y,
-            text,
-            ha="center",
-            va="center",
-            color=style.INK,
-            style="italic",
-            fontproperties=style.font(style.SMALL),
-            bbox=style.opaque(ground),
-            zorder=5,
-        )
+        given = {"style": "italic", "bbox": style.opaque(ground), "zorder": 5}
+        style.word(axes, x * view.factor, y, text, color=style.INK, **given)

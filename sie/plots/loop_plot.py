@@ -59,5 +59,4 @@ def draw(axes: Axes, loop: Loop, units: Units) -> None:
     x, y = (loop.corners * (along, up)).T
     axes.plot(x, y, color=style.BLUE, markersize=2.2, zorder=4, **dots)
     axes.plot(x[-1:], y[-1:], color=style.VERMILLION, markersize=3.0, zorder=5, **dots)
-    axes.set_xlabel(f"shift of the indenter by slip ({length})", fontproperties=style.font())
-    axes.set_ylabel(f"$Q$ ({force})", fontproperties=style.font())
+    style.named(axes, f"shift of the indenter by slip ({length})", f"$Q$ ({force})")
