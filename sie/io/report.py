@@ -35,7 +35,7 @@ def summary(
 ) -> str:
     """All wanted quantities, section by section, with a picture of so many columns.
 
-    `more` has the answers of `cycle_answer` and `crack_answer` by name.
+    `more` has the answers of `cycle_answer` by name.
     """
     scene = f"{solution.scene.profile!r}, E* = {solution.scene.Estar:.6g} {file.units.stress}"
     readings = [f"trace {reading}" for reading in readings_of(solution)]
@@ -60,7 +60,7 @@ def summary(
 
         parts.append(cycle_summary(more["cycle"], file))
     if "crack" in more:
-        from .crack_answer import crack_summary  # noqa: PLC0415
+        from .cycle_answer import crack_summary  # noqa: PLC0415
 
         parts.append(crack_summary(more["crack"], file.units))
     notes = "\n".join(note for note in notes_of(solution, file) if note not in printed)
