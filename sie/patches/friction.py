@@ -28,7 +28,7 @@ from numpy.typing import NDArray
 from sie.errors import ContactError
 from sie.friction.slip_state import Slip
 from sie.numerics.zones import Zones, left_over, within
-from sie.problem.load_limit import remaining
+from sie.problem.coverage import remaining
 from sie.problem.scene import Scene
 from sie.traction.base import Density
 from sie.traction.combination import superposed

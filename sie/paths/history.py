@@ -56,8 +56,7 @@ from sie.patches.friction import refuse_stretch
 from sie.patches.full import FullContact
 from sie.patches.result import PatchCertificate
 from sie.planning import Plan, Step
-from sie.problem.load_path import Path
-from sie.problem.path_scene import pressed_first, unsheared
+from sie.problem.load_path import Path, pressed_first, unsheared
 from sie.problem.request import ECONOMY
 from sie.problem.scene import Scene
 from sie.progress_bar import counted
