@@ -209,13 +209,7 @@ class Solution(StressAnswers, DerivativeAnswers):
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """Sentences on effects that the equations neglect for this scene.
-
-        Returns
-        -------
-        tuple of str
-            () where strains are small, the coupling is full and slip zones grow.
-        """
+        """Sentences on effects that the equations neglect for this scene, () for none."""
         return *self.strain_notes, *self.coupling_notes, *self.slip_notes
 
     @property
@@ -274,9 +268,8 @@ class Solution(StressAnswers, DerivativeAnswers):
     def trace_reports(self) -> tuple[TraceReport, ...]:
         """The measured traces in the profile, with their treatment and what their noise implies.
 
-        The error of the pressure that a report states is estimated from the misfit of the spline.
-        The certificate measures something else: how well the equations are solved for this spline.
-        The cost is a smoothing by cross validation and a dozen systems for the edges.
+        The error of the pressure is estimated from the misfit of the spline, which the certificate
+        takes as it is. The cost is a cross validation and a dozen systems for the edges.
 
         Returns
         -------
@@ -320,7 +313,7 @@ class Solution(StressAnswers, DerivativeAnswers):
         return of_solution(self, ax, what, units)
 
     def _repr_png_(self) -> bytes | None:
-        """The picture that a notebook shows, where Matplotlib is installed."""
+        """The picture that a notebook shows; None without Matplotlib."""
         try:
             from sie.plots.contact_plot import picture
         except ImportError:
