@@ -22,7 +22,7 @@ LINES = {
     "examples": 10,
     "friction": 11520,
     "inverse": 320,
-    "io": 4750,
+    "io": 4730,
     "live": 1160,
     "many": 950,
     "numerics": 2170,

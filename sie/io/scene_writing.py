@@ -88,14 +88,14 @@ def _with_infinities(value: Any) -> Any:
 
 def tables_of(scene: Scene) -> Tables:
     """The tables of a scene. ValueError if a scene file cannot name its profile."""
-    given = {f.name: getattr(scene, f.name) for f in fields(scene)}
-    given = {f.name: given[f.name] for f in fields(scene) if given[f.name] != f.default}
+    both = ((f, getattr(scene, f.name)) for f in fields(scene))
+    given = {f.name: value for f, value in both if value != f.default}
     if scene.modulus is not None and scene.beta == 0.0:
         del given["dundurs"]  # beside a modulus it is 0 if it is not given
     tables: Tables = {"profile": _profile(scene.profile)}
     if scene.body is not None:
         tables["body"] = _body(scene.body)
-        if scene.indenter != scene.body:
+        if scene.indenter not in (None, scene.body):
             tables["indenter"] = _body(scene.indenter)
     for name in ("pair", "load"):
         tables[name] = {key: given[key] for key in TABLES[name] if key in given}
@@ -130,20 +130,16 @@ def _term(part: Placed) -> Tables:
     modifiers: Tables = {name: value for name, value in names if value}
     if part.sign < 0.0:
         modifiers["mirrored"] = True
-    if isinstance(profile, Row):
-        indenters = [_term(*parts_of(one)) for one in profile.profiles if _is_one(one)]
-        return {"kind": "row", **modifiers, "of": indenters}
-    return {**_unmoved(profile), **modifiers}
-
-
-def _is_one(profile: Profile) -> bool:
-    """Whether a profile is one term. ValueError where it is not."""
-    if len(parts_of(profile)) > 1:
-        raise ValueError(
-            f"{profile!r} cannot be named in a scene file as an indenter of a row: give a profile "
-            "that is not a sum"
-        )
-    return True
+    if not isinstance(profile, Row):
+        return {**_unmoved(profile), **modifiers}
+    for one in profile.profiles:
+        if len(parts_of(one)) > 1:
+            raise ValueError(
+                f"{one!r} cannot be named in a scene file as an indenter of a row: give a profile "
+                "that is not a sum"
+            )
+    indenters = [_term(*parts_of(one)) for one in profile.profiles]
+    return {"kind": "row", **modifiers, "of": indenters}
 
 
 def _unmoved(profile: Profile) -> Tables:
@@ -171,7 +167,7 @@ def _plain(value: Any) -> Any:
     return [_plain(v) for v in value] if isinstance(value, (tuple, list)) else value
 
 
-def _body(body: Body | None) -> Tables | str:
+def _body(body: Body) -> Tables | str:
     if not isinstance(body, Elastic):
         return "rigid"
     plane = {} if body.plane == "strain" else {"plane": body.plane}

@@ -74,6 +74,12 @@ def test_an_exceeded_yield_stress_is_a_note_of_the_report_and_of_json(want):
         assert any("above yield_stress" in note for note in notes) == exceeded
 
 
+def test_a_scene_without_a_path_notes_an_exceeded_yield_stress_too():
+    still = CYCLE[: CYCLE.index("columns")] + "normal_load = 50.0\n"
+    file = scene_file.parse(still + "[fatigue]\nfatemi_socie_k = 0.5\nyield_stress = 1.0\n")
+    assert "above yield_stress" in as_dict(sie.solve(file.scene), file)["notes"][0]
+
+
 @pytest.mark.slow
 def test_json_has_slip_energy_stresses_and_parameters_of_the_last_cycle(solve, cycle):
     status, out, _ = solve(CYCLE + MATERIAL, "--json")
