@@ -1,28 +1,17 @@
-"""A scene as the tables of a scene file, and these as TOML text or as values for JSON.
+"""A scene as the tables of a scene file, values for JSON, and the scene of such tables.
 
-The tables are what `scene_file` reads: reading them gives an equal scene, to the last digit.
-Numbers keep all digits of `repr`. The heights of a trace stand in the tables, not the name of its
-file.
+The tables are what `scene_file` reads: reading them gives an equal scene, to the last digit. The
+heights of a trace stand in the tables, not the name of its file.
 
 >>> from sie import Parabola, Scene
->>> scene = Scene(profile=Parabola(100.0), modulus=80e3, normal_load=50.0)
->>> print(toml_text(tables_of(scene)), end="")
-[profile]
-kind = "parabola"
-radius = 100.0
-<BLANKLINE>
-[pair]
-modulus = 80000.0
-<BLANKLINE>
-[load]
-normal_load = 50.0
+>>> tables_of(Scene(profile=Parabola(100.0), modulus=80e3, normal_load=50.0))["profile"]
+{'kind': 'parabola', 'radius': 100.0}
 """
 
 from __future__ import annotations
 
 import inspect
-import json
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import fields
 from typing import Any
 
@@ -40,7 +29,7 @@ from sie.profiles.row import Periodic, Row
 from sie.profiles.sampled import Sampled
 from sie.profiles.shapes import Wedge
 
-from .scene_file import MOST_BYTES, from_tables
+from .scene_file import from_tables
 from .scene_keys import TABLES
 
 Tables = dict[str, Any]
@@ -102,17 +91,6 @@ def tables_of(scene: Scene) -> Tables:
     return {name: table for name, table in tables.items() if table}
 
 
-def toml_text(tables: Mapping[str, Any]) -> str:
-    """The tables as TOML. ValueError where a scene file would be too long to be read."""
-    text = "\n".join(_lines(tables, "")).lstrip("\n") + "\n"
-    if len(text.encode()) > MOST_BYTES:
-        raise ValueError(
-            f"the scene has more than {MOST_BYTES / 1e6:g} MB as text: write the trace to a file "
-            "of columns, and name it by path"
-        )
-    return text
-
-
 # -- profiles and bodies -------------------------------------------------------------------------
 
 
@@ -172,32 +150,3 @@ def _body(body: Body) -> Tables | str:
         return "rigid"
     plane = {} if body.plane == "strain" else {"plane": body.plane}
     return {"young": body.young, "poisson": body.poisson, **plane}
-
-
-# -- TOML ----------------------------------------------------------------------------------------
-
-
-def _lines(table: Mapping[str, Any], place: str) -> Iterator[str]:
-    """The lines of a table: its values first, then the tables in it under their headers."""
-    inner: dict[str, Any] = {}
-    for key, value in table.items():
-        if isinstance(value, Mapping) or (value and _are_tables(value)):
-            inner[key] = value
-        else:
-            yield f"{key} = {_value(value)}"
-    for key, value in inner.items():
-        header = f"[{place}{key}]" if isinstance(value, Mapping) else f"[[{place}{key}]]"
-        for one in [value] if isinstance(value, Mapping) else value:
-            yield from ("", header, *_lines(one, f"{place}{key}."))
-
-
-def _are_tables(value: Any) -> bool:
-    return isinstance(value, list) and all(isinstance(one, Mapping) for one in value)
-
-
-def _value(value: Any) -> str:
-    if isinstance(value, list):
-        return f"[{', '.join(map(_value, value))}]"
-    if isinstance(value, str):  # the escapes of JSON are those of TOML
-        return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
-    return {True: "true", False: "false"}[value] if isinstance(value, bool) else repr(value)

@@ -187,30 +187,6 @@ class Scene:
 
         return tables_of(self)
 
-    def to_toml(self) -> str:
-        """The scene as the text of a scene file, which reads back into an equal scene.
-
-        Returns
-        -------
-        str
-            TOML; `sie solve` takes it.
-
-        Raises
-        ------
-        ValueError
-            As of `to_dict`, and for a trace so long that its text is more than 1 MB.
-
-        Examples
-        --------
-        >>> import sie
-        >>> scene = sie.Scene(profile=sie.Wedge(0.1), modulus=1.0, normal_load=2.0)
-        >>> scene.to_toml().splitlines()[:3]
-        ['[profile]', 'kind = "wedge"', 'slope = 0.1']
-        """
-        from sie.io.scene_writing import toml_text  # noqa: PLC0415 -- a higher layer
-
-        return toml_text(self.to_dict())
-
     # -- checks ------------------------------------------------------------------------------------
 
     def _check_bodies(self) -> None:
