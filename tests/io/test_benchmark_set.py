@@ -160,13 +160,6 @@ def test_the_stick_zone_and_the_peak_are_those_of_cattaneo_and_hertz(texts):
     assert answer["pressure"]["peak"]["p"] == pytest.approx(float(peak), rel=EPS)
 
 
-def test_the_load_of_a_rounded_punch_is_that_of_its_width(texts):
-    load = rounded_flat.load(half_width=1, **PUNCH, lib=mp)
-    assert numbers(texts, "rounded-flat-55")[0]["normal_load"] == pytest.approx(
-        float(load), rel=EPS
-    )
-
-
 def test_the_stick_zone_and_the_load_are_those_of_spence(texts):
     answer, _ = numbers(texts, "spence")
     b, c = answer["edges"][1], answer["shear"]["stick"][0][1]

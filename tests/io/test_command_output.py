@@ -10,7 +10,7 @@ from command_scenes import KINDS, example, sentence
 
 import sie
 from sie.cli import main
-from sie.io import report, sample_points, scene_file
+from sie.io import report, scene_file
 
 
 def strict(text):
@@ -109,17 +109,6 @@ def test_json_and_csv_go_to_a_file_or_alone_to_standard_output(scene, tmp_path, 
     assert "wrote out.json" in capsys.readouterr().out
     main(["solve", scene, "--csv", "-"])
     assert capsys.readouterr().out.startswith("# Fretting pad")
-
-
-def test_csv_points_resolve_a_rounded_edge_of_a_thousandth_of_the_contact():
-    solution = sie.solve(
-        sie.Scene(
-            profile=sie.RoundedFlat(0.999, 20.0), body=sie.Elastic(210e3, 0.3), half_width=1.0
-        )
-    )
-    x = sample_points.inside(solution, 100)
-    assert ((x >= 0.999) & (x <= 1.0)).sum() >= 10
-    assert len(x) == pytest.approx(100, abs=10)
 
 
 # -- shear and load paths --------------------------------------------------------------------------

@@ -114,14 +114,6 @@ def test_an_infinite_pressure_is_cut_and_marked_by_arrows(name, arrows):
     assert r"$p \to \infty$" in words(upper)
 
 
-def test_a_spike_is_cut_but_its_value_is_printed():
-    solution = solved("thin rim")
-    upper, _ = plot.picture(solution).axes
-    largest, _ = plot.peak(solution)
-    assert upper.get_ylim()[1] < 0.5 * largest
-    assert any(word == f"$p_{{\\mathrm{{max}}}}$ = {largest:.3f} MPa" for word in words(upper))
-
-
 # -- shear ----------------------------------------------------------------------------------------
 
 FRETTING = parse(example("fretting-cycle"))

@@ -122,18 +122,6 @@ def test_a_quantity_is_nan_by_its_own_names_where_no_point_has_an_answer(want):
     )
 
 
-def test_a_sweep_counts_the_patches_and_measures_their_length():
-    row = sie.Row([sie.Parabola(1.0).shifted(3.0 * k).raised(0.01 * k) for k in range(3)])
-    scene, loads = sie.Scene(profile=row, modulus=1.0, normal_load=1.0), [1e-3, 0.05, 0.5]
-    swept = plain(
-        sie.sweep(scene, {"normal_load": loads}, ["patches", "contact_length", "gap_volume"])
-    )
-    solutions = [sie.solve(replace(scene, normal_load=P)) for P in loads]
-    assert swept["patches"].tolist() == [len(s.patches) for s in solutions]
-    assert swept["contact_length"].tolist() == [s.contact_length for s in solutions]
-    assert swept["gap_volume"].tolist() == [s.gap_volume for s in solutions]
-
-
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [

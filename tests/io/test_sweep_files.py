@@ -50,16 +50,6 @@ def test_a_file_is_readable_while_the_work_goes_on(path):
     assert seen[0]["reason"].values.tolist() == ["", "", *["not computed yet"] * 2]
 
 
-def test_an_interrupted_sweep_leaves_a_file_of_what_was_found(path):
-    def interrupt():
-        raise KeyboardInterrupt
-
-    with pytest.raises(sie.Interrupted) as caught:
-        sie.sweep(SCENE, LOADS, half_width_and(interrupt), to=path)
-    xarray.testing.assert_identical(opened(path), caught.value.result)
-    assert opened(path)["reason"].values.tolist() == ["", "", "interrupted", "interrupted"]
-
-
 def test_a_sweep_that_ends_in_the_middle_of_a_write_leaves_a_readable_file(path, monkeypatch):
     class Killed(BaseException):
         pass
@@ -76,13 +66,6 @@ def test_a_sweep_that_ends_in_the_middle_of_a_write_leaves_a_readable_file(path,
     left = opened(path)
     assert left["reason"].values.tolist() == ["", "", *["not computed yet"] * 2]
     assert left["half_width"].values[1] == sie.solve(SCENE).with_(normal_load=2.0).half_width
-
-
-def test_arrays_that_get_longer_are_written(path):
-    want = {"p": lambda s: s.pressure(np.linspace(0.0, 0.1, int(s.normal_load)))}
-    found = sie.sweep(SCENE, LOADS, want, to=path)
-    assert found["p"].shape == (4, 4)
-    xarray.testing.assert_identical(opened(path), found)
 
 
 def test_answers_are_not_lost_where_the_file_cannot_be_written(path, monkeypatch):
