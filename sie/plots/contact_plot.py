@@ -21,21 +21,21 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
+from sie.errors import ContactError
 from sie.io.answers import slip_of
 from sie.io.sample_points import ABOVE_ORDINARY, abscissae, ceiling, full, peak, reach, summits
 from sie.io.scene_file import UNITS, Units
-from sie.paths.history import PathSolution
+from sie.paths.history import History, PathSolution
+from sie.problem.load_path import Path
 from sie.solution import Solution
 
 from . import style
-from .loop_plot import draw as draw_loop
-from .loop_plot import loop_along
 
 Array = NDArray[np.float64]
 
@@ -49,6 +49,7 @@ ARROW = {
     "shrinkB": 0,
     "mutation_scale": 6,
 }
+PARTS, MOST = 24, 600  # of a step of a loop, joined by straight lines, and of all steps
 GROUND = 0.28  # thickness of the half-plane in the lower panel, relative to the height above it
 
 
@@ -342,3 +343,46 @@ def _name_bodies(axes: Axes, view: _View) -> None:
     ):
         given = {"style": "italic", "bbox": style.opaque(ground), "zorder": 5}
         style.word(axes, x * view.factor, y, text, color=style.INK, **given)
+
+
+# -- the loop of a path ----------------------------------------------------------------------------
+
+
+class Loop(NamedTuple):
+    """The points of a loop, and among them its turning points, rows (shift, Q)."""
+
+    points: Array
+    corners: Array
+
+
+def loop_along(history: History) -> Loop | None:
+    """The loop of a path of several points with Q, None where the shift is not known."""
+    path = history.path
+    if len(path) < 2 or path.points[0][0] == 0.0 or not any(Q for _, Q, _ in path.points):
+        return None
+    points = [(path.points[0][0], 0.0, 0.0), *path.points]
+    parts = max(min(PARTS, MOST // len(path)), 1)
+    along = Path(points, path.tilt[:1] + path.tilt, path.moment[:1] + path.moment)
+    along = along.subdivided(parts)
+    try:
+        states = type(history)(history.scene, along, history.tol, history.economy)
+        shifts = [state.shift for state in states]
+    except ContactError:
+        return None
+    rows = np.array([(shift, Q) for shift, (_, Q, _) in zip(shifts, along.points, strict=True)])
+    return Loop(rows, rows[parts::parts])
+
+
+def draw_loop(axes: Axes, loop: Loop, units: Units) -> None:
+    """The loop, with a dot on each turning point, the last in another colour."""
+    along, length = style.scaled(float(np.abs(loop.corners[:, 0]).max()) or 1.0, units.length)
+    up, force = style.scaled(float(np.abs(loop.corners[:, 1]).max()), units.force)
+    style.zero_line(axes)
+    axes.axvline(0.0, color=style.INK, linewidth=0.6, zorder=1)
+    x, y = (loop.points * (along, up)).T
+    style.curve(axes, x, y, style.BLUE, 1.2, zorder=3)
+    dots: dict[str, Any] = {"marker": "o", "linestyle": "none"}
+    x, y = (loop.corners * (along, up)).T
+    axes.plot(x, y, color=style.BLUE, markersize=2.2, zorder=4, **dots)
+    axes.plot(x[-1:], y[-1:], color=style.VERMILLION, markersize=3.0, zorder=5, **dots)
+    style.named(axes, f"shift of the indenter by slip ({length})", f"$Q$ ({force})")
