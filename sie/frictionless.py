@@ -153,22 +153,7 @@ class Frictionless:
     def patches_under(self, load: float, tilt: float) -> SeveralPatches | FullContact:
         """The contact of the same profile under another load and tilt, in several patches.
 
-        Parameters
-        ----------
-        load : float
-            P, a force per unit length.
-        tilt : float
-            The tilt, a pure number.
-
-        Returns
-        -------
-        SeveralPatches or FullContact
-            The contact without shear.
-
-        Raises
-        ------
-        ContactError
-            If no patches are certified.
+        ContactError if no patches are certified.
         """
         from .patches.answer import several_patches
 

@@ -142,11 +142,13 @@ def _raw(path: Path, nodes: Path | None, columns: Mapping[str, str]) -> Raw:
 
 
 def _placed(raw: Raw, surface: float | None, body: str) -> Mesh:
-    """The quantities in the axes of the package."""
+    """The quantities in the axes of the package; without y they are on the surface."""
     notes = list(raw.notes)
-    height = surface if surface is not None else _height_of_contact(raw)
+    groups = [{"y": np.zeros_like(group["x"])} | group for group in raw.groups]
+    heights = (height for height in map(_level, groups) if height is not None)
+    height = surface if surface is not None else next(heights, None)
     parts: dict[str, list[Points]] = {}
-    for group in raw.groups:
+    for group in groups:
         for names, other, place in (
             (TRACTIONS, STRESSES, _on_surface),
             (STRESSES, TRACTIONS, _in_body),
@@ -176,15 +178,10 @@ def _near(values: Array, level: float) -> NDArray[np.bool_]:
     return result
 
 
-def _height_of_contact(raw: Raw) -> float | None:
-    """The height at which the contact pressure acts, None where it is not known or not one."""
-    heights = (height for height in map(_level, raw.groups) if height is not None)
-    return next(heights, None)
-
-
 def _level(group: Columns) -> float | None:
+    """The height at which the contact pressure acts, None where it is not known or not one."""
     loads = [np.abs(group[name]) for name in TRACTIONS if name in group]
-    if not loads or "y" not in group or not any(load.any() for load in loads):
+    if not any(load.any() for load in loads):
         return None
     y = group["y"][np.any([load > 0.5 * load.max() for load in loads], axis=0)]
     if np.count_nonzero(_near(y, 0.0)) > 1:
@@ -204,8 +201,6 @@ def _on_surface(
     if known and acts.any():
         own = np.isin(group["body"], group["body"][acts])
         group, acts = chosen(group, own), acts[own]
-    if "y" not in group:
-        return group | {"y": np.zeros_like(group["x"])}, []
     y, notes = group["y"], []
     level = height if height is not None else 0.0
     on = _near(y, level)
@@ -228,8 +223,6 @@ def _in_body(
     raw: Raw, group: Columns, height: float | None, body: str
 ) -> tuple[Columns, list[str]]:
     """The points of one body, with their depth, and the sign of σ_xy that belongs to it."""
-    if "y" not in group:
-        return group | {"y": np.zeros_like(group["x"])}, []
     notes: list[str] = []
     parts = len(raw.tops)
     if parts > 1 and "body" in group:
