@@ -175,15 +175,7 @@ def _of_one_problem(scene: Scene, names: tuple[str, ...], stages: set[str]) -> I
     uneven = scene.profile.axis is None or bool(scene.tilt)
     slip = "the shear and the slip come with the pressure"
     if scene.bonded:
-        exponents = (
-            f"-1/2 ± iη, tanh πη = {beta}" if scene.beta else "-1/2: β = 0 uncouples p and q"
-        )
-        tilt = "given" if scene.moment is None else "that of the moment, which is linear in it"
-        how = f"one equation for p + iq, exponents {exponents}; the tilt is {tilt}"
-        first = [
-            Step("edges", True, "the ends of the punch", "normal"),
-            Step("full stick", True, how, "bonded"),
-        ]
+        first = _full_stick(scene)
         pressure, slip = "its real part", "infinite friction: nothing slips"
         inequalities = "bonded surfaces can pull, and touch all over"
     elif scene.tangential_load or scene.tau:
@@ -211,6 +203,15 @@ def _of_one_problem(scene: Scene, names: tuple[str, ...], stages: set[str]) -> I
         Step("inequalities", False, inequalities),
         Step("slip", False, slip),
     )
+
+
+def _full_stick(scene: Scene) -> list[Step]:
+    exponents = f"-1/2 ± iη, tanh πη = β = {scene.beta:.4g}"
+    exponents = exponents if scene.beta else "-1/2: β = 0 leaves p and q uncoupled"
+    tilt = "given" if scene.moment is None else "that of the moment, which is linear in it"
+    how = f"one equation for p + iq, exponents {exponents}; the tilt is {tilt}"
+    ends = Step("edges", True, "the ends of the punch", "normal")
+    return [ends, Step("full stick", True, how, "bonded")]
 
 
 # -- first the pressure ----------------------------------------------------------------------------

@@ -6,7 +6,7 @@ Values that make no contact problem are refused when the scene is built.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -25,6 +25,43 @@ NUMBERS = (
     ("moment", arguments.measure, arguments.LARGEST_COEFFICIENT),
     ("tangential_load", arguments.measure, arguments.LARGEST_LOAD),
     ("bulk_stress", arguments.measure, arguments.LARGEST),
+)
+
+# Loads that do not fit together, and what is said of a scene that has them.
+UNFIT: tuple[tuple[Callable[[Any], bool], str], ...] = (
+    (
+        lambda s: s.moment is not None and s.half_width is not None,
+        "both half_width = {0.half_width:g} and moment = {0.moment:g} given: give normal_load "
+        "beside a moment, or tilt beside a half_width",
+    ),
+    (
+        lambda s: s.moment is not None and s.tilt != 0.0,
+        "both tilt = {0.tilt:g} and moment = {0.moment:g} given: give one, the other follows",
+    ),
+    (
+        lambda s: s.tangential_load != 0.0 and s.friction == 0.0,
+        "tangential_load = {0.tangential_load:g} without friction: a frictionless contact carries "
+        "none; give friction > 0",
+    ),
+    (
+        lambda s: s.sliding and s.tangential_load != 0.0,
+        "both sliding = {0.sliding} and tangential_load = {0.tangential_load:g} given: in full "
+        "sliding Q = ±f P follows",
+    ),
+    (
+        lambda s: s.sliding and s.friction == math.inf,
+        "sliding = {0.sliding} with infinite friction: nothing slides; give a finite friction",
+    ),
+    (
+        lambda s: s.sliding and s.friction == 0.0,
+        "sliding = {0.sliding} without friction: there is no shear traction; leave it 0, or give "
+        "friction > 0",
+    ),
+    (
+        lambda s: s.coupling == "goodman" and s.friction == math.inf,
+        "coupling = 'goodman' with infinite friction: full stick of dissimilar bodies is solved "
+        "without an approximation; leave coupling out",
+    ),
 )
 
 
@@ -258,47 +295,9 @@ class Scene:
                 f"{what} of normal_load and half_width given: give exactly one, the other follows"
             )
         self._check_numbers()
-        moment, Q, sliding = self.moment is not None, self.tangential_load, self.sliding
-        bonded, slippery = self.friction == math.inf, self.friction == 0.0
-        for refused, why in (
-            (
-                moment and self.half_width is not None,
-                f"both half_width = {self.half_width!r} and moment = {self.moment!r} given: give "
-                "normal_load beside a moment, or tilt beside a half_width",
-            ),
-            (
-                moment and self.tilt != 0.0,
-                f"both tilt = {self.tilt:g} and moment = {self.moment!r} given: give one, the "
-                "other follows",
-            ),
-            (
-                Q != 0.0 and slippery,
-                f"tangential_load = {Q:g} without friction: a frictionless contact carries none; "
-                "give friction > 0",
-            ),
-            (
-                sliding and Q != 0.0,
-                f"both sliding = {sliding} and tangential_load = {Q:g} given: in full sliding "
-                "Q = ±f P follows",
-            ),
-            (
-                sliding and bonded,
-                f"sliding = {sliding} with infinite friction: nothing slides; give a finite "
-                "friction",
-            ),
-            (
-                sliding and slippery,
-                f"sliding = {sliding} without friction: there is no shear traction; leave it 0, "
-                "or give friction > 0",
-            ),
-            (
-                bonded and self.coupling == "goodman",
-                "coupling = 'goodman' with infinite friction: full stick of dissimilar bodies is "
-                "solved without an approximation; leave coupling out",
-            ),
-        ):
-            if refused:
-                raise ValueError(why)
+        for unfit, why in UNFIT:
+            if unfit(self):
+                raise ValueError(why.format(self))
 
     def _set(self, name: str, value: Any) -> None:
         object.__setattr__(self, name, value)
