@@ -16,7 +16,7 @@ DOCS = Path(__file__).parent
 SOLVER = DOCS.parent / "sie"
 PICTURE = DOCS / "architecture.svg"
 # The face of the package, of the command, data, and the handler of Ctrl-C.
-LEFT_OUT = {"__init__", "__main__", "examples", "interrupt"}
+LEFT_OUT = {"__init__", "__main__", "examples"}
 UPWARD = "-- a higher layer"  # the remark on an import that points upward
 WIDTH, HEIGHT, ACROSS, DOWN, MARGIN = 128, 30, 18, 44, 16
 

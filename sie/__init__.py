@@ -33,7 +33,6 @@ Units are free: any consistent set works, and nothing depends on scale.
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-from . import interrupt as interrupt
 from .errors import ContactError, InequalityError, LoadError, ResolutionError
 from .problem.load_path import Path
 from .problem.material import RIGID, Elastic
@@ -49,38 +48,7 @@ from .traction.base import Density
 from .traction.combination import ZERO, scaled, superposed
 
 if TYPE_CHECKING:
-    from .later import (
-        QUANTITIES,
-        CauchyEquation,
-        CriticalPlane,
-        Cycle,
-        Derivative,
-        EdgeCrack,
-        EdgeIntensity,
-        History,
-        Interrupted,
-        Many,
-        Peak,
-        Plan,
-        SteadyCycle,
-        Stress,
-        StressDerivative,
-        StressIntensity,
-        TraceReport,
-        Uncertainty,
-        WearLimit,
-        WearModes,
-        YieldPoint,
-        follow,
-        least_smoothing,
-        plan,
-        profile_for_pressure,
-        solve_many,
-        steady_cycle,
-        sweep,
-        wear_limit,
-        wear_modes,
-    )
+    from .later import *  # noqa: F403
 
 __version__ = "0.3.0.dev0"
 
@@ -131,7 +99,6 @@ __all__ = [
     "Wedge",
     "YieldPoint",
     "follow",
-    "least_smoothing",
     "plan",
     "profile_for_pressure",
     "rolling",

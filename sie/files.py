@@ -12,7 +12,7 @@ import secrets
 import shutil
 import stat
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -79,13 +79,9 @@ def empty_folder(path: str | Path) -> Path:
         return writable(path)
     if not path.is_dir():
         raise ValueError(f"{path} is no directory: give the name of a new or an empty one")
-    if not os.access(path, os.W_OK | os.X_OK):
-        raise ValueError(f"{path} cannot be written, permission is denied: choose another place")
-    count = len(list(path.iterdir()))
-    if count:
-        noun = "file" if count == 1 else "files"
-        raise ValueError(f"{path} has {count} {noun}: give the name of a new or an empty directory")
-    return path
+    if any(path.iterdir()):
+        raise ValueError(f"{path} has files: give the name of a new or an empty directory")
+    return writable(path / "file").parent
 
 
 def same(one: str | int | Path, other: str | int | Path) -> bool:
@@ -96,14 +92,11 @@ def same(one: str | int | Path, other: str | int | Path) -> bool:
     try:
         return os.path.samefile(one, other)
     except OSError:  # one of them does not exist
-        if (
-            isinstance(one, int)
-            or isinstance(other, int)
-            or os.path.exists(one)
-            or os.path.exists(other)
-        ):
+        if isinstance(one, int) or isinstance(other, int):
             return False
-        return str(Path(one).resolve()).casefold() == str(Path(other).resolve()).casefold()
+        places = [Path(place) for place in (one, other)]
+        first, second = (str(place.resolve()).casefold() for place in places)
+        return first == second and not any(place.exists() for place in places)
 
 
 def table_of_columns(head: Sequence[str], columns: Mapping[str, Any]) -> str:
@@ -164,23 +157,6 @@ def _move(parts: Mapping[Path, Path], contents: Iterable[Path]) -> None:
     with _named(contents):
         for place, part in parts.items():
             os.replace(part, place)
-
-
-@contextmanager
-def making_folders(paths: Iterable[Path]) -> Iterator[None]:
-    """Make the folders that are not there; those that the block leaves empty are removed again."""
-    made: list[Path] = []
-    try:
-        for path in sorted(paths):  # a folder before what is in it
-            if not path.exists():
-                with _named([path]):
-                    path.mkdir()
-                made.append(path)
-        yield
-    finally:
-        for path in reversed(made):
-            with suppress(OSError):  # it has files
-                path.rmdir()
 
 
 @contextmanager

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Collection
 from dataclasses import replace
+from functools import cached_property
 from typing import TYPE_CHECKING, cast
 
 import numpy as np
@@ -24,7 +25,6 @@ from .profiles.lowest_points import lowest_points
 from .profiles.placed_traces import explained, smoothing_remedy
 from .profiles.row import asks_for_patches
 from .profiles.slope import Slope
-from .stages import stage as cached_property  # its first reading is logged
 from .traction.of_slope import SlopeDensity
 
 if TYPE_CHECKING:  # patches are imported where one patch is no answer
@@ -153,22 +153,7 @@ class Frictionless:
     def patches_under(self, load: float, tilt: float) -> SeveralPatches | FullContact:
         """The contact of the same profile under another load and tilt, in several patches.
 
-        Parameters
-        ----------
-        load : float
-            P, a force per unit length.
-        tilt : float
-            The tilt, a pure number.
-
-        Returns
-        -------
-        SeveralPatches or FullContact
-            The contact without shear.
-
-        Raises
-        ------
-        ContactError
-            If no patches are certified.
+        ContactError if no patches are certified.
         """
         from .patches.answer import several_patches
 

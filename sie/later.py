@@ -21,7 +21,6 @@ from .stress.fatigue import CriticalPlane
 from .stress.fretting import Cycle
 from .stress.half_plane import Stress
 from .stress.yield_limit import Peak, YieldPoint
-from .sweeps.smoothing_search import least_smoothing
 from .sweeps.sweep import Interrupted, sweep
 from .sweeps.work import QUANTITIES
 from .wear.limit import WearLimit, wear_limit
@@ -51,7 +50,6 @@ __all__ = [
     "WearModes",
     "YieldPoint",
     "follow",
-    "least_smoothing",
     "plan",
     "profile_for_pressure",
     "rolling",

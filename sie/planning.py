@@ -30,6 +30,7 @@ ONE_PROBLEM: dict[str, tuple[str, ...]] = {
     **dict.fromkeys(BODY, ("pressure", "tractions")),
 }
 NO_ECONOMY = "economy is switched off"
+KNOWN = "the slope is polynomial on each piece: known exactly"
 
 
 @dataclass(frozen=True)
@@ -124,11 +125,11 @@ def plan(
     no_shear: dict[str, tuple[str, ...]] = dict.fromkeys(("shear", "energy"), ())
     needed = TWO_PROBLEMS | ({} if sheared(scene, economy) or scene.epsilon else no_shear)
     stages = {stage for name in names for stage in needed[name]}
-    normal = _of_patches if asks_for_patches(scene.profile) else _of_one_patch
+    patches = asks_for_patches(scene.profile)
     steps = (
-        *normal(scene, economy),
+        *(_of_patches(scene) if patches else _of_one_patch(scene, economy)),
         _tilt(scene),
-        _pressure(scene, "pressure" in stages, economy),
+        _if_asked("pressure", "pressure" in stages, _expansion(scene, economy), "pressure"),
         _convexity(scene, economy),
         _coupling(scene),
         _slip(scene, "tangential" in stages, economy),
@@ -137,8 +138,14 @@ def plan(
     return Plan((*steps, *_last(names, stages)))
 
 
+def _step(name: str, skipped: Iterable[tuple[bool, str]], how: str, stage: str = "") -> Step:
+    """The step, skipped for the first reason that holds."""
+    why = next((why for holds, why in skipped if holds), "")
+    return Step(name, not why, why or how, stage)
+
+
 def _if_asked(name: str, asked: bool, how: str, stage: str = "") -> Step:
-    return Step(name, asked, how if asked else "not asked for", stage)
+    return _step(name, [(not asked, "not asked for")], how, stage)
 
 
 def _last(names: tuple[str, ...], stages: set[str]) -> tuple[Step, ...]:
@@ -146,11 +153,10 @@ def _last(names: tuple[str, ...], stages: set[str]) -> tuple[Step, ...]:
     stress = "from the potentials of the tractions, each once; no complex arithmetic on the surface"
     maxima = (("yield", "J2 in the body"), ("tension", "σ_xx on the surface"))
     found = " and ".join(what for name, what in maxima if name in names)
-    search = f"{found}: scanned, then polished with exact gradients"
     certificate = "residual, equilibrium and inequalities on other points"
     return (
         _if_asked("stress", "tractions" in stages, stress, "tractions"),
-        _if_asked("maxima", bool(found), search),
+        _if_asked("maxima", bool(found), f"{found}: scanned, then polished with exact gradients"),
         _if_asked("certificate", "certificate" in stages, certificate, "certificate"),
     )
 
@@ -160,197 +166,159 @@ def _last(names: tuple[str, ...], stages: set[str]) -> tuple[Step, ...]:
 
 def _of_one_problem(scene: Scene, names: tuple[str, ...], stages: set[str]) -> Iterable[Step]:
     """The steps of full stick, and of dissimilar bodies in partial slip."""
+    beta = f"β = {scene.beta:.4g}"
+    coupled = (
+        "β q is left out: Goodman's approximation"
+        if scene.neglects_beta
+        else f"{beta}: p and q are one problem"
+    )
+    uneven = scene.profile.axis is None or bool(scene.tilt)
+    slip = "the shear and the slip come with the pressure"
     if scene.bonded:
-        first, pressure = _full_stick(scene), "its real part"
+        first = _full_stick(scene)
+        pressure, slip = "its real part", "infinite friction: nothing slips"
         inequalities = "bonded surfaces can pull, and touch all over"
     elif scene.tangential_load or scene.tau:
-        first, pressure = _pressed_then_sheared(scene, names), "with the edges"
+        energy = "the power of friction, summed over states"
+        first = [
+            Step("coupling", True, f"{coupled}; first under P alone", "pressed"),
+            Step("slip gradient", True, "that of P alone, kept in stick", "locked_in"),
+            Step("zones", True, "four edges, of contact and stick zone, by Newton", "coupled"),
+            Step("edges", True, "found with the zones", "normal"),
+            _if_asked("energy", "energy" in names, energy),
+        ]
+        pressure = "with the edges"
         inequalities = "the certificate measures p >= 0 and |q| <= f p"
     else:
-        first, pressure = _pressed(scene), "flats superposed"
-        inequalities = "dP/ds > 0 is verified: p > 0 and |q| <= f p follow"
-        if scene.profile.axis is None or scene.tilt:
-            inequalities += ", where the stick zone grows at both ends, which is verified too"
-    together = "the shear and the slip come with the pressure"
+        how = f"{coupled}; the stick zone is that of a flat punch"
+        middle = " and, if the contact has no axis, its middle by a second one" * uneven
+        growth = f"dP/ds by a Volterra equation{middle}; the edges from the integral of dP/ds"
+        first = [Step("coupling", True, how, "coupled"), Step("edges", True, growth, "normal")]
+        pressure = "flats superposed"
+        grows = ", where the stick zone grows at both ends, which is verified too" * uneven
+        inequalities = f"dP/ds > 0 is verified: p > 0 and |q| <= f p follow{grows}"
     return (
         *first,
         _if_asked("pressure", "pressure" in stages, pressure, "pressure"),
         Step("inequalities", False, inequalities),
-        Step("slip", False, "infinite friction: nothing slips" if scene.bonded else together),
+        Step("slip", False, slip),
     )
 
 
-def _full_stick(scene: Scene) -> tuple[Step, ...]:
+def _full_stick(scene: Scene) -> list[Step]:
     exponents = f"-1/2 ± iη, tanh πη = β = {scene.beta:.4g}"
-    if scene.beta == 0.0:
-        exponents = "-1/2: β = 0 leaves p and q uncoupled"
+    exponents = exponents if scene.beta else "-1/2: β = 0 leaves p and q uncoupled"
     tilt = "given" if scene.moment is None else "that of the moment, which is linear in it"
     how = f"one equation for p + iq, exponents {exponents}; the tilt is {tilt}"
-    return (
-        Step("edges", True, "the ends of the punch", "normal"),
-        Step("full stick", True, how, "bonded"),
-    )
-
-
-def _pressed(scene: Scene) -> tuple[Step, ...]:
-    how = f"{_one_problem(scene)}; the stick zone is that of a flat punch"
-    growth = "dP/ds in closed form or by a Volterra equation; the edges from its integral"
-    if scene.profile.axis is None or scene.tilt:
-        growth = (
-            "dP/ds by a Volterra equation and, if the contact has no axis, its middle by a second "
-            "one; the edges from the integral of dP/ds"
-        )
-    return Step("coupling", True, how, "coupled"), Step("edges", True, growth, "normal")
-
-
-def _one_problem(scene: Scene) -> str:
-    if scene.neglects_beta:
-        return "β q is left out: Goodman's approximation"
-    return f"β = {scene.beta:.4g}: p and q are one problem"
-
-
-def _pressed_then_sheared(scene: Scene, names: tuple[str, ...]) -> tuple[Step, ...]:
-    how = f"{_one_problem(scene)}; first under P alone"
-    return (
-        Step("coupling", True, how, "pressed"),
-        Step("slip gradient", True, "that of P alone, kept in stick", "locked_in"),
-        Step("zones", True, "four edges, of contact and stick zone, by Newton", "coupled"),
-        Step("edges", True, "found with the zones", "normal"),
-        _if_asked("energy", "energy" in names, "the power of friction, summed over states"),
-    )
+    ends = Step("edges", True, "the ends of the punch", "normal")
+    return [ends, Step("full stick", True, how, "bonded")]
 
 
 # -- first the pressure ----------------------------------------------------------------------------
 
 
-def _of_patches(scene: Scene, _economy: Collection[str]) -> tuple[Step, ...]:
+def _of_patches(scene: Scene) -> tuple[Step, ...]:
     """The steps to the edges of a profile that may touch in several patches."""
-    function = bool(scene.profile.pieces.functions)
-    known = "the slope is polynomial on each piece: known exactly"
+    known = (not scene.profile.pieces.functions, KNOWN)
     pieces = "the slope is a function: pieces of Chebyshev series where contact is possible"
     edges = "load given: patches from a grid, their edges by Newton, verified by bounds"
-    none = "not used for patches: the edges of all are unknown"
     return (
-        Step("resolution", function, pieces if function else known),
+        _step("resolution", [known], pieces),
         Step("edges", True, edges, "normal"),
-        Step("symmetry", False, none),
+        Step("symmetry", False, "not used for patches: the edges of all are unknown"),
         Step("flat pieces", False, "not told apart: values of h' on all pieces are summed"),
     )
 
 
 def _of_one_patch(scene: Scene, economy: Collection[str]) -> tuple[Step, ...]:
-    ends = any(abs(end) != float("inf") for end in scene.profile.domain)
-    edges = "smooth edges" + (" or sharp at the ends of the indenter" if ends else "")
-    edges += ", by bracketed Newton with exact derivatives"
+    profile, pieces = scene.profile, scene.profile.pieces
+    known = (not pieces.functions, KNOWN)
+    series = "the slope is a function: one Chebyshev series in the contact, or pieces on a window"
+    ends = any(abs(end) != float("inf") for end in profile.domain)
     given = "half-width" if scene.half_width is not None else "load"
-    return (
-        _resolution(scene),
-        Step("edges", True, f"{given} given: {edges}", "normal"),
-        _symmetry(scene, economy),
-        _flat_pieces(scene, economy),
-    )
-
-
-def _resolution(scene: Scene) -> Step:
-    if scene.profile.pieces.functions:
-        how = "one Chebyshev series in the contact, or pieces on a window fitted to it"
-        return Step("resolution", True, f"the slope is a function: {how}")
-    return Step("resolution", False, "the slope is polynomial on each piece: known exactly")
-
-
-def _symmetry(scene: Scene, economy: Collection[str]) -> Step:
-    reasons = (
+    sharp = " or sharp at the ends of the indenter" * ends
+    edges = f"{given} given: smooth edges{sharp}, by bracketed Newton with exact derivatives"
+    uneven = (
         ("symmetry" not in economy, NO_ECONOMY),
         (scene.tilt != 0.0, "the tilt breaks it"),
-        (scene.epsilon, "friction breaks it"),
-        (scene.profile.axis is None, "the profile has no axis"),
+        (bool(scene.epsilon), "friction breaks it"),
+        (profile.axis is None, "the profile has no axis"),
     )
-    for holds, why in reasons:
-        if holds:
-            return Step("symmetry", False, f"{why}: both edges are unknown")
-    extra = " while the tilt is zero" if scene.moment is not None else ""
-    about = f"about x = {scene.profile.axis:g}{extra}"
-    return Step("symmetry", True, f"{about}: half the unknowns, half the pieces")
-
-
-def _flat_pieces(scene: Scene, economy: Collection[str]) -> Step:
-    pieces = scene.profile.pieces
+    why = [(holds, f"{reason}: both edges are unknown") for holds, reason in uneven]
+    extra = " while the tilt is zero" * (scene.moment is not None)
+    even = f"about x = {profile.axis or 0.0:g}{extra}: half the unknowns, half the pieces"
     flat = int(pieces.is_zero.sum()) if scene.tilt == 0.0 else 0
-    if flat and "zero panels" not in economy:
-        return Step("flat pieces", True, f"{flat} integrated although zero: {NO_ECONOMY}")
     cost = f"{flat} of {len(pieces.origins)} cost nothing: h' = 0 there"
-    return Step("flat pieces", False, cost if flat else "there are none")
+    free = (not flat, "there are none"), ("zero panels" in economy, cost)
+    return (
+        _step("resolution", [known], series),
+        Step("edges", True, edges, "normal"),
+        _step("symmetry", why, even),
+        _step("flat pieces", free, f"{flat} integrated although zero: {NO_ECONOMY}"),
+    )
 
 
 def _tilt(scene: Scene) -> Step:
     how = "the moment is given: the tilt is found by Newton, dM/d(tilt) known in closed form"
-    given = scene.moment is None
-    return Step("tilt", not given, f"given: {scene.tilt:g}" if given else how)
-
-
-def _pressure(scene: Scene, asked: bool, economy: Collection[str]) -> Step:
-    how = _expansion(scene, economy)
-    return _if_asked("pressure", asked, how, "pressure")
+    return _step("tilt", [(scene.moment is None, f"given: {scene.tilt:g}")], how)
 
 
 def _expansion(scene: Scene, economy: Collection[str]) -> str:
-    if asks_for_patches(scene.profile):
-        return "values of the slope on all patches, summed: no unknown but the edges"
-    if scene.epsilon:
-        return "exact panels with the edges' exponents"
-    if "transform" not in economy:
-        return f"exact panels: {NO_ECONOMY}"
-    if not scene.profile.breaks:
-        return "the slope is smooth: one DCT, no linear system"
-    return "exact panels on the pieces in the contact; one DCT if no break falls inside"
+    """How the pressure is written."""
+    hows = (
+        (
+            asks_for_patches(scene.profile),
+            "values of the slope on all patches, summed: no unknown but the edges",
+        ),
+        (bool(scene.epsilon), "exact panels with the edges' exponents"),
+        ("transform" not in economy, f"exact panels: {NO_ECONOMY}"),
+        (not scene.profile.breaks, "the slope is smooth: one DCT, no linear system"),
+        (True, "exact panels on the pieces in the contact; one DCT if no break falls inside"),
+    )
+    return next(how for holds, how in hows if holds)
 
 
 def _convexity(scene: Scene, economy: Collection[str]) -> Step:
-    name, stage, profile = "convexity", "rises", scene.profile
-    if asks_for_patches(profile):
-        return Step(name, False, "not asked: patches are found whatever the profile", stage)
-    if profile.convex and "convexity" in economy:
-        return Step(name, False, "the profile is known to be convex: one patch, p > 0", stage)
-    unknown = "the profile is not known to be convex"
-    why = "economy is switched off" if profile.convex else unknown
-    return Step(name, True, f"{why}: one patch where h' rises, otherwise as patches", stage)
+    profile = scene.profile
+    skipped = (
+        (asks_for_patches(profile), "not asked: patches are found whatever the profile"),
+        (
+            profile.convex and "convexity" in economy,
+            "the profile is known to be convex: one patch, p > 0",
+        ),
+    )
+    why = NO_ECONOMY if profile.convex else "the profile is not known to be convex"
+    how = f"{why}: one patch where h' rises, otherwise as patches"
+    return _step("convexity", skipped, how, "rises")
 
 
 # -- then the shear --------------------------------------------------------------------------------
 
 
 def _coupling(scene: Scene) -> Step:
-    if scene.beta == 0.0:
-        return Step("coupling", False, "β = 0: pressure and shear are uncoupled")
-    if scene.neglects_beta:
-        return Step("coupling", False, "β q is left out: Goodman's approximation")
     beta = f"β = {scene.beta:.4g}"
-    if not scene.slides:
-        return Step("coupling", False, f"{beta}, but f = 0: no shear acts back on the pressure")
-    shear = f"q = {scene.slides * scene.friction:g} p"
+    skipped = (
+        (scene.beta == 0.0, "β = 0: pressure and shear are uncoupled"),
+        (scene.neglects_beta, "β q is left out: Goodman's approximation"),
+        (not scene.slides, f"{beta}, but f = 0: no shear acts back on the pressure"),
+    )
     edges = f"edges with exponents 1/2 ± {abs(scene.epsilon):.3g}"
-    how = "panels with Lerch's function for the logarithm"
-    return Step("coupling", True, f"{beta} and {shear}: {edges}, {how}")
+    shear = f"{beta} and q = {scene.slides * scene.friction:g} p"
+    return _step("coupling", skipped, f"{shear}: {edges}, panels with Lerch's function")
 
 
 def _slip(scene: Scene, asked: bool, economy: Collection[str]) -> Step:
     sliding = "full sliding: the shear traction is f times the pressure, nothing to solve"
     skipped = (
         (scene.friction == 0.0, "f = 0: there is no shear traction"),
-        (scene.epsilon != 0.0, sliding),
+        (bool(scene.epsilon), sliding),
         (not sheared(scene, economy), "Q = 0 and no bulk stress: there is no shear traction"),
         (not asked, "not asked for"),
     )
-    for holds, why in skipped:
-        if holds:
-            return Step("slip", False, why, "tangential")
-    if scene.tau == 0.0:
-        how = "zones of stick and slip for Q at constant P, slip in one direction"
-        how += " on all patches" if asks_for_patches(scene.profile) else ""
-    else:
-        how = "zones of stick and slip for Q and σ in proportion: one direction or two, by the"
-        how += " inequalities"
-    return Step("slip", True, how, "tangential")
+    patches = " on all patches" * asks_for_patches(scene.profile)
+    how = f"zones of stick and slip for Q at constant P, slip in one direction{patches}"
+    both = "zones of stick and slip for Q and σ in proportion: one direction or two, by the"
+    return _step("slip", skipped, f"{both} inequalities" if scene.tau else how, "tangential")
 
 
 def _corrective(scene: Scene, economy: Collection[str]) -> Step:
@@ -358,19 +326,15 @@ def _corrective(scene: Scene, economy: Collection[str]) -> Step:
     skipped = (
         (not sheared(scene, economy), "there is no shear traction"),
         (
-            scene.slides and "sliding" in economy,
+            bool(scene.slides) and "sliding" in economy,
             "|Q| = f P, full sliding: q is f times the pressure, no second solve",
         ),
     )
-    for holds, why in skipped:
-        if holds:
-            return Step("corrective", False, why)
-    if asks_for_patches(scene.profile):
-        how = "the patches under P - |Q|/f are the stick zones: found as those under P"
-        return Step("corrective", True, how)
     how = "the contact under P - |Q|/f is the stick zone: found as that under P"
-    if scene.tau != 0.0:
+    if scene.tau:
         how += "; not where slip goes both ways"
     elif scene.profile.pieces.has_zero:
         how += "; none if nothing but the flat base sticks"
-    return Step("corrective", True, how)
+    if asks_for_patches(scene.profile):
+        how = "the patches under P - |Q|/f are the stick zones: found as those under P"
+    return _step("corrective", skipped, how)

@@ -3,10 +3,9 @@
 It is one line on standard error where that is a terminal, and in a notebook, and wiped at the end.
 What may take long opens a `Progress`, also inside another. The line counts the steps of the
 outermost work, and names what is being done inside it. The open work is kept in a context variable,
-so that a step deep in a solver needs no argument to be counted; where nothing is open a step costs
-a tenth of a microsecond. Only the main thread of a main process
-draws: workers of a pool would write over each other. `TQDM_DISABLE=1` in the environment, or
-`with Progress("", shown=False):`, shows no bar.
+so that a step deep in a solver needs no argument to be counted. Only the main thread of a main
+process draws: workers of a pool would write over each other. `TQDM_DISABLE=1` in the environment,
+or `with Progress("", shown=False):`, shows no bar.
 """
 
 from __future__ import annotations
@@ -44,9 +43,7 @@ class Progress:
     def __init__(self, name: str, total: int = 0, shown: bool = True) -> None:
         self.name, self.total, self.done = name, total, 0
         self.start = perf_counter()
-        self.works: tuple[Progress, ...] = (
-            self,
-        )  # those that are open around this one, the outermost first
+        self.works: tuple[Progress, ...] = (self,)  # after those around it, the outermost first
         self._due = self.start + PATIENCE if shown else inf
         self._bar: Any = None
 

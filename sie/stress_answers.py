@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from functools import partial
+from functools import cached_property, partial
 from typing import TYPE_CHECKING
 
 from numpy.typing import ArrayLike
@@ -11,8 +11,7 @@ from numpy.typing import ArrayLike
 from .errors import ContactError
 from .problem.material import Elastic
 from .problem.request import refuse_unknown_poisson
-from .problem.scene import Scene
-from .stages import stage as cached_property  # its first reading is logged
+from .sheared import Sheared
 from .stress.half_plane import Stress, Tractions
 from .stress.yield_limit import (
     Criterion,
@@ -22,33 +21,16 @@ from .stress.yield_limit import (
     peak_tension,
     refuse_unknown_criterion,
 )
-from .traction.base import Density
 from .traction.combination import scaled
 
 if TYPE_CHECKING:
+    from .cracks.edge_intensity import EdgeIntensity
     from .io.boundary_data import BoundaryData
     from .stress.displacement import Displacement
 
 
-class StressAnswers:
-    """What a solution answers about the body below the surface; it gives the tractions."""
-
-    scene: Scene
-
-    @property
-    def pressure(self) -> Density:
-        """The contact pressure, a stress."""
-        raise NotImplementedError
-
-    @property
-    def shear(self) -> Density:
-        """The shear traction, a stress."""
-        raise NotImplementedError
-
-    @property
-    def normal_load(self) -> float:
-        """Normal load, force per length."""
-        raise NotImplementedError
+class StressAnswers(Sheared):
+    """What a solution answers about the body below the surface, and next to the edges."""
 
     @cached_property
     def tractions(self) -> Tractions:
@@ -276,3 +258,51 @@ class StressAnswers:
             (value, x): stress, and the position where it is reached, in the contact or beside it.
         """
         return peak_tension(self.tractions)
+
+    def edge_intensity(self, side: str) -> EdgeIntensity:
+        """What the stress next to an edge depends on: its intensities, and how far they hold.
+
+        Parameters
+        ----------
+        side : {"left", "right"}
+            The edge.
+
+        Returns
+        -------
+        EdgeIntensity
+            `.normal` K_N, `.tangential` K_T in full stick, `.slip_length` and `.reach`.
+
+        Raises
+        ------
+        ValueError
+            For another side.
+        ContactError
+            For a contact in several patches, and for dissimilar bodies with friction, whose edges
+            have other powers.
+
+        Examples
+        --------
+        >>> import math, sie
+        >>> scene = sie.Scene(profile=sie.Parabola(1.0), modulus=1.0, normal_load=math.pi / 4)
+        >>> round(sie.solve(scene).edge_intensity("left").normal, 12)  # p0 sqrt(2/b) = sqrt(2)/2
+        0.707106781187
+        """
+        if side not in ("left", "right"):
+            raise ValueError(f'side = {side!r} is no edge: give "left" or "right"')
+        if self.scene.beta and self.scene.friction:
+            raise ContactError(
+                f"dissimilar bodies (β = {self.scene.beta:.4g}) with friction have other powers at "
+                "their edges than a root: give dundurs = 0 to neglect β"
+            )
+        if self._several is not None:
+            raise ContactError(
+                f"contact in {len(self.patches)} patches: what sticks at one edge depends on all; "
+                "give the profile of one patch and its load"
+            )
+        from .cracks.edge_intensity import edge_intensity
+
+        left = side == "left"
+        loads = self.tangential_load, self.scene.tau
+        return edge_intensity(
+            self.pressure, self.sharp[0 if left else 1], left, loads, self.scene.friction
+        )

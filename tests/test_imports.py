@@ -28,7 +28,6 @@ APART = {
 # before it.
 LAYERS = (
     (
-        "interrupt",
         "inheritance",
         "errors",
         "files",
@@ -43,8 +42,8 @@ LAYERS = (
     ("friction",),
     ("patches",),
     ("certificate",),
-    ("planning", "stages"),
-    ("frictionless", "stress_answers", "derivative_answers", "solution"),
+    ("planning",),
+    ("frictionless", "sheared", "stress_answers", "derivative_answers", "solution"),
     ("paths", "wear"),
     ("sensitivity", "many", "inverse"),
     ("sweeps",),
@@ -58,10 +57,7 @@ LAYERS = (
 # Methods that stand where users look for them and hand their work to a module above, which they
 # import when they are called.
 HANDED_UP = {
-    ("sie.paths.history", "sie.io.html_report"),
     ("sie.paths.history", "sie.plots.one_axes"),
-    ("sie.io.html_report", "sie.plots.contact_plot"),
-    ("sie.io.html_report", "sie.plots.loop_plot"),
     ("sie.problem.scene", "sie.io.scene_writing"),
     ("sie.profiles.base", "sie.profiles.derived"),
     ("sie.io.benchmark_set", "sie.plots.contact_plot"),
@@ -71,7 +67,7 @@ HANDED_UP = {
     ("sie.sensitivity.derivative", "sie.io.sample_points"),
     ("sie.solution", "sie.paths.history"),
     ("sie.stress_answers", "sie.io.boundary_data"),
-    ("sie.solution", "sie.io.html_report"),
+    ("sie.solution", "sie.plots.contact_plot"),
     ("sie.solution", "sie.plots.one_axes"),
     ("sie.stress.fretting", "sie.cracks.stress_intensity"),
     ("sie.cracks.stress_intensity", "sie.plots.one_axes"),

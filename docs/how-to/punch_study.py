@@ -16,8 +16,7 @@ from matplotlib.figure import Figure
 from punch_deck import deck, run
 
 import sie
-from sie.io.mesh_comparison import compare
-from sie.io.mesh_difference import EXACT, Comparison
+from sie.io.mesh_comparison import EXACT, Comparison, compare
 from sie.io.mesh_result import read_mesh
 from sie.plots import style
 from sie.plots.comparison_plot import overlay
@@ -50,7 +49,7 @@ def of_peak(scene: sie.Scene, found: Comparison) -> dict[str, float]:
     solution, errors = sie.solve(scene), {}
     values = {}
     for name in found.mesh.fields:
-        x, y, mesh = found.mesh.points(name)
+        x, y, mesh = found.mesh.fields[name]
         values[name] = mesh, EXACT[name](solution, x, y)
     values["mises"] = [mises(*(values[n][k] for n in ("sxx", "syy", "szz", "sxy"))) for k in (0, 1)]
     for name in STRESSES:
@@ -66,8 +65,8 @@ def mises(xx, yy, zz, xy):
 
 def surface_table(found) -> str:
     """The nodes of the surface that can touch, as ParaView exports them."""
-    (x, _, p), (_, _, q) = found.mesh.points("p"), found.mesh.points("q")
-    beside, depth, stress = found.mesh.points("sxx")
+    (x, _, p), (_, _, q) = (found.mesh.fields[name] for name in "pq")
+    beside, depth, stress = found.mesh.fields["sxx"]
     sxx = dict(zip(beside[depth == 0.0], stress[depth == 0.0], strict=True))
     rows = [f"{a:g},0,{b:.6g},{-c:.6g},{sxx[a]:.6g}" for a, b, c in zip(x, p, q, strict=True)
             if abs(a) < 1.4]  # fmt: skip

@@ -18,9 +18,7 @@ from sie.arguments import choices
 from sie.io import scene_file
 from sie.io.answers import wanted
 from sie.io.scene_file import SceneFile
-from sie.io.stress_grid import SUFFIXES
 from sie.problem.request import WANTS
-from sie.stages import LOG
 
 from .parser import STANDARD
 
@@ -33,18 +31,12 @@ def scene_of(arguments: argparse.Namespace) -> SceneFile:
     want = scene_file.wants("--want", [name for name in ",".join(words).split(",") if name])
     if words and not want:
         raise ValueError(f"--want names nothing: give {choices(WANTS)}")
-    if arguments.scene is None:
-        raise ValueError(
-            f"give the scene file first: sie {arguments.command} scene.toml; "
-            "`sie example` lists some to start from"
-        )
     standard = arguments.scene == STANDARD
     file = (
         scene_file.parse(_standard_input(), "standard input")
         if standard
         else scene_file.read(arguments.scene)
     )
-    LOG.info("read %s: %r", arguments.scene, file.scene)
     return replace(file, want=want or wanted(file))
 
 
@@ -58,13 +50,13 @@ def outputs_of(arguments: argparse.Namespace) -> dict[str, pathlib.Path]:
     """The destination of each kind of output. ValueError unless all can be written."""
     given = ((kind, getattr(arguments, kind, None)) for kind in OUTPUTS)
     outputs = {kind: pathlib.Path(name) for kind, name in given if name is not None}
-    if "plot" in outputs:
-        _check_picture(outputs["plot"])
-    if "field" in outputs and outputs["field"].suffix[1:].lower() not in SUFFIXES:
-        path = outputs["field"]
-        raise ValueError(
-            f'--field {path} has the suffix "{path.suffix}": use .{", .".join(SUFFIXES)}'
-        )
+    known = {"plot": picture_style().suffixes() if "plot" in outputs else (), "field": ("csv",)}
+    for kind in known.keys() & outputs.keys():
+        if outputs[kind].suffix[1:].lower() not in known[kind]:
+            raise ValueError(
+                f'--{kind} {outputs[kind]} has the suffix "{outputs[kind].suffix}": '
+                f"use .{', .'.join(known[kind])}"
+            )
     for (first, path), (second, other) in combinations(outputs.items(), 2):
         if path == other == pathlib.Path(STANDARD):
             raise ValueError(
@@ -92,26 +84,15 @@ def refuse_overwriting(
     """ValueError if an output, or what is printed, would go into a file that is read."""
     scene = 0 if arguments.scene == STANDARD else pathlib.Path(arguments.scene)
     read: dict[int | pathlib.Path, str] = {scene: "the scene file"}
+    read |= dict.fromkeys(file.reads, "a trace that the scene reads")
     for name, what in (("mesh", "the mesh result"), ("nodes", "the file of nodes")):
         if getattr(arguments, name, None) is not None:
             read[pathlib.Path(getattr(arguments, name))] = what
-    read |= dict.fromkeys(file.reads, "a trace that the scene reads")
-    written = {f"--{kind} {path}": _place(path) for kind, path in outputs.items()} | {
-        "standard output": 1
-    }
+    written = {f"--{kind} {path}": _place(path) for kind, path in outputs.items()}
     for place, what in read.items():
-        for name, target in written.items():
+        for name, target in (written | {"standard output": 1}).items():
             if os.path.isfile(place) and files.same(target, place):
                 raise ValueError(f"{name} would overwrite {what}: give another name")
-
-
-def _check_picture(path: pathlib.Path) -> None:
-    known = picture_style().suffixes()
-    if path.suffix[1:].lower() not in known:
-        raise ValueError(
-            f'--plot {path} has the suffix "{path.suffix}", which Matplotlib does not write: '
-            f"use .{', .'.join(known)}"
-        )
 
 
 def picture_style() -> ModuleType:

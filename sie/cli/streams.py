@@ -3,17 +3,14 @@
 from __future__ import annotations
 
 import contextlib
-import logging
 import os
 import shutil
 import sys
 import textwrap
-from collections.abc import Iterator
 from typing import TextIO
 
 from sie.arguments import WIDE
 
-LOG = logging.getLogger("sie")
 # Characters that are printed at once: if standard output is not buffered, Python does not report an
 # error that occurs in the midst of one piece.
 PIECE = 4096
@@ -66,23 +63,6 @@ def print_error(sentence: str) -> None:
     if sys.stderr is not None:
         with contextlib.suppress(OSError):
             print("sie:", _encodable(sentence, sys.stderr), file=sys.stderr, flush=True)
-
-
-@contextlib.contextmanager
-def logged(level: str | None) -> Iterator[None]:
-    """Send the log to standard error in the block, from a level on; nothing without a level."""
-    if level is None or sys.stderr is None:
-        yield
-        return
-    handler, before = logging.StreamHandler(sys.stderr), LOG.level
-    handler.setFormatter(logging.Formatter("sie: %(relativeCreated)d ms: %(message)s"))
-    LOG.addHandler(handler)
-    LOG.setLevel(level.upper())
-    try:
-        yield
-    finally:
-        LOG.removeHandler(handler)
-        LOG.setLevel(before)
 
 
 def discard_output() -> None:

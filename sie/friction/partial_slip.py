@@ -38,7 +38,7 @@ import numpy as np
 from sie.contact.edge_integrals import edge_integrals
 from sie.errors import ContactError, LoadError
 from sie.numerics.interval import EPS
-from sie.problem.load_limit import refuse_sliding, remaining
+from sie.problem.coverage import refuse_sliding, remaining
 from sie.profiles.resolution import refined
 from sie.traction.on_panels import PanelDensity
 from sie.traction.panels import Panels

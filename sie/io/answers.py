@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from contextlib import suppress
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -40,27 +41,22 @@ def notes_of(solution: Solution, file: SceneFile) -> tuple[str, ...]:
 
     If only the edges are wanted, the pressure is not computed, and its mean stands for it.
     """
-    asked = set(wanted(file))
-    beyond = (*solution.coupling_notes, *yield_notes(solution, file))
-    if NEED_SHEAR & asked:
-        return *solution.strain_notes, *beyond, *solution.slip_notes
-    if asked != {"edges"} or solution.scene.bonded:
-        return *solution.strain_notes, *beyond
-    slopes = solution.scene.profile.slope(np.linspace(*solution.edges, LOOKED_AT)) + solution.tilt
-    mean = solution.normal_load / (2.0 * solution.half_width)
-    return *notes(slopes, mean / solution.scene.Estar), *beyond
+    asked, scene = set(wanted(file)), solution.scene
+    if asked == {"edges"} and not scene.bonded:
+        slopes = scene.profile.slope(np.linspace(*solution.edges, LOOKED_AT)) + solution.tilt
+        strains = notes(slopes, 0.5 * solution.normal_load / solution.half_width / scene.Estar)
+    else:
+        strains = solution.strain_notes
+    slip = solution.slip_notes if NEED_SHEAR & asked else ()
+    return *strains, *solution.coupling_notes, *_yield_notes(solution, file), *slip
 
 
-def yield_notes(solution: Solution, file: SceneFile) -> tuple[str, ...]:
+def _yield_notes(solution: Solution, file: SceneFile) -> tuple[str, ...]:
     """A sentence where the yield stress is exceeded at a point of a path, not between them."""
-    strength = file.fatigue.yield_stress
-    if not strength:
-        return ()
-    path = getattr(solution, "history", (solution,))  # of a path, the solutions at its points
-    mises = max(map(_mises, path))
+    strength, unit = file.fatigue.yield_stress, file.units.stress
+    mises = max(map(_mises, solution.history or (solution,))) if strength else 0.0
     if mises <= strength:
         return ()
-    unit = file.units.stress
     reaches = f"reaches {mises:.4g} {unit}" if math.isfinite(mises) else "is infinite at an edge"
     return (
         f"note: the Mises stress {reaches}, above yield_stress = {strength:g} {unit}; "
@@ -70,10 +66,9 @@ def yield_notes(solution: Solution, file: SceneFile) -> tuple[str, ...]:
 
 def _mises(solution: Solution) -> float:
     """The largest Mises stress in the body; 0 where it is not known."""
-    try:
+    with suppress(ContactError, ValueError):
         return math.sqrt(3.0) * solution.elastic_limit().stress
-    except (ContactError, ValueError):
-        return 0.0
+    return 0.0
 
 
 def slip_of(solution: Solution, x: Array) -> dict[str, Array]:
@@ -81,20 +76,16 @@ def slip_of(solution: Solution, x: Array) -> dict[str, Array]:
 
     A path does not determine it for points that came into contact while the bodies slipped.
     """
-    try:
+    with suppress(ContactError):
         return {"slip": solution.slip(x)}
-    except ContactError:
-        return {}
+    return {}
 
 
 def energy_of(solution: Solution) -> dict[str, float]:
     """The dissipated energy; {} where it is a sum over states, or not known (full sliding)."""
-    if energy_costs(solution.scene):
-        return {}
-    try:
-        return {"energy_lost": solution.energy_lost}
-    except ContactError:
-        return {}
+    with suppress(ContactError):
+        return {} if energy_costs(solution.scene) else {"energy_lost": solution.energy_lost}
+    return {}
 
 
 def slipping(solution: Solution) -> tuple[tuple[float, float, float], ...]:

@@ -12,23 +12,29 @@ and the hashes of all of these, computed when the set is asked for, with all dig
 from __future__ import annotations
 
 import hashlib
+import math
 from dataclasses import replace
 from importlib import resources
-from typing import Any
+from typing import Any, NamedTuple
 
 from sie import __version__
 from sie.paths.history import follow
 from sie.progress_bar import counted
 from sie.solution import Solution, solve
 
+from .answers import energy_of
 from .calculix_deck import deck
 from .export import csv_text, json_text
-from .scene_file import SceneFile, Units, parse
-from .targets import Target, of_stress, targets
+from .mesh_comparison import largest_shear
+from .sample_points import peak
+from .scene_file import SceneFile, parse
 
 SET = resources.files("sie") / "benchmark_set"
 BOX = 4.0  # half-widths of the box's sides from the contact's middle
 PER_HALF_WIDTH = 20  # elements of the deck
+PLACES = (0.0, 0.25, 0.5, 0.75, 0.9)  # of the half-width, from the centre of the last patch
+ROUNDING = 1e-12  # half-widths
+WITHOUT_FRICTION: dict[str, Any] = {"friction": 0.0, "sliding": 0, "tangential_load": 0.0}
 WANT = ("edges", "pressure", "gap", "shear", "check", "stress", "yield", "tension")
 
 
@@ -73,13 +79,15 @@ def case_files(name: str) -> dict[str, bytes]:
     }
     found = targets(solution) + _without_friction(solution)
     certificate = solution.check().error
+    rows = [(t.name, repr(t.value), getattr(file.units, t.unit)) for t in found]
+    table = [f'"{name}",{value},{unit},{certificate:.1e}' for name, value, unit in rows]
     texts = {
-        "targets.csv": _table(found, certificate, file.units),
+        "targets.csv": "\n".join(["name,value,unit,certificate", *table, ""]),
         "curves.csv": curves,
         "answer.json": answer,
         **bounds,
         "deck.inp": deck(states, PER_HALF_WIDTH),
-        "README.md": _page(name, file, found, certificate),
+        "README.md": _page(name, file.title, rows, certificate),
     }
     encoded = {"scene.toml": scene} | {key: text.encode() for key, text in texts.items()}
     return encoded | _picture(solution, file)
@@ -91,57 +99,32 @@ def _states(file: SceneFile) -> list[Solution]:
     history = list(follow(scene, file.load_path)) if file.load_path else [solve(scene)]
     if not scene.friction or scene.coupled:
         return history
-    plain = replace(
-        scene,
-        friction=0.0,
-        tangential_load=0.0,
-        bulk_stress=0.0,
-        sliding=0,
-        normal_load=history[0].normal_load,
-        half_width=None,
-    )
-    return [solve(plain), *history]
+    P = history[0].normal_load
+    pressed = replace(scene, normal_load=P, half_width=None, bulk_stress=0.0, **WITHOUT_FRICTION)
+    return [solve(pressed), *history]
 
 
-def _without_friction(solution: Solution) -> list[Target]:
-    """The largest stresses of the same contact before it slides."""
-    scene = solution.scene
-    if not scene.slides or scene.beta:
-        return []
-    plain = solve(replace(scene, friction=0.0, sliding=0, tangential_load=0.0))
-    return [t._replace(name=f"{t.name}, without friction") for t in of_stress(plain)]
-
-
-def _table(found: list[Target], certificate: float, units: Units) -> str:
-    rows = [f'"{t.name}",{t.value!r},{getattr(units, t.unit)},{certificate:.1e}' for t in found]
-    return "\n".join(["name,value,unit,certificate", *rows, ""])
-
-
-def _page(name: str, file: SceneFile, found: list[Target], certificate: float) -> str:
+def _page(name: str, title: str, rows: list[tuple[str, str, str]], certificate: float) -> str:
     """The page of a case: what it is, its picture, its targets."""
     lines = (SET / f"{name}.toml").read_text(encoding="utf-8").splitlines()
     about = " ".join(line[2:] for line in lines[: lines.index("")])
-    rows = [f"| {t.name} | {t.value!r} | {getattr(file.units, t.unit)} |" for t in found]
-    return "\n".join(
-        [
-            f"# {file.title}",
-            "",
-            about,
-            "",
-            "![The contact](picture.png)",
-            "",
-            f"Certified relative error of the pressure: {certificate:.1e} of its peak.",
-            "",
-            "| target | value | unit |",
-            "| --- | --- | --- |",
-            *rows,
-            "",
-            "    sie solve scene.toml            computes it anew",
-            "    ccx deck                        blocks of four half-widths with exact ends",
-            "    sie compare scene.toml deck.frd",
-            "",
-        ]
-    )
+    listed = "\n".join(f"| {name} | {value} | {unit} |" for name, value, unit in rows)
+    return f"""# {title}
+
+{about}
+
+![The contact](picture.png)
+
+Certified relative error of the pressure: {certificate:.1e} of its peak.
+
+| target | value | unit |
+| --- | --- | --- |
+{listed}
+
+    sie solve scene.toml            computes it anew
+    ccx deck                        blocks of four half-widths with exact ends
+    sie compare scene.toml deck.frd
+"""
 
 
 def _picture(solution: Solution, file: SceneFile) -> dict[str, bytes]:
@@ -150,5 +133,74 @@ def _picture(solution: Solution, file: SceneFile) -> dict[str, bytes]:
         from sie.plots import contact_plot, style  # noqa: PLC0415 -- needs Matplotlib
     except ImportError:
         return {}
-    figure: Any = contact_plot.picture(solution, file.units, file.title)
+    figure = contact_plot.picture(solution, file.units, file.title)
     return {"picture.png": style.picture_bytes(figure, "png")}
+
+
+# -- targets ---------------------------------------------------------------------------------------
+
+
+class Target(NamedTuple):
+    """A quantity, its exact value and its unit: length, force, stress, or the product of two."""
+
+    name: str
+    value: float
+    unit: str
+
+
+def targets(solution: Solution) -> list[Target]:
+    """All that the scene determines; of a symmetric contact the places on x > 0."""
+    (lo, hi), (height, places) = solution.patches[-1], peak(solution)
+    found = [
+        Target("x1, edge of the contact", lo, "length"),
+        Target("x2, edge of the contact", hi, "length"),
+        Target("P", solution.normal_load, "force"),
+        Target("p_max", height, "stress"),
+        Target("x of p_max", places[-1], "length"),
+    ]
+    for place in PLACES:
+        x = _place(solution, 0.5 * (lo + hi) + 0.5 * place * (hi - lo))
+        found.append(Target(f"p at x = {x!r}", float(solution.pressure(x)), "stress"))
+    if solution.carries_shear:
+        found += _of_shear(solution)
+    moved = solution.displacement(solution.centre, 0.0)
+    x, y = (_place(solution, v) for v in moved.zero)
+    approach = Target(f"approach of (x, ±y) = ({x!r}, {y!r})", moved.approach, "length")
+    found += [*_of_stress(solution), approach]
+    return [t._replace(value=_place(solution, t.value)) if t.unit == "length" else t for t in found]
+
+
+def _place(solution: Solution, x: float) -> float:
+    """The place, 0 where it is 0 to rounding."""
+    return x if abs(x) > ROUNDING * solution.half_width else 0.0
+
+
+def _of_shear(solution: Solution) -> list[Target]:
+    found = [Target("Q", solution.tangential_load, "force")]
+    for lo, hi in solution.stick[-1:]:
+        found += [Target("stick from", lo, "length"), Target("stick to", hi, "length")]
+    q, x = largest_shear(solution)
+    found += [Target("q_max", q, "stress"), Target("x of q_max", x, "length")]
+    return found + [Target("energy lost", v, "force") for v in energy_of(solution).values()]
+
+
+def _of_stress(solution: Solution) -> list[Target]:
+    """The largest stresses of the body, and their places."""
+    tension, yielding = solution.peak_tension(), solution.elastic_limit()
+    x, y = yielding.places[-1]
+    return [
+        Target("sxx_max on the surface", tension.value, "stress"),
+        Target("x of sxx_max", tension.x, "length"),
+        Target("mises_max in the body", math.sqrt(3.0) * yielding.stress, "stress"),
+        Target("x of mises_max", x, "length"),
+        Target("y of mises_max, the depth", y, "length"),
+    ]
+
+
+def _without_friction(solution: Solution) -> list[Target]:
+    """The largest stresses of the same contact before it slides."""
+    scene = solution.scene
+    if not scene.slides or scene.beta:
+        return []
+    plain = _of_stress(solve(replace(scene, **WITHOUT_FRICTION)))
+    return [t._replace(name=f"{t.name}, without friction") for t in plain]

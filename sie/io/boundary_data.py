@@ -15,7 +15,6 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -32,17 +31,6 @@ PER_BOX = 40  # intervals of a box's width where no spacing is given
 ON_SIDE = 1e-9  # of the extent: a point this near to a side is on it
 ABSCISSAE, WEIGHTS = np.polynomial.legendre.leggauss(16)
 MOST = 10**6  # points
-
-
-class Side(NamedTuple):
-    """A straight side of a boundary.
-
-    nodes       indices of its points, in order along it
-    normal      unit vector (n_x, n_y) out of the body
-    """
-
-    nodes: Index
-    normal: tuple[float, float]
 
 
 @dataclass(frozen=True, eq=False)
@@ -92,16 +80,14 @@ class BoundaryData:
 
     def keywords(self) -> str:
         """The lines *BOUNDARY or *CLOAD of a deck, y upward; CalculiX reads 20 characters."""
-        head = (*self.head, "y is upward, as in the mesh")
-        lines = [f"** {line}" for line in head]
         forces = self.kind == "traction"
         names, card, between = ("f_x", "f_y"), "*CLOAD", ""
         if not forces:
             names, card, between = ("u_x", "u_y"), "*BOUNDARY", "{0}, "
-        along, down = (self.values[name] for name in names)
         labels, first, index = np.unique(self.labels, return_index=True, return_inverse=True)
-        columns = [np.bincount(index, v) if forces else v[first] for v in (along, 0.0 - down)]
-        lines.append(card)
+        both = (self.values[names[0]], 0.0 - self.values[names[1]])
+        columns = [np.bincount(index, v) if forces else v[first] for v in both]
+        lines = [f"** {line}" for line in (*self.head, "y is upward, as in the mesh")] + [card]
         for label, *vector in zip(labels.tolist(), *(c.tolist() for c in columns), strict=True):
             freedoms = enumerate(vector, 1)
             lines += [f"{label}, {k}, {between.format(k)}{value:.13e}" for k, value in freedoms]
@@ -154,14 +140,15 @@ def boundary_data(
         return BoundaryData(kind, x, y, {"u_x": u.x, "u_y": u.y}, numbers, (*about, held))
     if stressed is None:
         raise ValueError("a rigid body has displacements, but no stress: leave out kind")
-    sides = _sides(x, y, sum(stressed.pressure.interval) / 2.0)
-    order = np.concatenate([side.nodes for side in sides])
-    normals = np.concatenate([np.tile(side.normal, (len(side.nodes), 1)) for side in sides])
-    t = _traction(stressed, places[order], normals)
-    f = np.concatenate([_forces(stressed, places[side.nodes], side.normal) for side in sides])
-    columns = zip("ntf", (normals, t, f), strict=True)
-    values = {f"{name}_{axis}": v[:, k] for name, v in columns for k, axis in enumerate("xy")}
-    return BoundaryData(kind, x[order], y[order], values, numbers[order], about)
+    parts = []
+    for nodes, normal in _sides(x, y, sum(stressed.pressure.interval) / 2.0):
+        forces = _forces(stressed, places[nodes], normal)
+        parts.append(np.column_stack((nodes, np.tile(normal, (len(nodes), 1)), forces)))
+    order, n_x, n_y, f_x, f_y = np.concatenate(parts).T
+    at = order.astype(np.int64)
+    t_x, t_y = _traction(stressed, places[at], np.column_stack((n_x, n_y))).T
+    values = {"n_x": n_x, "n_y": n_y, "t_x": t_x, "t_y": t_y, "f_x": f_x, "f_y": f_y}
+    return BoundaryData(kind, x[at], y[at], values, numbers[at], about)
 
 
 def asked_places(
@@ -201,10 +188,11 @@ def _on_box(box: Sequence[float], spacing: float | None) -> Array:
     return places[~(inner & (places[:, 1] == 0.0))]
 
 
-def _sides(x: Array, y: Array, centre: float) -> list[Side]:
+def _sides(x: Array, y: Array, centre: float) -> list[tuple[Index, tuple[float, float]]]:
     """The sides of the box around the points, but for the surface. ValueError for points inside.
 
-    The points of one line are a side that faces away from the contact.
+    Each is given by the indices of its points, in order along it, and the unit vector out of the
+    body. The points of one line are a side that faces away from the contact.
     """
     near = ON_SIDE * max(float(np.ptp(x)), float(np.ptp(y)))
     lines = {(1, 0): (x, y, centre), (0, 1): (y, x, 0.0)}
@@ -220,7 +208,7 @@ def _sides(x: Array, y: Array, centre: float) -> list[Side]:
             placed[nodes] = True
             order = nodes[np.argsort(along[nodes], kind="stable")]
             if len(nodes) > 1:
-                sides.append(Side(order, (sign * n_x, sign * n_y)))
+                sides.append((order, (sign * n_x, sign * n_y)))
     if not placed.all() or not sides:
         k = int(np.argmin(placed))
         raise ValueError(

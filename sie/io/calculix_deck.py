@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
@@ -35,19 +35,19 @@ BEYOND = 1.0  # f P / E* that sliding bodies move beyond incipient sliding
 
 def deck(states: Sequence[Solution], per_half_width: int) -> str:
     """The deck that leads through the states of a contact of two bodies, one after the other."""
-    last = states[-1]
+    last, friction = states[-1], [state.scene.friction for state in states]
     blocks = Blocks.around(last, per_half_width)
-    lines = blocks.lines(last.scene.profile)
     outer = blocks.outer(last.scene.indenter)
-    lines += [line for name, (labels, _) in outer.items() for line in node_set(name, labels)]
+    lines = blocks.lines(last.scene.profile)
+    for name, (labels, _) in outer.items():
+        lines += [f"*NSET,NSET={name}", *map(str, labels)]
     elastic = [body for body in (last.scene.body, last.scene.indenter) if isinstance(body, Elastic)]
-    for name, body in zip(("LOW", "HIGH"), (elastic[0], elastic[-1]), strict=True):
+    for name, body in (("LOW", elastic[0]), ("HIGH", elastic[-1])):
         lines += [f"*MATERIAL,NAME=OF-{name}", "*ELASTIC", f"{body.young!r}, {body.poisson!r}"]
         lines += [f"*SOLID SECTION,ELSET={name},MATERIAL=OF-{name}", "1."]
     stiffness = STIFFNESS * min(body.young for body in elastic) / blocks.dx
-    friction = [state.scene.friction for state in states]
     lines += contact(stiffness, friction[0] or (NO_FRICTION if friction[-1] else 0.0))
-    loads = [exact_ends(state, outer) for state in states]
+    loads = [_exact_ends(state, outer) for state in states]
     return "\n".join([*lines, *steps(loads, friction, stiffness)]) + "\n"
 
 
@@ -80,12 +80,12 @@ class Blocks:
         r = max(map(abs, solution.edges))
         dx, touching = r / per_half_width, PAIRED * r
         if math.isinf(period):
-            side, far = distances(dx, FINE * r, reach * r, growth), reach * r
+            side, far = _distances(dx, FINE * r, reach * r, growth), reach * r
         else:
-            count = math.ceil(0.5 * period / dx)
-            side, far, touching = np.linspace(0.0, 0.5 * period, count + 1), period, 0.5 * period
+            side = np.linspace(0.0, 0.5 * period, math.ceil(0.5 * period / dx) + 1)
+            far, touching = period, 0.5 * period
         x = np.concatenate((-side[:0:-1], side))
-        return cls(x, distances(dx, 0.0, far, growth), dx, touching)
+        return cls(x, _distances(dx, 0.0, far, growth), dx, touching)
 
     @property
     def labels(self) -> NDArray[np.int64]:
@@ -101,12 +101,12 @@ class Blocks:
         height = profile.height(np.clip(x, -self.touching, self.touching))
         lines = ["*NODE,NSET=NALL"]
         for k, d in enumerate(depth):
-            lines += nodes(low[k], x, np.full_like(x, -d))
-            lines += nodes(high[k], x, d + height * (1.0 - d / depth[-1]))
+            lines += _nodes(low[k], x, np.full_like(x, -d))
+            lines += _nodes(high[k], x, d + height * (1.0 - d / depth[-1]))
         across = len(x) - 1
         first = (len(depth) - 1) * across + 1
-        lines += ["*ELEMENT,TYPE=CPE4,ELSET=LOW", *elements(1, low[::-1])]
-        lines += ["*ELEMENT,TYPE=CPE4,ELSET=HIGH", *elements(first, high)]
+        lines += ["*ELEMENT,TYPE=CPE4,ELSET=LOW", *_elements(1, low[::-1])]
+        lines += ["*ELEMENT,TYPE=CPE4,ELSET=HIGH", *_elements(first, high)]
         paired = [k for k in range(across) if abs(x[k] + x[k + 1]) < 2.0 * self.touching]
         lines += ["*SURFACE,NAME=TOP", *(f"{first - across + k}, S3" for k in paired)]
         return [*lines, "*SURFACE,NAME=FOOT", *(f"{first + k}, S1" for k in paired)]
@@ -114,17 +114,15 @@ class Blocks:
     def outer(self, indenter: Any) -> dict[str, tuple[Any, Array]]:
         """The outer nodes of each block, all of a rigid one: labels, places in the half-plane."""
         ends = {}
-        for name, labels, sign in zip(
-            ("OUTER-LOW", "OUTER-HIGH"), self.labels, (1.0, -1.0), strict=True
-        ):
+        for name, labels, sign in zip(("LOW", "HIGH"), self.labels, (1.0, -1.0), strict=True):
             on = np.ones(labels.shape, dtype=bool)
             on[:-1, 1:-1] = sign < 0.0 and not isinstance(indenter, Elastic)
             places = np.stack(np.broadcast_arrays(self.x, sign * self.depth[:, None]), axis=-1)
-            ends[name] = labels[on], places[on]
+            ends[f"OUTER-{name}"] = labels[on], places[on]
         return ends
 
 
-def exact_ends(state: Solution, outer: dict[str, tuple[Any, Array]]) -> list[str]:
+def _exact_ends(state: Solution, outer: dict[str, tuple[Any, Array]]) -> list[str]:
     """The lines that move the outer nodes as those of half-planes."""
     scene, lines = state.scene, []
     for (labels, places), body in zip(outer.values(), ("body", "indenter"), strict=True):
@@ -136,7 +134,7 @@ def exact_ends(state: Solution, outer: dict[str, tuple[Any, Array]]) -> list[str
     return lines
 
 
-def distances(dx: float, fine: float, far: float, growth: float) -> Array:
+def _distances(dx: float, fine: float, far: float, growth: float) -> Array:
     """0, dx, 2 dx, ... up to `fine`, and then in growing steps up to `far`."""
     points = list(dx * np.arange(round(fine / dx) + 1))
     while points[-1] < far:
@@ -145,17 +143,12 @@ def distances(dx: float, fine: float, far: float, growth: float) -> Array:
     return np.array(points)
 
 
-def nodes(labels: Any, x: Array, y: Array) -> list[str]:
+def _nodes(labels: Any, x: Array, y: Array) -> list[str]:
     """Lines of nodes."""
     return [f"{n}, {a:.12g}, {b:.12g}, 0" for n, a, b in zip(labels, x, y, strict=True)]
 
 
-def node_set(name: str, labels: Iterable[int]) -> list[str]:
-    """Lines of a node set."""
-    return [f"*NSET,NSET={name}", *map(str, labels)]
-
-
-def elements(first: int, rows: Any) -> list[str]:
+def _elements(first: int, rows: Any) -> list[str]:
     """The elements between rows of nodes, from below; of a row, from left to right."""
     count = itertools.count(first)
     return [
@@ -169,8 +162,7 @@ def contact(stiffness: float, friction: float) -> list[str]:
     """The contact of the two surfaces."""
     lines = ["*SURFACE INTERACTION,NAME=PAIR"]
     lines += ["*SURFACE BEHAVIOR,PRESSURE-OVERCLOSURE=LINEAR", f"{stiffness:.6g}"]
-    if friction:
-        lines += ["*FRICTION", f"{friction!r}, {STICK * stiffness:.6g}"]
+    lines += _friction(friction, stiffness) if friction else []
     return [*lines, "*CONTACT PAIR,INTERACTION=PAIR,TYPE=SURFACE TO SURFACE", "TOP, FOOT"]
 
 
@@ -178,13 +170,13 @@ def steps(loads: Sequence[list[str]], friction: Sequence[float], stiffness: floa
     """A step for each state, in increments with friction; bodies press before it acts."""
     output = ["*NODE FILE,OUTPUT=2D,FREQUENCY=1000", "U", "*EL FILE,FREQUENCY=1000", "S"]
     output += ["*CONTACT FILE,FREQUENCY=1000", "CDIS,CSTR", "*END STEP"]
-    lines, before = [], friction[0]
-    for load, f in zip(loads, friction, strict=True):
-        lines.append("*STEP,INC=1000")
-        if f != before:
-            lines += ["*CHANGE FRICTION,INTERACTION=PAIR", "*FRICTION"]
-            lines.append(f"{f!r}, {STICK * stiffness:.6g}")
+    lines = []
+    for load, f, before in zip(loads, friction, [friction[0], *friction], strict=False):
+        change = ["*CHANGE FRICTION,INTERACTION=PAIR", *_friction(f, stiffness)] * (f != before)
         times = f"{INCREMENT}, 1., 1e-6, {INCREMENT}" if f else "1., 1."
-        lines += ["*STATIC", times, *load, *output]
-        before = f
+        lines += ["*STEP,INC=1000", *change, "*STATIC", times, *load, *output]
     return lines
+
+
+def _friction(f: float, stiffness: float) -> list[str]:
+    return ["*FRICTION", f"{f!r}, {STICK * stiffness:.6g}"]

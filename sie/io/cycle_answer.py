@@ -1,4 +1,4 @@
-"""The last closed cycle of a load path: slip, energy, stress ranges and fatigue parameters.
+"""The last closed cycle of a load path: slip, energy, stress ranges, fatigue parameters, cracks.
 
 The cycle runs from the last earlier point of the path that has the loads of its last point. Each of
 its steps is examined at a few states, as [fatigue] parts says.
@@ -13,6 +13,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from sie.arguments import named_rows
+from sie.cracks.stress_intensity import stress_intensity
 from sie.errors import ContactError
 from sie.paths.history import History, follow
 from sie.problem.load_path import Path
@@ -22,8 +24,8 @@ from sie.stress.fretting import Cycle
 from sie.stress.half_plane import Tractions
 from sie.stress.surface_search import ROUNDS, by_value, columns, largest
 
-from .fatigue_table import DEPTHS, Fatigue
-from .scene_file import SceneFile
+from .scene_file import Fatigue, SceneFile, Units
+from .scene_keys import EDGES
 
 if TYPE_CHECKING:
     from sie.solution import Solution
@@ -31,7 +33,19 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 COMPONENTS = ("xx", "yy", "xy")
+DEPTHS = (0.01, 0.1)  # of the largest half-width, where none is given
 SLIP_ROUNDS = 4  # of narrowing for what depends on the slip
+NAMES = {"swt": "SWT", "findley": "Findley", "fatemi_socie": "Fatemi-Socie"}
+# Why a parameter is 0.
+ZERO = {
+    "swt": "no plane is in tension while its strain changes",
+    "findley": "no stress on any plane",
+    "fatemi_socie": "no shear changes on a plane with k σ_n > -σ_y",
+}
+# A stress that changes by less, relative to its size, does not change but for rounding.
+NOTHING = 1e-12
+# A smaller angle out of the plane, in degrees, is rounding.
+IN_PLANE = 1e-3
 
 
 def start_of_cycle(path: Path | None) -> int:
@@ -44,15 +58,20 @@ def start_of_cycle(path: Path | None) -> int:
             "--want cycle needs a load path, and the scene has none: give [load] path, which comes "
             "back to earlier loads"
         )
-    points = [(*loads, turn) for loads, turn in zip(path.points, path.turns, strict=True)]
-    for k in range(len(points) - 2, -1, -1):
-        if points[k] == points[-1]:
-            return k
+    start = _earlier(path)
+    if start >= 0:
+        return start
     loads = ", ".join(f"{value:g}" for value in path.points[-1])
     raise ValueError(
         f"the path does not come back to the loads ({loads}) of its last point: "
         "end it at the loads at which its last cycle begins"
     )
+
+
+def _earlier(path: Path) -> int:
+    """The index of the last earlier point with the loads of the last point, -1 for none."""
+    points = [(*loads, turn) for loads, turn in zip(path.points, path.turns, strict=True)]
+    return next((k for k in range(len(points) - 2, -1, -1) if points[k] == points[-1]), -1)
 
 
 @reported("cycle")
@@ -70,7 +89,8 @@ def cycle_of(solution: Solution, file: SceneFile) -> dict[str, Any]:
     answer |= _slip(Cycle(history[start:]), tractions, widest)
     x = columns(tractions, 0.0)
     answer["surface"] = {name: _stress_range(cycle, x, name) for name in COMPONENTS}
-    depths = file.fatigue.depth or tuple(part * widest.half_width for part in DEPTHS)
+    given = file.fatigue.depth or tuple(part * widest.half_width for part in DEPTHS)
+    depths = given if isinstance(given, tuple) else (given,)
     known = isinstance(history.scene.body, Elastic)
     return answer | _parameters(cycle, file.fatigue, (0.0, *depths), known)
 
@@ -166,3 +186,134 @@ def _at_depth(find: Callable[[float], Any], y: float) -> dict[str, Any]:
     names = ("value", "x", "y", "angle", "out_of_plane", "amplitude", "normal_stress")
     values = {name: float(getattr(worst, name)) for name in names}
     return values | {name: math.degrees(values[name]) for name in ("angle", "out_of_plane")}
+
+
+# -- cracks ----------------------------------------------------------------------------------------
+
+
+@reported("crack")
+def crack_answer(solution: Solution, file: SceneFile) -> dict[str, Any]:
+    """What JSON and the report say of the cracks."""
+    assert file.crack is not None
+    states, crack = _of_cracks(solution, file), file.crack
+    x = crack.at if isinstance(crack.at, float) else _edge(states, crack.at)
+    K = stress_intensity(states, x, crack.depths, crack.friction)
+    answer = {
+        "x": x,
+        "depth": list(crack.depths),
+        "mode_1": K.mode_1.tolist(),
+        "mode_2": K.mode_2.tolist(),
+        "range_1": K.range.tolist(),
+        "range_2": K.shear_range.tolist(),
+        "certificate": K.check()._asdict(),
+    }
+    if crack.threshold:
+        limits = crack.threshold, crack.fatigue_limit
+        answer |= {"threshold": K.threshold(*limits).tolist(), "arrest": K.arrest(*limits)}
+    return answer
+
+
+def _of_cracks(solution: Solution, file: SceneFile) -> Sequence[Solution]:
+    """The turning points of the last cycle, all points of another path, or the one state."""
+    history = solution.history
+    if history is None or file.load_path is None:
+        return (solution,)
+    return history[max(_earlier(file.load_path), 0) :]
+
+
+def _edge(states: Sequence[Solution], name: str) -> float:
+    """The edge of the contact under the largest tangential load."""
+    pushed = max(states, key=lambda state: abs(state.tangential_load))
+    Q = pushed.tangential_load
+    if not Q:
+        raise ValueError(
+            f'[crack] at = "{name}": no tangential load makes an edge trail; give at = x'
+        )
+    return pushed.edges[0 if (Q > 0.0) == (name == EDGES[0]) else 1]
+
+
+# -- words -----------------------------------------------------------------------------------------
+
+
+def cycle_summary(cycle: dict[str, Any], file: SceneFile) -> str:
+    """The answer of `cycle_of` in lines."""
+    units = file.units
+    work = f"{units.stress} {units.length}"
+    span = f"from point {cycle['from']} to point {cycle['to']} of the path"
+    rows = [("cycle", f"{span}, {cycle['states']} states")]
+    if "energy" in cycle:
+        rows.append(("energy", f"{cycle['energy']:.6g} {units.moment} in the cycle"))
+    for name, key, unit in (
+        ("slip amplitude", "slip_amplitude", units.length),
+        ("Ruiz' κ1", "friction_work", work),
+        ("Ruiz' κ2", "ruiz", f"{units.stress}² {units.length}"),
+    ):
+        found = cycle[key]
+        value = found.get("reason") or f"{found['value']:.6g} {unit}{_at(found)}"
+        rows.append((name, value if "reason" in found or found["value"] else "0"))
+    rows += [
+        (f"range of σ_{component}", found.get("reason") or _range(found, units.stress))
+        for component, found in cycle["surface"].items()
+    ]
+    for key, name in NAMES.items():
+        unit = "" if key == "fatemi_socie" else f" {units.stress}"
+        texts = [
+            found.get("reason") or _plane(found, unit, ZERO[key]) for found in cycle.get(key, ())
+        ]
+        if key == "findley" and file.fatigue.shear_limit:
+            texts += _share(cycle.get(key, ()), file.fatigue.shear_limit, units.stress)
+        rows += zip([name, *[""] * len(texts)], texts, strict=False)
+    return named_rows(*rows)
+
+
+def _range(found: dict[str, Any], unit: str) -> str:
+    scale = max(abs(found["lowest"]), abs(found["highest"]))
+    if found["range"] <= NOTHING * scale:
+        return "0: it does not change"
+    ends = f"from {_shown(found['lowest'])} to {_shown(found['highest'])}"
+    return f"{found['range']:.6g} {unit}{_at(found)}, {ends}"
+
+
+def _share(values: Sequence[dict[str, Any]], limit: float, unit: str) -> list[str]:
+    """The largest value as a part of the limit."""
+    known = [found["value"] for found in values if "value" in found]
+    return [f"{max(known) / limit:.4g} of the limit, {limit:g} {unit}"] if known else []
+
+
+def _shown(value: float) -> str:
+    return f"{value + 0.0:.5g}"
+
+
+def _at(found: dict[str, Any]) -> str:
+    return f" at x = {_shown(found['x'])}"
+
+
+def _plane(found: dict[str, Any], unit: str, zero: str) -> str:
+    """The value of a parameter, its place and the normal of its plane; why it is 0."""
+    depth = f", y = {_shown(found['y'])}" if found["y"] else " on the surface"
+    if not found["value"]:
+        return f"0{depth}: {zero}"
+    angle = round(found["angle"], 2) % 180.0  # rounding may have turned 0° into 180°
+    out = found["out_of_plane"]
+    turned = f", {out:.4g}° out of plane" if out > IN_PLANE else ""
+    return f"{found['value']:.6g}{unit}{_at(found)}{depth}, normal {angle:.4g}°{turned}"
+
+
+def crack_summary(crack: dict[str, Any], units: Units) -> str:
+    """The answer of `crack_answer` in lines."""
+    unit = f"{units.stress} √{units.length}"
+    rows = [("cracks", f"from x = {crack['x']:.6g}, {len(crack['mode_1'])} states; K in {unit}")]
+    for i, depth in enumerate(crack["depth"]):
+        K_1, K_2 = ([K[i] for K in crack[name]] for name in ("mode_1", "mode_2"))
+        text = (
+            f"K_I {min(K_1):.5g} to {max(K_1):.5g}, range {crack['range_1'][i]:.5g};  "
+            f"K_II {min(K_2):.5g} to {max(K_2):.5g}, range {crack['range_2'][i]:.5g}"
+        )
+        if "threshold" in crack:
+            text += f";  threshold {crack['threshold'][i]:.5g}"
+        rows.append((f"{depth:.6g} {units.length}", text))
+    if "arrest" in crack:
+        depth = crack["arrest"]
+        grows = f"not down to {crack['depth'][-1]:.6g} {units.length}"
+        rows.append(("arrest", grows if math.isinf(depth) else f"at {depth:.6g} {units.length}"))
+    return named_rows(*rows)

@@ -1,10 +1,7 @@
 """An answer for other programs: CSV and JSON.
 
-CSV has four comment lines (#): title and version; scene; units; edges and load. Then follow the
-line x,p,gap and one row for each point; with shear there are also the columns q and slip. It is
-read by pandas.read_csv(file, comment="#") and numpy.loadtxt(file, delimiter=",", skiprows=5).
-
-CSV of a load path has these rows for every turning point with P > 0, each after the number of the
+CSV has four comment lines (#), then x,p,gap and one row for each point; with shear also q and slip.
+CSV of a load path has such rows for every turning point with P > 0, each after the number of the
 point and its loads: point,P,Q,sigma, tilt or moment if the path has them, then x,p,gap,q,slip.
 A cell of slip that is not known is empty.
 
@@ -74,6 +71,7 @@ from .scene_writing import tables_of
 if TYPE_CHECKING:
     from sie.paths.history import History
     from sie.solution import Solution
+    from sie.traction.base import Density
 
 Array = NDArray[np.float64]
 
@@ -105,19 +103,18 @@ def csv_text(solution: Solution, file: SceneFile, points: int = POINTS) -> str:
 
 def _along_path(history: History, points: int) -> dict[str, Array]:
     """The tractions, the gap and the slip at every turning point of a load path with P > 0."""
-    tables = []
     turned = [name for name in ("tilt", "moment") if getattr(history.path, name)]
-    points_of_path = zip(history.turning_points, history, strict=True)
-    counted_points = counted("turning points", points_of_path, len(history))
-    for k, (state, solution) in enumerate(counted_points):
-        if state.loads.P == 0.0:
-            continue
-        tractions = _columns(solution, points)
-        count = len(tractions["x"])
-        loads = dict(zip(("P", "Q", "sigma", *turned), state.loads, strict=False))
-        columns = {name: np.full(count, value) for name, value in ({"point": k} | loads).items()}
-        sheared = {"q": np.zeros(count), "slip": np.full(count, np.nan)} | tractions
-        tables.append(columns | {name: sheared[name] for name in TRACTIONS})
+    names = ("P", "Q", "sigma", *turned)
+    both = zip(history.turning_points, history, strict=True)
+    tables = []
+    for k, (state, solution) in enumerate(counted("turning points", both, len(history))):
+        if state.loads.P:
+            columns = _columns(solution, points)
+            count = len(columns["x"])
+            loads = zip(names, state.loads, strict=False)
+            table = {name: np.full(count, value) for name, value in (("point", k), *loads)}
+            found = {"q": np.zeros(count), "slip": np.full(count, np.nan)} | columns
+            tables.append(table | {name: found[name] for name in TRACTIONS})
     return {name: np.concatenate([table[name] for table in tables]) for name in tables[0]}
 
 
@@ -145,7 +142,7 @@ def as_dict(
     solution: Solution, file: SceneFile, points: int = POINTS, more: Mapping[str, Any] | None = None
 ) -> dict[str, Any]:
     """The content of `json_text`, with infinities as floats; `more` as of `summary`."""
-    units, scene = file.units, solution.scene
+    units, scene, asked = file.units, solution.scene, wanted(file)
     out: dict[str, Any] = {
         "sie": __version__,
         "title": file.title,
@@ -156,11 +153,7 @@ def as_dict(
         "edges": list(solution.edges),
         "sharp": list(solution.sharp),
         **_patches(solution),
-        "half_width": solution.half_width,
-        "centre": solution.centre,
-        "normal_load": solution.normal_load,
-        "moment": solution.moment,
-        "tilt": solution.tilt,
+        **{name: getattr(solution, name) for name in NUMBERS},
         "notes": list(notes_of(solution, file)),
     }
     if readings := readings_of(solution):
@@ -168,70 +161,62 @@ def as_dict(
     out |= more or {}
     if solution.history is not None:
         out["path"] = solution.history.rows()
-    if "check" in wanted(file) and (reports := solution.trace_reports()):
+    if "check" in asked and (reports := solution.trace_reports()):
         out["traces"] = [report.as_dict() for report in reports]
-    return out | {
-        name: section(solution, points)
-        for name, section in SECTIONS.items()
-        if name in wanted(file)
-    }
-
-
-def _pressure(solution: Solution, points: int) -> dict[str, Any]:
-    p, x = solution.pressure, inside(solution, points)
-    largest, where = peak(solution)
-    return {
-        "peak": {"p": largest, "x": list(where)},
-        "resultant": p.resultant,
-        "moment": p.moment,
-        "x": x.tolist(),
-        "p": p(x).tolist(),
-    }
+    return out | {name: of(solution, points) for name, of in SECTIONS.items() if name in asked}
 
 
 def _patches(solution: Solution) -> dict[str, Any]:
-    """The patches [[x1, x2], ..], their loads, length and gaps.
-
-    They are written where there are several or the contact repeats.
-    """
+    """The patches, their loads, length and gaps, where there are several or the contact repeats."""
     period = solution.scene.profile.period
     if len(solution.patches) < 2 and math.isinf(period):
         return {}
-    patches = [list(patch) for patch in solution.patches]
     return {
-        "patches": patches,
+        "patches": [list(patch) for patch in solution.patches],
         "patch_loads": list(solution.patch_loads),
         "contact_length": solution.contact_length,
         "gap_volume": solution.gap_volume,
     } | ({"period": period} if math.isfinite(period) else {})
 
 
+NUMBERS = ("half_width", "centre", "normal_load", "moment", "tilt")
+
+
+def _lists(**columns: Array) -> dict[str, Any]:
+    return {name: values.tolist() for name, values in columns.items()}
+
+
+def _totals(density: Density) -> dict[str, float]:
+    return {"resultant": density.resultant, "moment": density.moment}
+
+
+def _pressure(solution: Solution, points: int) -> dict[str, Any]:
+    p, x, (largest, where) = solution.pressure, inside(solution, points), peak(solution)
+    return {"peak": {"p": largest, "x": list(where)}, **_totals(p), **_lists(x=x, p=p(x))}
+
+
 def _gap(solution: Solution, points: int) -> dict[str, Any]:
     left, right = beside(solution, points)
     x = np.concatenate((left, solution.edges, right))
-    return {"x": x.tolist(), "gap": solution.gap(x).tolist()}
+    return _lists(x=x, gap=solution.gap(x))
 
 
 def _shear(solution: Solution, points: int) -> dict[str, Any]:
     x, q = inside(solution, points), solution.shear
-    return (
-        {
-            "stick": [list(zone) for zone in solution.stick],
-            "slipping": [list(zone) for zone in slipping(solution)],
-            "resultant": q.resultant,
-            "moment": q.moment,
-            "x": x.tolist(),
-            "q": q(x).tolist(),
-        }
-        | energy_of(solution)
-        | {name: values.tolist() for name, values in slip_of(solution, x).items()}
-    )
+    zones = {"stick": solution.stick, "slipping": slipping(solution)}
+    return {
+        **{name: [list(zone) for zone in found] for name, found in zones.items()},
+        **_totals(q),
+        **_lists(x=x, q=q(x)),
+        **energy_of(solution),
+        **_lists(**slip_of(solution, x)),
+    }
 
 
 def _stress(solution: Solution, points: int) -> dict[str, Any]:
     x = abscissae(solution, points)
     s = solution.surface_stress(x)
-    return {"x": x.tolist(), "xx": s.xx.tolist(), "yy": s.yy.tolist(), "xy": s.xy.tolist()}
+    return _lists(x=x, xx=s.xx, yy=s.yy, xy=s.xy)
 
 
 def _yield(solution: Solution, _points: int) -> dict[str, Any]:

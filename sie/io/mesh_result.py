@@ -14,6 +14,7 @@ two sides of an extruded mesh, are averaged.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -22,9 +23,12 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from sie.io.mesh_files import formats
-from sie.io.mesh_files.names import QUANTITIES, STRESSES, TRACTIONS
-from sie.io.mesh_files.raw import Columns, Raw, chosen, row_means
+from sie import files
+from sie.profiles.trace_files import MESH
+
+from .mesh_files import abaqus_report, by_meshio, calculix_frd, node_lists, text_table
+from .mesh_files.names import QUANTITIES, STRESSES, TRACTIONS, chosen_names
+from .mesh_files.raw import Columns, Raw, chosen, row_means
 
 Array = NDArray[np.float64]
 
@@ -33,31 +37,26 @@ Array = NDArray[np.float64]
 COINCIDENT = 1e-8
 # Σ_yy at one end of the file has to be this many times that at the other.
 CLEARLY_LARGER = 2.0
+# CalculiX: "contact stress (slave node,press,tang1,tang2) for all contact elements and time 1.0".
+_PRINTED = re.compile(r"^ [a-z ]+\([^)\n]*\).* for .*\btime\b", re.MULTILINE)
 
 
 class Points(NamedTuple):
-    """A quantity at points (x, depth), by ascending x; widths of element faces, or ()."""
+    """A quantity at points (x, depth), by ascending x."""
 
     x: Array
     y: Array
     values: Array
-    widths: Array | tuple[()] = ()
 
     def chosen(self, which: Any) -> Points:
         """Some of the points, or all of them in another order."""
-        x, y, values, widths = self
-        some = np.asarray(widths)[which] if len(widths) else ()
-        return Points(x[which], y[which], values[which], some)
+        return Points(*(column[which] for column in self))
 
 
 def joined(parts: Sequence[Points]) -> Points:
     """The points of all parts, by ascending x."""
-    x, y, values = (
-        np.concatenate(columns) for columns in zip(*(p[:3] for p in parts), strict=True)
-    )
-    widths = np.concatenate([part.widths for part in parts])
-    both = Points(x, y, values, widths if len(widths) == len(x) else ())
-    return both.chosen(np.lexsort((y, x)))
+    both = Points(*(np.concatenate(columns) for columns in zip(*parts, strict=True)))
+    return both.chosen(np.lexsort((both.y, both.x)))
 
 
 @dataclass(frozen=True, eq=False)
@@ -73,32 +72,26 @@ class Mesh:
     others: tuple[str, ...] = ()
     notes: tuple[str, ...] = ()
 
-    def points(self, quantity: str) -> tuple[Array, Array, Array]:
-        """(x, y, values) where the quantity is compared."""
-        field = self.fields[quantity]
-        return field.x, field.y, field.values
-
     def scattered(self, quantity: str) -> bool:
-        """Whether these points are not on a line at one depth."""
-        x, y, _ = self.points(quantity)
+        """Whether its points are not on a line at one depth."""
+        x, y, _ = self.fields[quantity]
         return bool(np.ptp(y) > 0.0 or np.ptp(x) == 0.0)
 
     def weights(self, quantity: str) -> Array:
         """Weights of the points: lengths of a line, equal ones where points are scattered.
 
-        The lengths are those of the element faces. Between nodes they reach half-way to the next
-        ones, and at an end as far outwards as inwards: the pressure goes on beyond the last node
-        or centre in contact.
+        The lengths reach half-way to the next points, and at an end as far outwards as inwards: the
+        pressure goes on beyond the last node or centre in contact.
         """
-        x, _, _ = self.points(quantity)
-        widths = self.fields[quantity].widths
-        if len(widths):
-            return np.asarray(widths)
+        x = self.fields[quantity].x
         if self.scattered(quantity):
             return np.ones_like(x)
         middle = 0.5 * (x[1:] + x[:-1])
         ends = np.concatenate(([2.0 * x[0] - middle[0]], middle, [2.0 * x[-1] - middle[-1]]))
         return np.diff(ends)
+
+
+# -- files -----------------------------------------------------------------------------------------
 
 
 def read_mesh(
@@ -114,15 +107,48 @@ def read_mesh(
     `body` "below" or "above" it, and `columns` has names of columns by x, y, p, q, sxx, ....
     ValueError where the file cannot be compared.
     """
-    return _placed(formats.read(path, nodes, columns), surface, body)
+    path, columns = Path(path), columns or {}
+    raw = _raw(path, None if nodes is None else Path(nodes), columns)
+    for quantity, name in columns.items():
+        if not any(quantity in group for group in raw.groups):
+            raise ValueError(
+                f'{path.name} has no column "{name}" for {quantity}: '
+                "give the name as it stands in the file"
+            )
+    return _placed(raw, surface, body)
+
+
+def _raw(path: Path, nodes: Path | None, columns: Mapping[str, str]) -> Raw:
+    """What the file holds, by the reader that its suffix or its first lines ask for."""
+    means = chosen_names(columns)
+    mesh = None if nodes is None else node_lists.coordinates(nodes)
+    suffix = path.suffix.lower()
+    if suffix == ".frd":
+        return calculix_frd.read(path, means)
+    if suffix in by_meshio.SUFFIXES:
+        return by_meshio.read(path, means)
+    text = files.content(path, MESH.size).decode("latin-1")
+    if _PRINTED.search(text):
+        raise ValueError(
+            f"{path.name} is printed output of CalculiX, without coordinates: have a .frd written, "
+            "by *CONTACT FILE with CSTR and *EL FILE with S, and compare that"
+        )
+    if abaqus_report.TITLE in text:
+        return abaqus_report.read(path, mesh, means)
+    return node_lists.read(path, mesh, means) or text_table.read(path, means)
+
+
+# -- places ----------------------------------------------------------------------------------------
 
 
 def _placed(raw: Raw, surface: float | None, body: str) -> Mesh:
-    """The quantities in the axes of the package."""
+    """The quantities in the axes of the package; without y they are on the surface."""
     notes = list(raw.notes)
-    height = surface if surface is not None else _height_of_contact(raw)
+    groups = [{"y": np.zeros_like(group["x"])} | group for group in raw.groups]
+    heights = (height for height in map(_level, groups) if height is not None)
+    height = surface if surface is not None else next(heights, None)
     parts: dict[str, list[Points]] = {}
-    for group in raw.groups:
+    for group in groups:
         for names, other, place in (
             (TRACTIONS, STRESSES, _on_surface),
             (STRESSES, TRACTIONS, _in_body),
@@ -131,11 +157,11 @@ def _placed(raw: Raw, surface: float | None, body: str) -> Mesh:
             if columns.keys() & set(names):
                 placed, more = _averaged(*place(raw, columns, height, body))
                 for name in columns.keys() & set(names):
-                    x, y, widths = placed["x"], placed["y"], placed.get("width", ())
-                    parts.setdefault(name, []).append(Points(x, y, placed[name], widths))
+                    points = Points(placed["x"], placed["y"], placed[name])
+                    parts.setdefault(name, []).append(points)
                 notes += [note for note in more if note not in notes]
     fields = {name: joined(parts[name]) for name in QUANTITIES if name in parts}
-    for name, (x, _, _, _) in fields.items():
+    for name, (x, _, _) in fields.items():
         if len(x) < 2 or (name in TRACTIONS and x[0] == x[-1]):
             where = " on the surface, y = 0, where it is compared" if name in TRACTIONS else ""
             raise ValueError(
@@ -152,15 +178,10 @@ def _near(values: Array, level: float) -> NDArray[np.bool_]:
     return result
 
 
-def _height_of_contact(raw: Raw) -> float | None:
-    """The height at which the contact pressure acts, None where it is not known or not one."""
-    heights = (height for height in map(_level, raw.groups) if height is not None)
-    return next(heights, None)
-
-
 def _level(group: Columns) -> float | None:
+    """The height at which the contact pressure acts, None where it is not known or not one."""
     loads = [np.abs(group[name]) for name in TRACTIONS if name in group]
-    if not loads or "y" not in group or not any(load.any() for load in loads):
+    if not any(load.any() for load in loads):
         return None
     y = group["y"][np.any([load > 0.5 * load.max() for load in loads], axis=0)]
     if np.count_nonzero(_near(y, 0.0)) > 1:
@@ -180,8 +201,6 @@ def _on_surface(
     if known and acts.any():
         own = np.isin(group["body"], group["body"][acts])
         group, acts = chosen(group, own), acts[own]
-    if "y" not in group:
-        return group | {"y": np.zeros_like(group["x"])}, []
     y, notes = group["y"], []
     level = height if height is not None else 0.0
     on = _near(y, level)
@@ -204,8 +223,6 @@ def _in_body(
     raw: Raw, group: Columns, height: float | None, body: str
 ) -> tuple[Columns, list[str]]:
     """The points of one body, with their depth, and the sign of σ_xy that belongs to it."""
-    if "y" not in group:
-        return group | {"y": np.zeros_like(group["x"])}, []
     notes: list[str] = []
     parts = len(raw.tops)
     if parts > 1 and "body" in group:

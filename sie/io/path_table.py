@@ -9,25 +9,23 @@ columns = ["P", "Q", "sigma", ...]   what the numbers of each row or line are, i
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from itertools import zip_longest
-from pathlib import Path as File
-from typing import Any
+from collections.abc import Sequence
+
+import numpy as np
 
 from sie.arguments import suggestion
 from sie.problem.load_path import Path
 from sie.profiles.trace_files import read_table
 
-from .profile_tables import Surroundings
-from .quantities import ANGLE, FORCE, MOMENT, STRESS
-from .toml_values import NUMBER, refuse_unread
+from .profile_tables import Files
+from .toml_values import refuse_unread
 
 # Each point is solved and listed, all of them within seconds.
 MOST_POINTS = 2000
 LOADS = ("P", "Q", "sigma")
-DIMENSIONS = {"P": FORCE, "Q": FORCE, "sigma": STRESS, "tilt": ANGLE, "moment": MOMENT}
+QUANTITIES = (*LOADS, "tilt", "moment")
 # Names in lower case, as in a header, and the quantities.
-NAMES = {name.lower(): name for name in DIMENSIONS} | {
+NAMES = {name.lower(): name for name in QUANTITIES} | {
     "σ": "sigma",
     "normal_load": "P",
     "tangential_load": "Q",
@@ -36,53 +34,40 @@ NAMES = {name.lower(): name for name in DIMENSIONS} | {
 
 
 def path_of(
-    rows: str | Sequence[Sequence[Any]], columns: Sequence[str] | None, around: Surroundings
+    rows: str | Sequence[Sequence[float]], columns: Sequence[str] | None, beside: Files
 ) -> Path:
-    """The path of [load] path and [load] columns, their cells numbers or quantities with a unit.
-
-    Raises ValueError where they make none.
-    """
+    """The path of [load] path and [load] columns. ValueError where they make none."""
     named = None if columns is None else [_quantity(name) for name in columns]
     if isinstance(rows, str):
-        return _path(_of_file(rows, named, around.place(rows)))
+        return _of_file(rows, named, beside)
     if len(rows) > MOST_POINTS:
         raise ValueError(
             f"path has {len(rows)} points, more than {MOST_POINTS}: "
             "follow it in Python, by sie.follow"
         )
-    for k, row in enumerate(rows if named else ()):
-        if len(row) != len(named or ()):
-            raise ValueError(
-                f"path[{k}] has {len(row)} numbers for {len(columns or ())} columns: give one for "
-                "each"
-            )
-    values = [_numbers(f"path[{k}]", row, named or LOADS, around) for k, row in enumerate(rows)]
     if named is None:
-        return Path(values)
-    return _path(_chosen(named, list(zip(*values, strict=True))))
+        return Path(rows)
+    for k, row in enumerate(rows):
+        if len(row) != len(named):
+            raise ValueError(
+                f"path[{k}] has {len(row)} numbers for {len(named)} columns: give one for each"
+            )
+    return _path(named, rows)
 
 
-def _numbers(
-    where: str, row: Sequence[Any], named: Sequence[str], around: Surroundings
-) -> list[float]:
-    """The cells of a row as numbers in the units of the file."""
-    cells = []
-    for j, (cell, name) in enumerate(zip_longest(row, named[: len(row)], fillvalue="")):
-        place = f"{where}[{j}]"
-        number = around.convert.number(place, cell, DIMENSIONS[name]) if name else cell
-        cells.append(NUMBER.read(place, number))
-    return cells
-
-
-def _path(values: Mapping[str, Sequence[float]]) -> Path:
-    """The path of columns. Raises ValueError if P or Q is not among them."""
-    missing = [name for name in ("P", "Q") if name not in values]
+def _path(named: Sequence[str], rows: Sequence[Sequence[float]]) -> Path:
+    """The path of rows of named numbers. ValueError where P or Q lacks, or one is there twice."""
+    for name in QUANTITIES:
+        if named.count(name) > 1:
+            raise ValueError(f'two columns are named {name}: name the other one ""')
+    missing = [name for name in ("P", "Q") if name not in named]
     if missing:
         raise ValueError(
             f"path has no column {' and no column '.join(missing)}: "
             'name what each column is, columns = ["P", "Q", "sigma"]'
         )
-    none = [0.0] * len(values["P"])
+    values = {name: [row[k] for row in rows] for k, name in enumerate(named) if name}
+    none = [0.0] * len(rows)
     points = zip(*(values.get(name, none) for name in LOADS), strict=True)
     return Path(points, tilt=values.get("tilt", ()), moment=values.get("moment", ()))
 
@@ -90,22 +75,14 @@ def _path(values: Mapping[str, Sequence[float]]) -> Path:
 def _quantity(name: str) -> str:
     """The quantity that a name of [load] columns stands for, "" for none."""
     if name and name.lower() not in NAMES:
-        known = suggestion(name, DIMENSIONS)
+        known = suggestion(name, QUANTITIES)
         raise ValueError(f'columns "{name}" is not known: {known}, or "" to pass a column over')
     return NAMES[name.lower()] if name else ""
 
 
-def _chosen(named: Sequence[str], columns: Sequence[Any]) -> dict[str, Any]:
-    """The columns that hold a quantity. Raises ValueError if two hold the same one."""
-    twice = next((name for name in named if name and named.count(name) > 1), None)
-    if twice:
-        raise ValueError(f'two columns are named {twice}: name the other one ""')
-    return {name: column for name, column in zip(named, columns, strict=False) if name}
-
-
-def _of_file(name: str, named: Sequence[str] | None, file: File) -> dict[str, Any]:
+def _of_file(name: str, named: Sequence[str] | None, beside: Files) -> Path:
     try:
-        table = read_table(file)
+        table = read_table(beside.place(name))
     except OSError as problem:
         refuse_unread(name, problem, "rows [P, Q, σ], or the file of the loads")
     if len(table.rows) > MOST_POINTS:
@@ -129,5 +106,5 @@ def _of_file(name: str, named: Sequence[str] | None, file: File) -> dict[str, An
             "order"
         )
     kept = [k for k, quantity in enumerate(named) if quantity]
-    values = [column.tolist() for column in table.columns(tuple(kept))]
-    return _chosen([named[k] for k in kept], values)
+    rows = np.column_stack(table.columns(tuple(kept))).tolist()
+    return _path([named[k] for k in kept], rows)

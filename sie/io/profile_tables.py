@@ -8,93 +8,80 @@ from dataclasses import dataclass, field
 from functools import partial
 from typing import Any
 
-from sie.arguments import choices, nearest, suggestion
+from sie.arguments import choices, nearest
 from sie.profiles.base import Profile
 from sie.profiles.kinds import KINDS
 from sie.profiles.row import Periodic, Row
 from sie.profiles.sampled import Sampled
 
-from .quantities import Converter
-from .scene_keys import (
-    MODIFIERS,
-    PERIOD,
-    Key,
-    forms_of,
-    naming,
-    read_values,
-    require,
-)
-from .toml_values import TEXT, refuse_unread, table_of
+from .scene_keys import MODIFIERS, PERIOD, forms_of, naming, read_values, require
+from .toml_values import TEXT, choice, refuse_unread, table_of
 
-KIND = {"kind": Key(TEXT)}
+KIND = {"kind": TEXT}
 
 
 @dataclass
-class Surroundings:
-    """What surrounds the tables of a scene file.
+class Files:
+    """The files that a scene file names.
 
-    folder        where the file is
-    convert       to its units
-    reads         the files that it names
-    unmeasured    those traces among them that state no units
+    folder    where the scene file is
+    length    the unit of its lengths, to which a trace with units is converted
+    read      those that were asked for
     """
 
     folder: pathlib.Path
-    convert: Converter
-    reads: list[pathlib.Path] = field(default_factory=list)
-    unmeasured: list[str] = field(default_factory=list)
+    length: str
+    read: list[pathlib.Path] = field(default_factory=list)
 
     def place(self, name: str) -> pathlib.Path:
         """The place of a file that is read."""
-        self.reads.append(self.folder / name)
-        return self.reads[-1]
-
-    def refuse_traces_without_units(self) -> None:
-        """ValueError if a trace states no units, and anything else in the file has them."""
-        if self.unmeasured and self.convert.registry is not None:
-            raise ValueError(
-                f'[profile] path = "{self.unmeasured[0]}" states no units of its columns, in a '
-                f'scene that uses units: give units = "{self.convert.labels["length"]}" or '
-                "another, or scale"
-            )
+        self.read.append(self.folder / name)
+        return self.read[-1]
 
 
-def profile_of(value: Any, around: Surroundings) -> Profile:
+def profile_of(value: Any, beside: Files) -> Profile:
     """The profile that a [profile] table describes. ValueError for a bad table."""
     first = dict(table_of("profile", value))
-    plus = first.pop("plus", [])
+    plus = _tables("plus", first.pop("plus", []))
     whole = {name: first.pop(name) for name in PERIOD if name in first}
-    if not _are_tables(plus):
-        raise ValueError(
-            "profile.plus is not a list of tables: "
-            "write the header [[profile.plus]], in double brackets, before each term"
-        )
-    total = _term("[profile]", first, around)
+    total = _term("[profile]", first, beside)
     for k, term in enumerate(plus, start=1):
         number = f" number {k}" if len(plus) > 1 else ""
-        total = total + _term(f"[[profile.plus]]{number}", term, around)
+        total = total + _term(f"[[profile.plus]]{number}", term, beside)
     if not whole:
         return total
-    values = read_values("[profile]", whole, PERIOD, around.convert)
+    values = read_values("[profile]", whole, PERIOD)
     with naming("[profile]"):
         return Periodic(total, **values)
 
 
-def _are_tables(value: Any) -> bool:
-    return isinstance(value, list) and all(isinstance(one, dict) for one in value)
+def _tables(name: str, value: Any) -> list[dict[str, Any]]:
+    if not isinstance(value, list) or not all(isinstance(one, dict) for one in value):
+        raise ValueError(
+            f"profile.{name} is not a list of tables: write the header [[profile.{name}]], in "
+            "double brackets, before each"
+        )
+    return value
 
 
-def _term(where: str, table: dict[str, Any], around: Surroundings) -> Profile:
+def _term(where: str, table: dict[str, Any], beside: Files) -> Profile:
     """One term of the profile: its kind, then mirrored, tilted, shifted, raised."""
-    if table.get("kind") == "row":
-        return _row(where, dict(table), around)
-    kind = _kind(where, table)
+    if "kind" not in table:
+        meant = next((key for key in table if nearest(key, KIND)), "")
+        raise ValueError(
+            f'{where} has no key "{meant}": did you mean "kind"?'
+            if meant
+            else f"{where} lacks kind: give kind = {choices([*KINDS, 'row'])}"
+        )
+    kind = choice([*KINDS, "row"]).read(f"{where} kind", table["kind"])
+    if kind == "row":
+        return _row(where, table, beside)
     first, *others = forms_of(kind)
     form = next((f for f in others if table.keys() & (f.keys.keys() - first.keys.keys())), first)
     keys = {**KIND, **form.keys, **form.treatments, **MODIFIERS}
-    values = read_values(where, table, keys, around.convert, kind=f' of kind "{kind}"')
+    values = read_values(where, table, keys, kind=f' of kind "{kind}"')
     require(f'{where} of kind "{kind}"', values, form.required)
-    make = form.make if form is first else partial(_trace, around)
+    make = form.make if form is first else partial(_trace, beside)
     with naming(where):
         made = make(**{name: v for name, v in values.items() if name in form.keys})
         return _moved(_treated(made, values), values)
@@ -115,46 +102,22 @@ def _moved(profile: Profile, values: Mapping[str, Any]) -> Profile:
     return moved.raised(values.get("raised", 0.0))
 
 
-def _row(where: str, table: dict[str, Any], around: Surroundings) -> Profile:
+def _row(where: str, table: dict[str, Any], beside: Files) -> Profile:
     """Indenters on one holder, each a table under [[profile.of]]."""
-    indenters = table.pop("of", [])
-    if not indenters or not _are_tables(indenters):
-        raise ValueError(
-            f'{where} of kind "row" lacks its indenters: '
-            "write the header [[profile.of]], in double brackets, before each"
-        )
-    keys = {**KIND, **MODIFIERS}
-    values = read_values(where, table, keys, around.convert, kind=' of kind "row"')
+    indenters = _tables("of", table.get("of", []))
+    require(f'{where} of kind "row"', {"of": 1} if indenters else {}, ["of"])
+    own = {key: value for key, value in table.items() if key != "of"}
+    values = read_values(where, own, {**KIND, **MODIFIERS}, kind=' of kind "row"')
     profiles = [
-        _term(f"[[profile.of]] number {k}", dict(one), around)
-        for k, one in enumerate(indenters, start=1)
+        _term(f"[[profile.of]] number {k}", one, beside) for k, one in enumerate(indenters, 1)
     ]
     with naming(where):
         return _moved(Row(profiles), values)
 
 
-def _kind(where: str, table: dict[str, Any]) -> str:
-    if "kind" not in table:
-        meant = next((key for key in table if nearest(key, ["kind"])), "")
-        raise ValueError(
-            f'{where} has no key "{meant}": did you mean "kind"?'
-            if meant
-            else f"{where} lacks kind: give kind = {choices([*KINDS, 'row'])}"
-        )
-    kind: str = TEXT.read(f"{where} kind", table["kind"])
-    if kind not in KINDS:
-        known = [*KINDS, "row"]
-        raise ValueError(f'{where} kind = "{kind}" is not known: {suggestion(kind, known)}')
-    return kind
-
-
-def _trace(around: Surroundings, path: str, **options: Any) -> Sampled:
+def _trace(beside: Files, path: str, **options: Any) -> Sampled:
     """A trace in a file, which is named from the scene file's folder."""
     try:
-        length = around.convert.labels["length"]
-        trace = Sampled.read(around.place(path), length=length, **options)
+        return Sampled.read(beside.place(path), length=beside.length, **options)
     except OSError as problem:
         refuse_unread(path, problem, "the trace's file")
-    if not any(trace.reading.units) and "scale" not in options:
-        around.unmeasured.append(path)
-    return trace

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import textwrap
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -34,168 +35,222 @@ def summary(
 ) -> str:
     """All wanted quantities, section by section, with a picture of so many columns.
 
-    `more` has the answers of `cycle_answer` and `crack_answer` by name.
+    `more` has the answers of `cycle_answer` by name.
     """
     scene = f"{solution.scene.profile!r}, E* = {solution.scene.Estar:.6g} {file.units.stress}"
-    scene = textwrap.fill(scene, WIDE, break_long_words=False, break_on_hyphens=False)
-    names = set(wanted(file))
+    readings = [f"trace {reading}" for reading in readings_of(solution)]
+    fill: dict[str, Any] = {"width": WIDE, "break_long_words": False, "break_on_hyphens": False}
+    head = [textwrap.fill(scene, **fill), *(textwrap.fill(text, WIDE) for text in readings)]
+    parts, names = ["\n".join(filter(None, [file.title, *head]))], set(wanted(file))
     if "shear" in names and not energy_costs(solution.scene):
         names.discard("energy")  # it is printed with the shear
-    parts: list[str] = []
+    rows = Rows(solution, file.units)
     for name in (name for name in ROWS if name in names):
-        parts.append(named_rows(*ROWS[name](solution, file.units)))
+        parts.append(named_rows(*ROWS[name](rows)))
         if name == "pressure":
             parts.append(text_picture(solution, file.units, width))
         if name == "shear" and solution.history and solution.carries_shear:
             parts.append(_path_table(solution.history, file.units))
+    printed: tuple[str, ...] = ()
     if "check" in names:
         parts += map(str, (solution.check(), *solution.trace_reports()))
+        printed = solution.check().notes
     if "cycle" in more:
-        from .cycle_report import cycle_summary  # noqa: PLC0415
+        from .cycle_answer import cycle_summary  # noqa: PLC0415
 
         parts.append(cycle_summary(more["cycle"], file))
     if "crack" in more:
-        from .crack_table import crack_summary  # noqa: PLC0415
+        from .cycle_answer import crack_summary  # noqa: PLC0415
 
         parts.append(crack_summary(more["crack"], file.units))
-    printed = solution.check().notes if "check" in wanted(file) else ()
     notes = "\n".join(note for note in notes_of(solution, file) if note not in printed)
-    readings = [textwrap.fill(f"trace {reading}", WIDE) for reading in readings_of(solution)]
-    head = "\n".join(filter(None, [file.title, scene, *readings]))
-    return "\n\n".join([head, *parts, *filter(None, [notes])])
+    return "\n\n".join([*parts, *filter(None, [notes])])
 
 
-def edge_rows(solution: Solution, units: Units) -> list[Row]:
-    """Edges, width, load, moment and tilt."""
-    r = solution.half_width
-    x1, x2 = (
-        f"{_number(x, r)} {units.length}, {'sharp' if s else 'smooth'}"
-        for x, s in zip(solution.edges, solution.sharp, strict=True)
-    )
-    edges = f"x1 = {x1};  x2 = {x2}"
-    return [
-        ("edges", "none: all of the period is in contact" if full(solution) else edges),
-        *_patches(solution, units),
-        ("half-width", f"{_number(r)} {units.length}, centre at x = {_number(solution.centre, r)}"),
-        *_loads(solution, units),
-    ]
+@dataclass(frozen=True)
+class Rows:
+    """The rows of each quantity, in words with units."""
+
+    solution: Solution
+    units: Units
+
+    def edges(self) -> list[Row]:
+        """Edges, patches, width, load, moment and tilt."""
+        solution, units, r, P = self.solution, self.units, self._r, self.solution.normal_load
+        x1, x2 = (
+            f"{self._length(x, r)}, {'sharp' if sharp else 'smooth'}"
+            for x, sharp in zip(solution.edges, solution.sharp, strict=True)
+        )
+        edges = f"x1 = {x1};  x2 = {x2}"
+        load = f"{_number(P)} {units.force}"
+        rows = [
+            ("edges", "none: all of the period is in contact" if full(solution) else edges),
+            *self._patches(),
+            ("half-width", f"{self._length(r)}, centre at x = {_number(solution.centre, r)}"),
+        ]
+        if math.isfinite(solution.scene.profile.period):  # it keeps level
+            return [*rows, ("normal load", f"{load} for each period")]
+        return [
+            *rows,
+            ("normal load", load),
+            ("moment", f"{_number(solution.moment, P * r)} {units.moment}, about x = 0"),
+            ("tilt", _number(solution.tilt, P / (r * solution.scene.Estar))),
+        ]
+
+    def _patches(self) -> list[Row]:
+        """The number of patches, the length in contact, the largest share of the load, the gaps."""
+        solution, patches = self.solution, self.solution.patches
+        period = solution.scene.profile.period
+        repeats = math.isfinite(period)
+        if len(patches) < 2 and not repeats:
+            return []
+        length, P = solution.contact_length, solution.normal_load
+        part = 100.0 * length / (period if repeats else 2.0 * self._r)
+        where = "of the period" if repeats else "from x1 to x2"
+        rows = [
+            ("patches", f"{len(patches)}{' in each period' * repeats}"),
+            ("in contact", f"{self._length(length)}, {part:.3g} % {where}"),
+        ]
+        if len(patches) > 1:
+            shares = zip(solution.patch_loads, patches, strict=True)
+            load, (lo, hi) = max(shares, key=lambda share: share[0])
+            place = f"[{_number(lo, self._r)}, {_number(hi, self._r)}] {self.units.length}"
+            rows.append(("largest share", f"{100.0 * load / P:.3g} % of the load on {place}"))
+        between = "in each period" if repeats else "between them"
+        return [*rows, ("gap volume", f"{self._length(solution.gap_volume)}² {between}")]
+
+    def pressure(self) -> list[Row]:
+        """The peak pressure and the mean pressure."""
+        largest, where = peak(self.solution)
+        places = [_number(x, self._r, SAME_PLACE) for x in where[:2]]
+        places += [f"{len(where) - 2} more"] if len(where) > 2 else []
+        mean = self.solution.normal_load / self.solution.contact_length
+        return [
+            ("peak pressure", f"{self._stress(largest)} at x = {' and '.join(places)}"),
+            ("mean pressure", self._stress(mean)),
+        ]
+
+    def gap(self) -> list[Row]:
+        """The gap half a half-width beyond each edge.
+
+        It is taken in the middle of the way to the contact of the next period where that is nearer.
+        """
+        if full(self.solution):
+            return [("gap", "none")]
+        (x1, x2), step = self.solution.edges, min(0.5 * self._r, reach(self.solution))
+        x = [x1 - step, x2 + step]
+        gaps = zip(self.solution.gap(x).tolist(), x, strict=True)
+        texts = [
+            f"{self._length(g) if math.isfinite(g) else 'no indenter'} at x = {_number(u)}"
+            for g, u in gaps
+        ]
+        return [("gap", ";  ".join(texts))]
+
+    def shear(self) -> list[Row]:
+        """Stick zones, slip zones and dissipated energy."""
+        solution, scene, units = self.solution, self.solution.scene, self.units
+        if not solution.carries_shear:
+            return [("shear", "none")]
+        limit = f"f P = {_number(scene.friction * solution.normal_load)}"
+        limit = "bonded" if scene.bonded else limit
+        rows = [("shear load", f"Q = {_number(solution.tangential_load)} {units.force}; {limit}")]
+        if scene.bulk_stress:
+            rows.append(("bulk stress", self._stress(scene.bulk_stress)))
+        rows += self._zones("stick", [(*zone, "") for zone in solution.stick])
+        slipped = [
+            (lo, hi, f"{self._narrow(lo, hi)}, q = {'+' if sign > 0.0 else '-'}f p")
+            for lo, hi, sign in slipping(solution)
+        ]
+        rows += self._zones("slip", slipped) if slipped else []
+        return rows + self._energy(energy_of(solution))
+
+    def _narrow(self, lo: float, hi: float) -> str:
+        """The width of a slip zone whose ends look alike."""
+        (x1, x2), (left, right) = self.solution.edges, self.solution.slip_widths
+        if _number(lo, self._r) != _number(hi, self._r):
+            return ""
+        width = left if lo == x1 else right if hi == x2 else hi - lo
+        return f" ({width:.3g} {self.units.length} wide)"
+
+    def _zones(self, name: str, zones: Sequence[tuple[float, float, str]]) -> list[Row]:
+        """A row for each zone, or one for all where they are many."""
+        if len(zones) > MANY_ZONES:
+            whole = self._length(sum(hi - lo for lo, hi, _ in zones))
+            return [(name, f"in {len(zones)} zones, together {whole} long")]
+        return [
+            (name, f"from {_number(lo, self._r)} to {self._length(hi, self._r)}{more}")
+            for lo, hi, more in zones
+        ] or [(name, "none")]
+
+    def energy(self) -> list[Row]:
+        """The dissipated energy."""
+        return self._energy({"energy_lost": self.solution.energy_lost})
+
+    def _energy(self, known: Mapping[str, float]) -> list[Row]:
+        return [("energy lost", f"{_number(v)} {self.units.moment}") for v in known.values()]
+
+    def stress(self) -> list[Row]:
+        """The stress under the centre, on the surface and half a half-width below."""
+        r, scale, rows = self._r, self.solution.normal_load / self._r, []
+        below = f"at a depth of {self._length(0.5 * r)}"
+        for name, where, y in (("stress", "on the surface", 0.0), ("", below, 0.5 * r)):
+            s = self.solution.stress(self.solution.centre, y)
+            parts = (
+                f"{component} = {_number(float(value), scale)}"
+                for component, value in (("σ_xx", s.xx), ("σ_yy", s.yy), ("σ_xy", s.xy))
+            )
+            rows.append((name, f"{', '.join(parts)} {self.units.stress} at the centre, {where}"))
+        return rows
+
+    def yielding(self) -> list[Row]:
+        """The load at which the body yields first, and where."""
+        limit, r = self.solution.elastic_limit(), self._r
+        if math.isinf(limit.stress):
+            place = f"x = {self._length(limit.x, r)} on the surface"
+            return [("elastic limit", f"0: the stress is infinite at {place}")]
+        places = (
+            f"x = {_number(x, r, SAME_PLACE)}, y = {self._length(y)}" for x, y in limit.places
+        )
+        ratio = f"P/(bk) = {_number(limit.ratio)} (von Mises)"
+        stress = f"it yields if k < {self._stress(limit.stress)}"
+        return [("elastic limit", f"{ratio}: {stress}"), ("weakest point", " and ".join(places))]
+
+    def tension(self) -> list[Row]:
+        """The largest tension on the surface, and where."""
+        value, x = self.solution.peak_tension()
+        if value == 0.0:
+            return [("peak tension", "none: the surface is nowhere in tension")]
+        size = self._stress(value, self.solution.normal_load / self._r)
+        return [("peak tension", f"{size} at x = {self._length(x, self._r)}")]
+
+    @property
+    def _r(self) -> float:
+        return self.solution.half_width
+
+    def _length(self, value: float, scale: float = 0.0) -> str:
+        return f"{_number(value, scale)} {self.units.length}"
+
+    def _stress(self, value: float, scale: float = 0.0) -> str:
+        return "infinite" if math.isinf(value) else f"{_number(value, scale)} {self.units.stress}"
 
 
-def _loads(solution: Solution, units: Units) -> tuple[Row, ...]:
-    """Load, moment and tilt; of a contact that repeats, which keeps level, the load of a period."""
-    r, P = solution.half_width, solution.normal_load
-    if math.isfinite(solution.scene.profile.period):
-        return (("normal load", f"{_number(P)} {units.force} for each period"),)
-    return (
-        ("normal load", f"{_number(P)} {units.force}"),
-        ("moment", f"{_number(solution.moment, P * r)} {units.moment}, about x = 0"),
-        ("tilt", _number(solution.tilt, P / (r * solution.scene.Estar))),
-    )
+ROWS: dict[str, Callable[[Rows], list[Row]]] = {
+    "edges": Rows.edges,
+    "pressure": Rows.pressure,
+    "gap": Rows.gap,
+    "shear": Rows.shear,
+    "energy": Rows.energy,
+    "stress": Rows.stress,
+    "yield": Rows.yielding,
+    "tension": Rows.tension,
+}
 
 
-def _patches(solution: Solution, units: Units) -> tuple[Row, ...]:
-    """The number of patches, the length in contact, the largest share of the load, and the gaps."""
-    patches, repeats = solution.patches, math.isfinite(solution.scene.profile.period)
-    if len(patches) < 2 and not repeats:
-        return ()
-    loads = solution.patch_loads
-    most = max(range(len(patches)), key=lambda k: loads[k])
-    lo, hi = (_number(x, solution.half_width) for x in patches[most])
-    length, period = solution.contact_length, solution.scene.profile.period
-    whole = period if repeats else 2.0 * solution.half_width
-    of_what = "of the period" if repeats else "from x1 to x2"
-    share = 100.0 * loads[most] / solution.normal_load
-    biggest = ("largest share", f"{share:.3g} % of the load on [{lo}, {hi}] {units.length}")
-    return (
-        ("patches", f"{len(patches)}{' in each period' * repeats}"),
-        (
-            "in contact",
-            f"{_number(length)} {units.length}, {100.0 * length / whole:.3g} % {of_what}",
-        ),
-        *[biggest] * (len(patches) > 1),
-        (
-            "gap volume",
-            f"{_number(solution.gap_volume)} {units.length}² "
-            f"{'in each period' if repeats else 'between them'}",
-        ),
-    )
+def _number(value: float, scale: float = 0.0, nothing: float = NOTHING) -> str:
+    return f"{0.0 if abs(value) < nothing * scale else value:.6g}"
 
 
-def peak_rows(solution: Solution, units: Units) -> list[Row]:
-    """The peak pressure and the mean pressure."""
-    largest, where = peak(solution)
-    places = [_number(x, solution.half_width, SAME_PLACE) for x in where[:2]]
-    places += [f"{len(where) - 2} more"] if len(where) > 2 else []
-    value = f"{_number(largest)} {units.stress}" if math.isfinite(largest) else "infinite"
-    mean = solution.normal_load / solution.contact_length
-    return [
-        ("peak pressure", f"{value} at x = {' and '.join(places)}"),
-        ("mean pressure", f"{_number(mean)} {units.stress}"),
-    ]
-
-
-def gap_rows(solution: Solution, units: Units) -> list[Row]:
-    """The gap half a half-width beyond each edge.
-
-    It is taken in the middle of the way to the contact of the next period where that is nearer.
-    """
-    if full(solution):
-        return [("gap", "none")]
-    (x1, x2), step = solution.edges, min(0.5 * solution.half_width, reach(solution))
-    x = np.array([x1 - step, x2 + step])
-    values = (
-        f"{_number(g)} {units.length}" if math.isfinite(g) else "no indenter"
-        for g in solution.gap(x).tolist()
-    )
-    places = [f"{gap} at x = {_number(u)}" for gap, u in zip(values, x.tolist(), strict=True)]
-    return [("gap", ";  ".join(places))]
-
-
-def shear_rows(solution: Solution, units: Units) -> list[Row]:
-    """Stick zones, slip zones and dissipated energy."""
-    if not solution.carries_shear:
-        return [("shear", "none")]
-    scene, r = solution.scene, solution.half_width
-    limit = (
-        "; bonded" if scene.bonded else f"; f P = {_number(scene.friction * solution.normal_load)}"
-    )
-    rows = [("shear load", f"Q = {_number(solution.tangential_load)} {units.force}{limit}")]
-    if scene.bulk_stress:
-        rows.append(("bulk stress", f"{_number(scene.bulk_stress)} {units.stress}"))
-    rows += _zones("stick", [(*zone, "") for zone in solution.stick], r, units.length)
-    slipped = [
-        (lo, hi, f"{_narrow(solution, lo, hi, units.length)}, q = {'+' if sign > 0.0 else '-'}f p")
-        for lo, hi, sign in slipping(solution)
-    ]
-    rows += _zones("slip", slipped, r, units.length) if slipped else []
-    rows += [
-        ("energy lost", f"{_number(energy)} {units.moment}")
-        for energy in energy_of(solution).values()
-    ]
-    return rows
-
-
-def _narrow(solution: Solution, lo: float, hi: float, length: str) -> str:
-    """The width of a slip zone whose ends look alike."""
-    r, (x1, x2) = solution.half_width, solution.edges
-    if _number(lo, r) != _number(hi, r):
-        return ""
-    left, right = solution.slip_widths
-    width = left if lo == x1 else right if hi == x2 else hi - lo
-    return f" ({width:.3g} {length} wide)"
-
-
-def _zones(
-    name: str, zones: Sequence[tuple[float, float, str]], r: float, length: str
-) -> list[Row]:
-    """A row for each zone, or one for all where they are many."""
-    if len(zones) > MANY_ZONES:
-        whole = _number(sum(hi - lo for lo, hi, _ in zones))
-        return [(name, f"in {len(zones)} zones, together {whole} {length} long")]
-    return [
-        (name, f"from {_number(lo, r)} to {_number(hi, r)} {length}{more}")
-        for lo, hi, more in zones
-    ] or [(name, "none")]
+# -- tables and pictures ---------------------------------------------------------------------------
 
 
 def _path_table(history: History, units: Units) -> str:
@@ -231,66 +286,9 @@ def table(head: Sequence[str], rows: Sequence[Sequence[float | str]]) -> str:
     return "\n".join(lines)
 
 
-def stress_rows(solution: Solution, units: Units) -> list[Row]:
-    """The stress under the centre of the contact, on the surface and half a half-width below."""
-    r, rows = solution.half_width, []
-    for name, where, y in (
-        ("stress", "on the surface", 0.0),
-        ("", f"at a depth of {_number(0.5 * r)} {units.length}", 0.5 * r),
-    ):
-        s = solution.stress(solution.centre, y)
-        parts = (
-            f"{component} = {_number(float(value), solution.normal_load / r)}"
-            for component, value in (("σ_xx", s.xx), ("σ_yy", s.yy), ("σ_xy", s.xy))
-        )
-        rows.append((name, f"{', '.join(parts)} {units.stress} at the centre, {where}"))
-    return rows
-
-
-def yield_rows(solution: Solution, units: Units) -> list[Row]:
-    """The load at which the body yields first, and where."""
-    limit, r = solution.elastic_limit(), solution.half_width
-    if math.isinf(limit.stress):
-        place = f"x = {_number(limit.x, r)} {units.length} on the surface"
-        return [("elastic limit", f"0: the stress is infinite at {place}")]
-    places = (
-        f"x = {_number(x, r, SAME_PLACE)}, y = {_number(y)} {units.length}" for x, y in limit.places
-    )
-    ratio = f"P/(bk) = {_number(limit.ratio)} (von Mises)"
-    stress = f"it yields if k < {_number(limit.stress)} {units.stress}"
-    return [("elastic limit", f"{ratio}: {stress}"), ("weakest point", " and ".join(places))]
-
-
-def tension_rows(solution: Solution, units: Units) -> list[Row]:
-    """The largest tension on the surface, and where."""
-    value, x = solution.peak_tension()
-    if value == 0.0:
-        return [("peak tension", "none: the surface is nowhere in tension")]
-    size = (
-        f"{_number(value, solution.normal_load / solution.half_width)} {units.stress}"
-        if math.isfinite(value)
-        else "infinite"
-    )
-    return [("peak tension", f"{size} at x = {_number(x, solution.half_width)} {units.length}")]
-
-
-ROWS: dict[str, Callable[[Solution, Units], list[Row]]] = {
-    "edges": edge_rows,
-    "pressure": peak_rows,
-    "gap": gap_rows,
-    "shear": shear_rows,
-    "energy": lambda solution, units: [
-        ("energy lost", f"{_number(solution.energy_lost)} {units.moment}")
-    ],
-    "stress": stress_rows,
-    "yield": yield_rows,
-    "tension": tension_rows,
-}
-
-
 def text_picture(solution: Solution, units: Units, width: int = WIDE) -> str:
     """The pressure over the contact as columns of blocks; ↑ where it rises above the picture."""
-    (x1, x2), top = solution.edges, ceiling(solution)
+    (x1, x2), r, top = solution.edges, solution.half_width, ceiling(solution)
     margin = len(_number(top))
     columns = max(width - margin - len(" │"), NARROWEST)
     p = solution.pressure(x1 + (x2 - x1) * (np.arange(columns) + 0.5) / columns)
@@ -299,20 +297,17 @@ def text_picture(solution: Solution, units: Units, width: int = WIDE) -> str:
         "".join(" ▁▂▃▄▅▆▇█"[min(max(e - 8 * level, 0), 8)] for e in eighths)
         for level in range(HEIGHT - 1, -1, -1)
     ]
-    rows[0] = "".join(
-        "↑" if cut else block
-        for block, cut in zip(rows[0], p > top * (1.0 + SAME_PEAK), strict=True)
-    )
+    cut = (p > top * (1.0 + SAME_PEAK)).tolist()
+    rows[0] = "".join("↑" if c else block for block, c in zip(rows[0], cut, strict=True))
     labels = [_number(top), *[""] * (HEIGHT - 1)]
-    r = solution.half_width
-    left, right = _number(x1, r), f"{_number(x2, r)} {units.length}"
     lines = [f"{label:>{margin}} │{row}" for label, row in zip(labels, rows, strict=True)]
-    axis = [
-        f"{0:>{margin}} └{'─' * columns}",
-        f"{'':>{margin}}  {left}{right:>{columns - len(left)}}",
-    ]
-    return "\n".join([f"p in {units.stress}", *lines, *axis])
-
-
-def _number(value: float, scale: float = 0.0, nothing: float = NOTHING) -> str:
-    return f"{0.0 if abs(value) < nothing * scale else value:.6g}"
+    left, right = _number(x1, r), f"{_number(x2, r)} {units.length}"
+    axis = f"{0:>{margin}} └{'─' * columns}"
+    return "\n".join(
+        [
+            f"p in {units.stress}",
+            *lines,
+            axis,
+            f"{'':>{margin}}  {left}{right:>{columns - len(left)}}",
+        ]
+    )

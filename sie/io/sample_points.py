@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -64,9 +63,8 @@ def beside(solution: Solution, points: int = POINTS) -> tuple[Array, Array]:
     (x1, x2), (lo, hi) = solution.edges, solution.scene.profile.domain
     left, right = max(x1 - reach(solution), lo), min(x2 + reach(solution), hi)
     t = np.linspace(0.0, 1.0, max(round(BESIDE * points), 2) + 1) ** 2
-    x = np.unique(
-        np.concatenate((x1 + (left - x1) * t, x2 + (right - x2) * t, _corners(solution, points)))
-    )
+    sides = x1 + (left - x1) * t, x2 + (right - x2) * t, _corners(solution, points)
+    x = np.unique(np.concatenate(sides))
     return x[(x >= left) & (x < x1)], x[(x > x2) & (x <= right)]
 
 
@@ -97,8 +95,7 @@ def _gathered(n: int) -> Array:
     return np.asarray(np.sin(0.5 * np.pi * np.linspace(0.0, 1.0, max(n, 1) + 1)) ** 2)
 
 
-@dataclass(frozen=True)
-class Summit:
+class Summit(NamedTuple):
     """A local maximum of the pressure; p is inf at a sharp edge or under a corner."""
 
     x: float
@@ -114,9 +111,8 @@ def summits(solution: Solution) -> tuple[Summit, ...]:
     padded = np.concatenate(([-np.inf], p, [-np.inf]))
     top = np.flatnonzero((p > padded[:-2]) & (p >= padded[2:]))
     high = top[np.isfinite(p[top]) & (p[top] >= LESSER * p[np.isfinite(p)].max())]
-    x[high], p[high] = _narrowed(
-        solution, x[high], x[np.maximum(high - 1, 0)], x[np.minimum(high + 1, len(x) - 1)]
-    )
+    ends = x[np.maximum(high - 1, 0)], x[np.minimum(high + 1, len(x) - 1)]
+    x[high], p[high] = _narrowed(solution, x[high], *ends)
     return tuple(map(Summit, x[top].tolist(), p[top].tolist()))
 
 

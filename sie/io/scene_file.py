@@ -4,9 +4,8 @@
     want = ["edges"]    optional: what `sie solve` answers without --want
     indenter = "rigid"  optional; the other way is a table [indenter]
 
-    [units]             length = "mm"  force = "N/mm"  stress = "MPa": labels of consistent units;
-                        checked = true: pint checks them. With pint a value may have a unit of its
-                        own, "500 N/mm" or "20 um", and is converted (`quantities`)
+    [units]             length = "mm"  force = "N/mm"  stress = "MPa": labels of the consistent
+                        units of all numbers
     [profile]           kind and its parameters; mirrored, tilted, shifted, raised, applied in this
                         order; period repeats it; of kind "sampled" x and h, or path, a file beside
                         the scene file, with units (those in its head are used without it) and
@@ -26,9 +25,9 @@
                         "cycle.csv"; columns = ["P", "Q", "sigma", "tilt"] says what the numbers of
                         each row are (`path_table`); the scene is that of the last point
     [fatigue]           findley_k, shear_limit, fatemi_socie_k, yield_stress, depth, parts: for the
-                        fatigue parameters of a path that closes (`fatigue_table`)
+                        fatigue parameters of a path that closes (`Fatigue`)
     [crack]             at = "trailing edge" | "leading edge" | x, depths, threshold, fatigue_limit:
-                        cracks normal to the surface (`crack_table`)
+                        cracks normal to the surface (`Crack`)
 
 `sie example` lists commented files to start from. A mistake is refused in one sentence, a
 `SceneFileError`, that names the file, the table, the value and the remedy; a name that is not known
@@ -62,11 +61,8 @@ from sie.problem.request import WANTS
 from sie.problem.scene import Scene
 from sie.profiles.kinds import KINDS
 
-from .crack_table import Crack, crack_of
-from .fatigue_table import Fatigue, fatigue_of
 from .path_table import path_of
-from .profile_tables import Surroundings, profile_of
-from .quantities import Converter
+from .profile_tables import Files, profile_of
 from .scene_keys import LOADS, TOP, naming, remedy, require, values_of
 from .toml_values import TEXT, TEXTS
 
@@ -99,6 +95,70 @@ class Units:
 
 
 UNITS = Units()
+PARTS, MOST_PARTS = 4, 100
+
+
+@dataclass(frozen=True)
+class Fatigue:
+    """The content of [fatigue]; 0 stands for a constant that is not given.
+
+    Parameters
+    ----------
+    findley_k : float
+        Weight of the normal stress in Findley's parameter.
+    shear_limit : float
+        What Findley's parameter may reach, in units of stress.
+    fatemi_socie_k : float
+        Weight of the normal stress in the parameter of Fatemi and Socie.
+    yield_stress : float
+        σ_y in the parameter of Fatemi and Socie.
+    depth : float or list of float
+        Where parameters are given beside the surface; without it 1 % and 10 % of the largest
+        half-width.
+    parts : int
+        At how many states each step of the cycle is examined, 4 if it is not given.
+    """
+
+    findley_k: float = 0.0
+    shear_limit: float = 0.0
+    fatemi_socie_k: float = 0.0
+    yield_stress: float = 0.0
+    depth: float | tuple[float, ...] = ()
+    parts: int = PARTS
+
+    def __post_init__(self) -> None:
+        if not 1 <= self.parts <= MOST_PARTS:
+            raise ValueError(
+                f"[fatigue] parts = {self.parts} is not a number from 1 to {MOST_PARTS}"
+            )
+
+
+@dataclass(frozen=True)
+class Crack:
+    """The content of [crack].
+
+    Parameters
+    ----------
+    at : str or float
+        Where the cracks begin: "trailing edge" or "leading edge" of the contact under the largest
+        tangential load, or x.
+    depths : list of float
+        Depths of their tips, ascending.
+    threshold : float
+        ΔK0 of long cracks, stress times root of length.
+    fatigue_limit : float
+        Δσ0 of the smooth material, a range of stress.
+    friction : float
+        Friction between the faces of a crack: only 0.
+    """
+
+    at: str | float
+    depths: tuple[float, ...]
+    threshold: float = 0.0
+    fatigue_limit: float = 0.0
+    friction: float = 0.0
+
+
 EXAMPLES = resources.files("sie.examples")
 HERE = pathlib.Path()
 # A trace of 1e4 points has 0.4 MB as x and h; longer ones belong in a file of their own.
@@ -245,40 +305,28 @@ def from_tables(top: dict[str, Any], folder: pathlib.Path = HERE) -> SceneFile:
     ):
         if name not in top:
             raise ValueError(f"there is no [{name}]: give [{name}] with {content}")
-    plain = Converter(vars(UNITS))
-    units = values_of("units", top.get("units", {}), plain)
-    checked = units.pop("checked", False)
-    labels = Units(**units)
-    around = Surroundings(folder, Converter(vars(labels)))
-    if checked:
-        around.convert.begin("[units] checked = true", "leave checked out")
-    path, loads = _loads(top["load"], around)
-    profile = profile_of(top["profile"], around)
-    bodies = _bodies(top, around.convert)
-    fatigue = fatigue_of(values_of("fatigue", top.get("fatigue", {}), around.convert))
-    cracks = values_of("crack", top.get("crack", {}), around.convert)
-    if "crack" in top:
-        require("[crack]", cracks, ("at", "depths"))
-    around.refuse_traces_without_units()
+    units = Units(**values_of("units", top))
+    beside = Files(folder, units.length)
+    path, loads = _loads(top, beside)
+    profile, bodies = profile_of(top["profile"], beside), _bodies(top)
+    fatigue, crack = Fatigue(**values_of("fatigue", top)), values_of("crack", top)
     return SceneFile(
         scene=Scene(profile=profile, **bodies, **loads),
         title=TEXT.read("title", top.get("title", "")),
-        units=labels,
+        units=units,
         want=wants("want", TEXTS.read("want", top.get("want", []))),
         load_path=path,
         fatigue=fatigue,
-        crack=crack_of(cracks) if cracks else None,
-        reads=tuple(around.reads),
+        crack=Crack(**crack) if crack else None,
+        reads=tuple(beside.read),
     )
 
 
-def _loads(table: Any, around: Surroundings) -> tuple[Path | None, dict[str, Any]]:
+def _loads(top: dict[str, Any], beside: Files) -> tuple[Path | None, dict[str, Any]]:
     """The path of [load], and the loads, which are those of its last point."""
-    loads = values_of("load", table, around.convert)
+    loads = values_of("load", top)
     columns = loads.pop("columns", None)
     if "path" not in loads:
-        if columns is not None:
-            raise ValueError("[load] has columns without a path: give path = [[P, Q, σ], ...]")
         return None, loads
     both = next((name for name in LOADS if name in loads), "")
     if both:
@@ -287,22 +335,20 @@ def _loads(table: Any, around: Surroundings) -> tuple[Path | None, dict[str, Any
             f"leave {both} out"
         )
     with naming("[load]"):
-        path = path_of(loads.pop("path"), columns, around)
+        path = path_of(loads.pop("path"), columns, beside)
     last = zip(("normal_load", "tangential_load", "bulk_stress"), path.points[-1], strict=True)
     return path, loads | dict(last)
 
 
-def _bodies(top: dict[str, Any], convert: Converter) -> dict[str, Any]:
+def _bodies(top: dict[str, Any]) -> dict[str, Any]:
     """The scene's body and indenter, or modulus, dundurs and poisson."""
-    pair = values_of("pair", top.get("pair", {}), convert)
-    if "pair" in top and not pair.keys() <= {"dundurs", "coupling"}:
-        for name in ("body", "indenter"):
-            if name in top:
-                raise ValueError(
-                    f"both [pair] and [{name}] are given: "
-                    "[pair] stands for both bodies, leave one out; or give dundurs = 0 or coupling "
-                    "alone in it"
-                )
+    pair = values_of("pair", top)
+    named = [name for name in ("body", "indenter") if name in top]
+    if "pair" in top and named and not pair.keys() <= {"dundurs", "coupling"}:
+        raise ValueError(
+            f"both [pair] and [{named[0]}] are given: [pair] stands for both bodies, leave one "
+            "out; or give dundurs = 0 or coupling alone in it"
+        )
     if "body" not in top:
         if "pair" not in top:
             raise ValueError(
@@ -310,19 +356,18 @@ def _bodies(top: dict[str, Any], convert: Converter) -> dict[str, Any]:
                 "give [body] with young and poisson, or [pair] with modulus"
             )
         require("[pair]", pair, ["modulus"])
-    named = [name for name in ("body", "indenter") if name in top]
-    return {name: _body(name, top[name], convert) for name in named} | pair
+    return {name: _body(name, top) for name in named} | pair
 
 
-def _body(name: str, value: Any, convert: Converter) -> Body:
-    if isinstance(value, str):
-        if value != "rigid":
+def _body(name: str, top: dict[str, Any]) -> Body:
+    if isinstance(top[name], str):
+        if top[name] != "rigid":
             raise ValueError(
-                f'{name} = "{value}" is not known: '
+                f'{name} = "{top[name]}" is not known: '
                 f'write {name} = "rigid", or a table [{name}] with young and poisson'
             )
         return RIGID
-    values = values_of(name, value, convert)
+    values = values_of(name, top)
     if values.pop("rigid", False):
         if values:
             raise ValueError(f"[{name}] is rigid and has {', '.join(values)}: leave one out")

@@ -1,8 +1,8 @@
-"""The keys of each table of a scene file: what each may hold, and its dimension.
+"""The keys of each table of a scene file, and what each may hold.
 
-Reading, writing, the schema, and the conversion of units follow this table. The keys of [profile]
-are the parameters of the kind of profile: its signature gives their names, their types and which of
-them are optional. What a key means is said by the docstring of the class that takes its value.
+Reading, writing and the schema follow this one declaration. The keys of [profile] are the
+parameters of the kind of profile: its signature gives their names, their types and which of them
+are optional. What a key means is said by the docstring of the class that takes its value.
 """
 
 from __future__ import annotations
@@ -27,9 +27,7 @@ from sie.profiles.trace_files import Column
 from sie.profiles.trace_units import SIDES, Side
 from sie.profiles.trace_values import Smoothing
 
-from .quantities import ANGLE, FORCE, LENGTH, MOMENT, STRESS, Converter
 from .toml_values import (
-    CELL,
     CONSTANT,
     FLAG,
     NUMBER,
@@ -47,88 +45,81 @@ from .toml_values import (
     table_of,
 )
 
-
-class Key(NamedTuple):
-    """What a key may hold, and its dimension, "" for none."""
-
-    kind: Kind
-    dimension: str = ""
-
-
-Keys = Mapping[str, Key]
-POISSON = Key(in_range(exclusiveMinimum=-1.0, maximum=0.5))
+Keys = Mapping[str, Kind]
+EDGES = ("trailing edge", "leading edge")
+POISSON = in_range(exclusiveMinimum=-1.0, maximum=0.5)
 BODY: Keys = {
-    "young": Key(POSITIVE, STRESS),
+    "young": POSITIVE,
     "poisson": POISSON,
-    "plane": Key(choice(get_args(Plane))),
-    "rigid": Key(FLAG),
+    "plane": choice(get_args(Plane)),
+    "rigid": FLAG,
 }
 # The loads, in place of which a path may stand.
 LOADS: Keys = {
-    "normal_load": Key(POSITIVE, FORCE),
-    "half_width": Key(POSITIVE, LENGTH),
-    "tangential_load": Key(NUMBER, FORCE),
-    "sliding": Key(Kind(NUMBER.read, {"enum": [-1, 0, 1]})),
-    "bulk_stress": Key(NUMBER, STRESS),
+    "normal_load": POSITIVE,
+    "half_width": POSITIVE,
+    "tangential_load": NUMBER,
+    "sliding": Kind(NUMBER.read, {"enum": [-1, 0, 1]}),
+    "bulk_stress": NUMBER,
 }
 TABLES: Mapping[str, Keys] = {
-    "units": dict.fromkeys(("length", "force", "stress"), Key(TEXT)) | {"checked": Key(FLAG)},
+    "units": dict.fromkeys(("length", "force", "stress"), TEXT),
     "body": BODY,
     "indenter": BODY,
     "pair": {
-        "modulus": Key(POSITIVE, STRESS),
-        "dundurs": Key(NUMBER),
+        "modulus": POSITIVE,
+        "dundurs": NUMBER,
         "poisson": POISSON,
-        "coupling": Key(choice(COUPLINGS)),
+        "coupling": choice(COUPLINGS),
     },
     "fatigue": {
-        "findley_k": Key(CONSTANT),
-        "shear_limit": Key(CONSTANT, STRESS),
-        "fatemi_socie_k": Key(CONSTANT),
-        "yield_stress": Key(CONSTANT, STRESS),
-        "depth": Key(by_type(list, list_of(CONSTANT), CONSTANT), LENGTH),
-        "parts": Key(WHOLE),
+        "findley_k": CONSTANT,
+        "shear_limit": CONSTANT,
+        "fatemi_socie_k": CONSTANT,
+        "yield_stress": CONSTANT,
+        "depth": by_type(list, list_of(CONSTANT), CONSTANT),
+        "parts": WHOLE,
     },
     "crack": {
-        "at": Key(by_type(str, TEXT, NUMBER)),
-        "depths": Key(list_of(CONSTANT), LENGTH),
-        "threshold": Key(CONSTANT),
-        "fatigue_limit": Key(CONSTANT, STRESS),
-        "friction": Key(in_range(minimum=0.0)),
+        "at": by_type(str, choice(EDGES), NUMBER),
+        "depths": list_of(CONSTANT),
+        "threshold": CONSTANT,
+        "fatigue_limit": CONSTANT,
+        "friction": in_range(minimum=0.0),
     },
     "load": {
         **LOADS,
-        "tilt": Key(NUMBER, ANGLE),
-        "moment": Key(NUMBER, MOMENT),
-        "friction": Key(in_range(minimum=0.0)),
-        "path": Key(by_type(str, TEXT, list_of(list_of(CELL)))),
-        "columns": Key(TEXTS),
+        "tilt": NUMBER,
+        "moment": NUMBER,
+        "friction": in_range(minimum=0.0),
+        "path": by_type(str, TEXT, list_of(NUMBERS)),
+        "columns": TEXTS,
     },
 }
 TOP: tuple[str, ...] = ("title", "want", "profile", *TABLES)
+# Keys that need another one of their table beside them, and those that a table must have.
+BESIDE: Mapping[str, Mapping[str, str]] = {
+    "fatigue": {
+        "shear_limit": "findley_k",
+        "fatemi_socie_k": "yield_stress",
+        "yield_stress": "fatemi_socie_k",
+    },
+    "crack": {"threshold": "fatigue_limit", "fatigue_limit": "threshold"},
+    "load": {"columns": "path"},
+}
+REQUIRED: Mapping[str, tuple[str, ...]] = {"crack": ("at", "depths")}
 
 # -- profiles --------------------------------------------------------------------------------------
 
-MODIFIERS: Keys = {
-    "mirrored": Key(FLAG),
-    "tilted": Key(NUMBER, ANGLE),
-    "shifted": Key(NUMBER, LENGTH),
-    "raised": Key(NUMBER, LENGTH),
-}
+MODIFIERS: Keys = {"mirrored": FLAG} | dict.fromkeys(("tilted", "shifted", "raised"), NUMBER)
 # Modifiers of a trace, applied in this order before the others.
-TREATMENTS: Keys = {
-    "without_outliers": Key(FLAG),
-    "levelled": Key(by_type(list, PAIR, FLAG), LENGTH),
-}
-PERIOD: Keys = {"period": Key(POSITIVE, LENGTH)}
-# Parameters of profiles with a dimension or a limit; those of the same name are alike.
+TREATMENTS: Keys = {"without_outliers": FLAG, "levelled": by_type(list, PAIR, FLAG)}
+PERIOD: Keys = {"period": POSITIVE}
+# Parameters of profiles with a limit; those of the same name are alike.
 PARAMETERS: Keys = {
-    **dict.fromkeys(("radius", "half_flat", "half_width"), Key(POSITIVE, LENGTH)),
-    **dict.fromkeys(("x", "h", "breaks", "domain"), Key(NUMBERS, LENGTH)),
-    "coefficient": Key(POSITIVE),
-    "exponent": Key(in_range(minimum=1.0)),
+    **dict.fromkeys(("radius", "half_flat", "half_width", "coefficient"), POSITIVE),
+    "exponent": in_range(minimum=1.0),
 }
-COLUMN = by_type(str, TEXT, WHOLE)
 # The kind of any other parameter, by its type.
 ANNOTATED: Mapping[Any, Kind] = {
     bool: FLAG,
@@ -147,7 +138,7 @@ ANNOTATED: Mapping[Any, Kind] = {
     ArrayLike: NUMBERS,
     Sequence[Sequence[float]]: list_of(NUMBERS),
     Smoothing: by_type(str, choice(["gcv"]), NUMBER),
-    tuple[Column, Column]: list_of(COLUMN, "give the columns of x and of h"),
+    tuple[Column, Column]: list_of(by_type(str, TEXT, WHOLE), "give the columns of x and of h"),
 }
 
 
@@ -178,7 +169,7 @@ def _form(make: Callable[..., Profile]) -> Form:
     parameters = [p for p in given if not of_file or p.name != "length"]  # [units] has that
     return Form(
         make,
-        {p.name: PARAMETERS.get(p.name) or Key(ANNOTATED[p.annotation]) for p in parameters},
+        {p.name: PARAMETERS.get(p.name) or ANNOTATED[p.annotation] for p in parameters},
         tuple(p.name for p in parameters if p.default is p.empty),
         TREATMENTS if of_file or make is Sampled else {},
     )
@@ -187,24 +178,24 @@ def _form(make: Callable[..., Profile]) -> Form:
 # -- reading ---------------------------------------------------------------------------------------
 
 
-def values_of(name: str, value: Any, convert: Converter) -> dict[str, Any]:
-    """The values of the table [name], none unknown, each of its kind."""
-    return read_values(f"[{name}]", table_of(name, value), TABLES[name], convert)
+def values_of(name: str, top: Mapping[str, Any]) -> dict[str, Any]:
+    """The values of the table [name], none unknown, each of its kind; {} without the table."""
+    where = f"[{name}]"
+    values = read_values(where, table_of(name, top.get(name, {})), TABLES[name])
+    for key, other in BESIDE.get(name, {}).items():
+        if key in values and other not in values:
+            raise ValueError(f"{where} has {key} without {other}: give {other} = ... too")
+    if name in top:
+        require(where, values, REQUIRED.get(name, ()))
+    return values
 
 
-def read_values(
-    where: str, table: Mapping[str, Any], keys: Keys, convert: Converter, kind: str = ""
-) -> dict[str, Any]:
+def read_values(where: str, table: Mapping[str, Any], keys: Keys, kind: str = "") -> dict[str, Any]:
     """The values of a table by its keys. ValueError with a remedy for a key that is not known."""
     for name in table:
         if name not in keys:
             raise ValueError(f'{where}{kind} has no key "{name}": {remedy(name, keys, where)}')
-    values: dict[str, Any] = {}
-    for name, value in table.items():
-        key, place = keys[name], f"{where} {name}"
-        number = convert.number(place, value, key.dimension) if key.dimension else value
-        values[name] = key.kind.read(place, number)
-    return values
+    return {name: keys[name].read(f"{where} {name}", value) for name, value in table.items()}
 
 
 def require(where: str, values: Mapping[str, Any], names: Iterable[str]) -> None:
@@ -226,11 +217,15 @@ def naming(where: str) -> Iterator[None]:
 
 # -- keys that are not known -----------------------------------------------------------------------
 
-# Keys of [profile] itself that none of its kinds has.
+# What is said of keys that no table, or only one kind of table, has.
 ELSEWHERE = {
+    **dict.fromkeys(
+        ("title", "want"), "it stands at the top of the file, before the first [table]"
+    ),
     "plus": "terms are not nested, write one [[profile.plus]] after the other",
     "of": 'it belongs to kind "row"',
     "period": "it belongs in [profile], and repeats the whole of it",
+    "checked": "units are labels, and nothing is converted: leave it out",
 }
 # Keys that users write for others.
 SYNONYMS = {
@@ -251,15 +246,22 @@ def remedy(key: str, known: Iterable[str], here: str) -> str:
     """
     known, of_profile = tuple(known), here.startswith(("[profile]", "[[profile"))
     meant = SYNONYMS.get(key.lower(), "")
-    if here == f"[{key}]" and not meant:
-        return suggestion(key, known)
-    of_trace = meant == "path" and "smoothing" in known
-    if meant in known or of_trace or (of_profile and meant == "kind"):
+    of_trace, kind = meant == "path" and "smoothing" in known, of_profile and meant == "kind"
+    if meant in known or of_trace or kind:
         return f'did you mean "{meant}"?'
-    key = meant if meant and key not in TOP else key
-    elsewhere = _elsewhere(key) if here else ""
-    if elsewhere or nearest(key, known):
-        return elsewhere or suggestion(key, known)
+    if here != f"[{key}]":
+        key = meant if meant and key not in TOP else key
+        if here and key in ELSEWHERE:
+            return ELSEWHERE[key]
+        if here and key in TOP:
+            return f"it is a table of its own, write the header [{key}] and its keys below it"
+    if here == f"[{key}]" or nearest(key, known):
+        return suggestion(key, known)
+    return _homes(key, of_profile) or suggestion(key, known)
+
+
+def _homes(key: str, of_profile: bool) -> str:
+    """The tables or the kinds of profile that a key belongs to, "" for none."""
     kinds = [
         kind
         for kind in KINDS
@@ -269,13 +271,4 @@ def remedy(key: str, known: Iterable[str], here: str) -> str:
         return f"it belongs to kind {choices(kinds)}"
     homes = [f"[{table}]" for table, keys in TABLES.items() if key in keys]
     homes += ["[profile]"] if key == "kind" or kinds or key in MODIFIERS else []
-    return f"it belongs in {' or '.join(homes)}" if homes else suggestion(key, known)
-
-
-def _elsewhere(key: str) -> str:
-    """The place of a key that no table may hold, "" for other keys."""
-    if key in ("title", "want"):
-        return "it stands at the top of the file, before the first [table]"
-    if key in TOP:
-        return f"it is a table of its own, write the header [{key}] and its keys below it"
-    return ELSEWHERE.get(key, "")
+    return f"it belongs in {' or '.join(homes)}" if homes else ""

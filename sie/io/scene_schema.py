@@ -6,7 +6,7 @@ line is
 
     #:schema scene.schema.json
 
-Numbers that make no contact problem, and units of another kind, are refused when the file is read.
+Numbers that make no contact problem are refused when the file is read.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from __future__ import annotations
 import inspect
 import json
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from typing import Any
 
 from sie.problem.material import Elastic
@@ -25,22 +25,13 @@ from sie.profiles.kinds import KINDS
 from sie.profiles.row import Periodic
 from sie.profiles.sampled import Sampled
 
-from .crack_table import TOGETHER as OF_CRACK
-from .crack_table import Crack
-from .fatigue_table import TOGETHER, Fatigue
-from .scene_keys import (
-    LOADS,
-    MODIFIERS,
-    PERIOD,
-    TABLES,
-    Form,
-    Keys,
-    forms_of,
-)
+from .scene_file import Crack, Fatigue
+from .scene_keys import BESIDE, LOADS, MODIFIERS, PERIOD, REQUIRED, TABLES, Form, Keys, forms_of
 from .toml_values import TEXT, Json
 
-# A number with a unit, which the reader hands to pint.
-QUANTITY = r"^\s*[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d{1,3})?\s*[^\s\d.,+-]"
+# Whose docstrings describe the keys of each table; of the others it is the scene's.
+DESCRIBED = {"fatigue": Fatigue, "crack": Crack, "body": Elastic}
+TERMS = {"type": "array", "items": {"$ref": "#/definitions/term"}}
 
 
 def schema_text() -> str:
@@ -50,17 +41,14 @@ def schema_text() -> str:
 
 def schema() -> Json:
     """The schema of a scene file, by draft 7, which editors know."""
-    tables = {name: _table(name) for name in TABLES if name not in ("body", "indenter")}
     body = {"$ref": "#/definitions/body"}
+    whole = {"plus": TERMS} | _values(PERIOD, Periodic)
     properties = {
         "title": TEXT.shape,
         "want": {"type": "array", "items": {"enum": [*WANTS]}},
-        "profile": {"anyOf": _kinds(_of_the_whole())},
-        **tables,
+        "profile": {"anyOf": _kinds(whole)},
+        **{name: _table(name) for name in TABLES},
         "load": _load(),
-        "fatigue": tables["fatigue"] | {"dependencies": {k: [v] for k, v in TOGETHER}},
-        "crack": tables["crack"]
-        | {"required": ["at", "depths"], "dependencies": {k: [v] for k, v in OF_CRACK}},
         "body": body,
         "indenter": body,
     }
@@ -81,48 +69,36 @@ def schema() -> Json:
 
 
 def _table(name: str) -> Json:
-    return _object(
-        _values(TABLES[name], _descriptions({"fatigue": Fatigue, "crack": Crack}.get(name, Scene)))
-    )
+    table = _object(_values(TABLES[name], DESCRIBED.get(name, Scene)), REQUIRED.get(name, ()))
+    beside = {key: [other] for key, other in BESIDE.get(name, {}).items()}
+    return table | ({"dependencies": beside} if beside else {})
 
 
 def _body() -> Json:
-    table = _object(_values(TABLES["body"], _descriptions(Elastic)))
     given = [_all_of(("young", "poisson")), _all_of(("rigid",), {"rigid": {"const": True}})]
-    return {"anyOf": [{"const": "rigid"}, table | {"anyOf": given}]}
+    return {"anyOf": [{"const": "rigid"}, _table("body") | {"anyOf": given}]}
 
 
 def _load() -> Json:
     """One of a load, a width and a path; a path takes the place of all loads."""
-    no_path = {"not": _all_of(("path",))}
-    return _table("load") | {
+    table, no_path = _table("load"), {"not": _all_of(("path",))}
+    return table | {
         "oneOf": [_all_of((name,)) for name in ("normal_load", "half_width", "path")],
-        "dependencies": dict.fromkeys(LOADS, no_path) | {"columns": ["path"]},
+        "dependencies": dict.fromkeys(LOADS, no_path) | table["dependencies"],
     }
-
-
-# -- profiles ------------------------------------------------------------------------------------
-
-
-def _of_the_whole() -> Json:
-    """The keys of [profile] that its terms do not have."""
-    plus = {"type": "array", "items": {"$ref": "#/definitions/term"}}
-    return {"plus": plus} | _values(PERIOD, _descriptions(Periodic))
 
 
 def _kinds(more: Json) -> list[Json]:
     """The tables of all kinds of profile, each with more keys."""
-    moved = more | _values(MODIFIERS, _summaries(Profile, MODIFIERS))
+    moved = more | _values(MODIFIERS, Profile)
     tables = [_kind(name, form, moved) for name in KINDS for form in forms_of(name)]
-    indenters = {"type": "array", "minItems": 1, "items": {"$ref": "#/definitions/term"}}
-    row = _object({"kind": {"const": "row"}, "of": indenters, **moved}, ("kind", "of"))
-    return [*tables, row]
+    of = TERMS | {"minItems": 1}
+    return [*tables, _object({"kind": {"const": "row"}, "of": of, **moved}, ("kind", "of"))]
 
 
 def _kind(name: str, form: Form, more: Json) -> Json:
-    keys = {"kind": {"const": name}, **_values(form.keys, _descriptions(form.make)), **more}
-    treatments = _values(form.treatments, _summaries(Sampled, form.treatments))
-    return _object(keys | treatments, ("kind", *form.required))
+    keys = {"kind": {"const": name}, **_values(form.keys, form.make), **more}
+    return _object(keys | _values(form.treatments, Sampled), ("kind", *form.required))
 
 
 # -- parts of a schema ---------------------------------------------------------------------------
@@ -133,45 +109,24 @@ def _object(properties: Json, required: tuple[str, ...] = ()) -> Json:
     return {"type": "object", "properties": properties, "additionalProperties": False, **more}
 
 
-def _all_of(names: tuple[str, ...], properties: Json | None = None) -> Json:
+def _all_of(names: Iterable[str], properties: Json | None = None) -> Json:
     return {"required": [*names]} | ({"properties": properties} if properties else {})
 
 
-def _any_of(names: tuple[str, ...]) -> Json:
+def _any_of(names: Iterable[str]) -> Json:
     return {"anyOf": [_all_of((name,)) for name in names]}
 
 
-def _values(keys: Keys, descriptions: Mapping[str, str]) -> Json:
-    """What each key takes, with its description where there is one."""
-
-    def shape(name: str) -> Json:
-        kind, dimension = keys[name]
-        quantity = dimension or name == "path"
-        return _or_quantity(kind.shape) if quantity else kind.shape
-
-    told = {name: {"description": descriptions[name]} for name in keys if name in descriptions}
-    return {name: shape(name) | told.get(name, {}) for name in keys}
-
-
-def _or_quantity(shape: Any) -> Any:
-    """The shape with a number and its unit in place of any number."""
-    if isinstance(shape, list):
-        return [_or_quantity(one) for one in shape]
-    if shape.get("type") == "number":
-        return shape | {"type": ["number", "string"], "pattern": QUANTITY}
-    inner = {key: _or_quantity(shape[key]) for key in ("items", "anyOf") if key in shape}
-    return shape | inner
-
-
-def _descriptions(described: Any) -> dict[str, str]:
-    """The sentences on each parameter in a docstring."""
+def _values(keys: Keys, described: Any) -> Json:
+    """What each key takes, and what the docstring of the parameter or the method says of it."""
     text = inspect.getdoc(described) or ""
     section = re.search(r"Parameters\n-+\n(.*?)(\n\n\w+\n--|\Z)", text, re.DOTALL)
-    told = section[1] if section else ""
-    found = re.findall(r"^(\w.*?) : .*\n((?:    .*\n?)+)", told, re.MULTILINE)
-    return {name: " ".join(words.split()) for names, words in found for name in names.split(", ")}
-
-
-def _summaries(owner: type, names: Iterable[str]) -> dict[str, str]:
-    """The first line of the docstring of each method."""
-    return {name: (inspect.getdoc(getattr(owner, name)) or "").split("\n")[0] for name in names}
+    entries = re.findall(
+        r"^(\w.*?) : .*\n((?:    .*\n?)+)", section[1] if section else "", re.MULTILINE
+    )
+    told = {name: " ".join(words.split()) for names, words in entries for name in names.split(", ")}
+    for name in keys.keys() - told:
+        method = inspect.getdoc(getattr(described, name, None)) or ""
+        told |= {name: method.split("\n")[0]} if method else {}
+    notes = {name: {"description": told[name]} for name in keys if name in told}
+    return {name: kind.shape | notes.get(name, {}) for name, kind in keys.items()}

@@ -1,28 +1,17 @@
-"""A scene as the tables of a scene file, and these as TOML text or as values for JSON.
+"""A scene as the tables of a scene file, values for JSON, and the scene of such tables.
 
-The tables are what `scene_file` reads: reading them gives an equal scene, to the last digit.
-Numbers keep all digits of `repr`. The heights of a trace stand in the tables, not the name of its
-file.
+The tables are what `scene_file` reads: reading them gives an equal scene, to the last digit. The
+heights of a trace stand in the tables, not the name of its file.
 
 >>> from sie import Parabola, Scene
->>> scene = Scene(profile=Parabola(100.0), modulus=80e3, normal_load=50.0)
->>> print(toml_text(tables_of(scene)), end="")
-[profile]
-kind = "parabola"
-radius = 100.0
-<BLANKLINE>
-[pair]
-modulus = 80000.0
-<BLANKLINE>
-[load]
-normal_load = 50.0
+>>> tables_of(Scene(profile=Parabola(100.0), modulus=80e3, normal_load=50.0))["profile"]
+{'kind': 'parabola', 'radius': 100.0}
 """
 
 from __future__ import annotations
 
 import inspect
-import json
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import fields
 from typing import Any
 
@@ -40,7 +29,7 @@ from sie.profiles.row import Periodic, Row
 from sie.profiles.sampled import Sampled
 from sie.profiles.shapes import Wedge
 
-from .scene_file import MOST_BYTES, from_tables
+from .scene_file import from_tables
 from .scene_keys import TABLES
 
 Tables = dict[str, Any]
@@ -88,29 +77,18 @@ def _with_infinities(value: Any) -> Any:
 
 def tables_of(scene: Scene) -> Tables:
     """The tables of a scene. ValueError if a scene file cannot name its profile."""
-    given = {f.name: getattr(scene, f.name) for f in fields(scene)}
-    given = {f.name: given[f.name] for f in fields(scene) if given[f.name] != f.default}
+    both = ((f, getattr(scene, f.name)) for f in fields(scene))
+    given = {f.name: value for f, value in both if value != f.default}
     if scene.modulus is not None and scene.beta == 0.0:
         del given["dundurs"]  # beside a modulus it is 0 if it is not given
     tables: Tables = {"profile": _profile(scene.profile)}
     if scene.body is not None:
         tables["body"] = _body(scene.body)
-        if scene.indenter != scene.body:
+        if scene.indenter not in (None, scene.body):
             tables["indenter"] = _body(scene.indenter)
     for name in ("pair", "load"):
         tables[name] = {key: given[key] for key in TABLES[name] if key in given}
     return {name: table for name, table in tables.items() if table}
-
-
-def toml_text(tables: Mapping[str, Any]) -> str:
-    """The tables as TOML. ValueError where a scene file would be too long to be read."""
-    text = "\n".join(_lines(tables, "")).lstrip("\n") + "\n"
-    if len(text.encode()) > MOST_BYTES:
-        raise ValueError(
-            f"the scene has more than {MOST_BYTES / 1e6:g} MB as text: write the trace to a file "
-            "of columns, and name it by path"
-        )
-    return text
 
 
 # -- profiles and bodies -------------------------------------------------------------------------
@@ -130,20 +108,16 @@ def _term(part: Placed) -> Tables:
     modifiers: Tables = {name: value for name, value in names if value}
     if part.sign < 0.0:
         modifiers["mirrored"] = True
-    if isinstance(profile, Row):
-        indenters = [_term(*parts_of(one)) for one in profile.profiles if _is_one(one)]
-        return {"kind": "row", **modifiers, "of": indenters}
-    return {**_unmoved(profile), **modifiers}
-
-
-def _is_one(profile: Profile) -> bool:
-    """Whether a profile is one term. ValueError where it is not."""
-    if len(parts_of(profile)) > 1:
-        raise ValueError(
-            f"{profile!r} cannot be named in a scene file as an indenter of a row: give a profile "
-            "that is not a sum"
-        )
-    return True
+    if not isinstance(profile, Row):
+        return {**_unmoved(profile), **modifiers}
+    for one in profile.profiles:
+        if len(parts_of(one)) > 1:
+            raise ValueError(
+                f"{one!r} cannot be named in a scene file as an indenter of a row: give a profile "
+                "that is not a sum"
+            )
+    indenters = [_term(*parts_of(one)) for one in profile.profiles]
+    return {"kind": "row", **modifiers, "of": indenters}
 
 
 def _unmoved(profile: Profile) -> Tables:
@@ -171,37 +145,8 @@ def _plain(value: Any) -> Any:
     return [_plain(v) for v in value] if isinstance(value, (tuple, list)) else value
 
 
-def _body(body: Body | None) -> Tables | str:
+def _body(body: Body) -> Tables | str:
     if not isinstance(body, Elastic):
         return "rigid"
     plane = {} if body.plane == "strain" else {"plane": body.plane}
     return {"young": body.young, "poisson": body.poisson, **plane}
-
-
-# -- TOML ----------------------------------------------------------------------------------------
-
-
-def _lines(table: Mapping[str, Any], place: str) -> Iterator[str]:
-    """The lines of a table: its values first, then the tables in it under their headers."""
-    inner: dict[str, Any] = {}
-    for key, value in table.items():
-        if isinstance(value, Mapping) or (value and _are_tables(value)):
-            inner[key] = value
-        else:
-            yield f"{key} = {_value(value)}"
-    for key, value in inner.items():
-        header = f"[{place}{key}]" if isinstance(value, Mapping) else f"[[{place}{key}]]"
-        for one in [value] if isinstance(value, Mapping) else value:
-            yield from ("", header, *_lines(one, f"{place}{key}."))
-
-
-def _are_tables(value: Any) -> bool:
-    return isinstance(value, list) and all(isinstance(one, Mapping) for one in value)
-
-
-def _value(value: Any) -> str:
-    if isinstance(value, list):
-        return f"[{', '.join(map(_value, value))}]"
-    if isinstance(value, str):  # the escapes of JSON are those of TOML
-        return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
-    return {True: "true", False: "false"}[value] if isinstance(value, bool) else repr(value)

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from typing import Any, NamedTuple, NoReturn
 
-from sie.arguments import positive, shortened
+from sie.arguments import positive, shortened, suggestion
 
 Json = dict[str, Any]
 
@@ -23,8 +23,8 @@ class Kind(NamedTuple):
 def _number(where: str, value: Any) -> float:
     if isinstance(value, bool) or not isinstance(value, (int, float)):
         raise ValueError(
-            f"{where} = {shown(value)} is not a number: "
-            'write a plain number without quotes, or a length, load or stress like "20 um"'
+            f"{where} = {shown(value)} is not a number: write a plain number without quotes and "
+            "unit, in the units of the file"
         )
     try:
         return float(value)
@@ -68,8 +68,6 @@ def in_range(**limits: float) -> Kind:
 
 NUMBER, TEXT = in_range(), Kind(_text, {"type": "string"})
 FLAG, WHOLE = Kind(_flag, {"type": "boolean"}), Kind(_whole, {"type": "integer"})
-# One of a row of numbers, whose column says what it is a number of.
-CELL = Kind(lambda _, value: value, NUMBER.shape)
 POSITIVE = in_range(exclusiveMinimum=0.0)
 # A number that nothing else checks.
 CONSTANT = Kind(lambda where, value: positive(where, _number(where, value)), POSITIVE.shape)
@@ -77,7 +75,14 @@ CONSTANT = Kind(lambda where, value: positive(where, _number(where, value)), POS
 
 def choice(words: Iterable[str]) -> Kind:
     """One of a few words."""
-    return Kind(_text, {"enum": [*words]})
+    known = [*words]
+
+    def read(where: str, value: Any) -> str:
+        if _text(where, value) not in known:
+            raise ValueError(f'{where} = "{value}" is not known: {suggestion(value, known)}')
+        return str(value)
+
+    return Kind(read, {"enum": known})
 
 
 def list_of(kind: Kind, pair: str = "") -> Kind:

@@ -74,7 +74,8 @@ def _contact(setting: Setting, solution: Solution, word: dict[str, str]) -> Answ
     ground = np.union1d(np.linspace(frame.lo, frame.hi, GROUND), solution.edges)
     punch, body = (height / frame.height * LEVELS for height in surface(solution, ground))
     P, Q, friction = solution.normal_load, solution.tangential_load, solution.scene.friction
-    certificate = solution.check()
+    stick = _intervals(solution.stick, 6) or "none: all slips"
+    certificate, flat = solution.check(), setting.shape == ROUNDED
     return {
         "frame": {name: _number(value) for name, value in asdict(frame).items()},
         "axes": {
@@ -89,31 +90,19 @@ def _contact(setting: Setting, solution: Solution, word: dict[str, str]) -> Answ
         "loads": {
             "P": _number(setting.load), "at": _number(solution.moment / P),
             "Q": _number(Q / (friction * P) if friction else 0.0),
-            "bulk": _number(solution.scene.bulk_stress / setting.mean_pressure),
+            "bulk": _number(solution.scene.bulk_stress / setting.rest.mean_pressure),
         },
         "textbook": _textbook(solution), "certificate": _number(certificate.error),
         "numbers": [
             [word["length"].format("contact"), _intervals(solution.patches, 10)],
-            *_flat_part(setting, solution),
+            *[["flat part a/b", f"{setting.flat / solution.half_width:.6g}"]] * flat,
             [word["force"].format("load P, shear Q"), f"{P:.6g}, {Q:.6g}"],
             ["tilt; P acts at x =", f"{solution.tilt:.6g}; {solution.moment / P:.6g}"],
-            [word["length"].format("stick"), _sticking(solution)],
+            [word["length"].format("stick"), stick if friction else "no friction"],
             ["error of p over its peak", f"{certificate.error:.1e}"],
             ["certificate", "met" if certificate.ok else "NOT met"],
         ],
     }  # fmt: skip
-
-
-def _flat_part(setting: Setting, solution: Solution) -> list[list[str]]:
-    if setting.shape != ROUNDED:
-        return []
-    return [["flat part a/b", f"{setting.flat / solution.half_width:.6g}"]]
-
-
-def _sticking(solution: Solution) -> str:
-    if not solution.scene.friction:
-        return "no friction"
-    return _intervals(solution.stick, 6) or "none: all slips"
 
 
 def _intervals(zones: Any, digits: int) -> str:

@@ -8,6 +8,11 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+from bokeh.embed import json_item
+from bokeh.models import BasicTickFormatter, ColumnDataSource, LinearColorMapper
+from bokeh.models.annotations.legends import ColorBar
+from bokeh.palettes import viridis
+from bokeh.plotting import figure
 
 from .controls import NODES
 
@@ -19,22 +24,17 @@ DECIMALS = -5  # the smallest power of ten that an axis writes without an expone
 
 def items() -> dict[str, Any]:
     """Each picture as what Bokeh's script embeds, by the name of its place on the page."""
-    # Imported here: it takes a second, and only this page needs it.
-    from bokeh.embed import json_item  # noqa: PLC0415
-
-    pictures = {
-        "punch": _punch(),
-        "pressure": _pressure(),
-        "shear": _shear(),
-        "stress": _stress(),
-        "errors": _errors(),
+    drawn = {
+        "punch": _punch,
+        "pressure": _pressure,
+        "shear": _shear,
+        "stress": _stress,
+        "errors": _errors,
     }
-    return {name: json_item(figure) for name, figure in pictures.items()}
+    return {name: json_item(draw()) for name, draw in drawn.items()}
 
 
 def _figure(x: str, y: str, **given: Any) -> Any:
-    from bokeh.plotting import figure  # noqa: PLC0415
-
     drawn = figure(
         x_axis_label=x,
         y_axis_label=y,
@@ -46,16 +46,10 @@ def _figure(x: str, y: str, **given: Any) -> Any:
         **given,
     )
     if "y_axis_type" not in given:
-        drawn.yaxis.formatter = _ticks()
+        drawn.yaxis.formatter = BasicTickFormatter(power_limit_low=DECIMALS)
     drawn.toolbar.logo = None
     drawn.toolbar.autohide = True
     return drawn
-
-
-def _ticks() -> Any:
-    from bokeh.models import BasicTickFormatter  # noqa: PLC0415
-
-    return BasicTickFormatter(power_limit_low=DECIMALS)
 
 
 def _ranged(x: str, y: str) -> Any:
@@ -63,8 +57,6 @@ def _ranged(x: str, y: str) -> Any:
 
 
 def _source(name: str, *columns: str) -> Any:
-    from bokeh.models import ColumnDataSource  # noqa: PLC0415
-
     return ColumnDataSource({column: [] for column in columns}, name=name)
 
 
@@ -111,10 +103,6 @@ def _shear() -> Any:
 
 
 def _stress() -> Any:
-    from bokeh.models import ColumnDataSource, LinearColorMapper  # noqa: PLC0415
-    from bokeh.models.annotations.legends import ColorBar  # noqa: PLC0415
-    from bokeh.palettes import viridis  # noqa: PLC0415
-
     drawn = _ranged("x", "depth y")
     # The script puts a larger array of the same kind in place of this one.
     blank = ColumnDataSource(
@@ -127,8 +115,9 @@ def _stress() -> Any:
         color_mapper=LinearColorMapper(palette=colours, low=0, high=255),
     )  # fmt: skip
     scale = LinearColorMapper(palette=colours, low=0, high=1)
+    ticks = BasicTickFormatter(power_limit_low=DECIMALS)
     bar = ColorBar(
-        color_mapper=scale, formatter=_ticks(), width=12, padding=4, background_fill_alpha=0
+        color_mapper=scale, formatter=ticks, width=12, padding=4, background_fill_alpha=0
     )
     drawn.add_layout(bar, "right")
     drawn.scatter(

@@ -9,6 +9,8 @@ from importlib import resources
 from pathlib import Path
 from typing import Any
 
+from bokeh.settings import settings
+
 from sie.problem.scene import Scene
 
 from .controls import ACROSS, DEPTH, DOWN, LIVE, SAVED, Control, shapes
@@ -48,9 +50,6 @@ def saved(answers: dict[str, Any]) -> str:
 
 def bokeh_script() -> bytes:
     """BokehJS, as the installed Bokeh brings it."""
-    # Imported here, for only this page needs it.
-    from bokeh.settings import settings  # noqa: PLC0415
-
     return Path(settings.bokehjs_path(), "js", "bokeh.min.js").read_bytes()
 
 

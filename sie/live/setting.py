@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
-from typing import Any
+from typing import Any, NamedTuple
 
 from sie import Scene, Solution, solve
 from sie.profiles.shapes import RoundedFlat
@@ -66,14 +66,9 @@ class Setting:
         return Scene(profile=profile, modulus=1.0, poisson=0.3, normal_load=LOAD)
 
     @cached_property
-    def at_rest(self) -> Solution:
+    def rest(self) -> Rest:
         """The base without friction, Q and σ."""
-        return _at_rest(self.base)
-
-    @cached_property
-    def mean_pressure(self) -> float:
-        """The mean pressure p̄ of the base."""
-        return _mean_pressure(self.at_rest)
+        return at_rest(self.base)
 
     @cached_property
     def untouched(self) -> bool:
@@ -86,17 +81,18 @@ class Setting:
         base = self.base
         if self.untouched:
             return base
-        P = self.at_rest.normal_load * self.load
+        rest = self.rest
+        P = rest.load * self.load
         changes: dict[str, Any] = {
             "normal_load": P,
             "half_width": None,
             "friction": self.friction,
             "tangential_load": self.friction * self.share * P,
-            "bulk_stress": self.bulk * self.mean_pressure,
+            "bulk_stress": self.bulk * rest.mean_pressure,
             "sliding": 0,
         }
-        if self.tilt != _tilt(self.at_rest):
-            changes |= {"moment": None, "tilt": self.tilt * self.mean_pressure / base.Estar}
+        if self.tilt != rest.tilt:
+            changes |= {"moment": None, "tilt": self.tilt * rest.mean_pressure / base.Estar}
         elif base.moment is not None:
             changes["moment"] = base.moment * self.load  # the load keeps its place
         if self.beta != base.beta:
@@ -116,18 +112,20 @@ def solution_of(setting: Setting) -> Solution:
     return solve(setting.scene)
 
 
+class Rest(NamedTuple):
+    """A contact without shear: its load, its mean pressure p̄, and its tilt over p̄/E*."""
+
+    load: float
+    mean_pressure: float
+    tilt: float
+
+
 @lru_cache(maxsize=KEPT)
-def _at_rest(base: Scene) -> Solution:
-    return solve(replace(base, friction=0.0, tangential_load=0.0, bulk_stress=0.0, sliding=0))
-
-
-def _mean_pressure(rest: Solution) -> float:
-    return rest.normal_load / (2.0 * rest.half_width)
-
-
-def _tilt(rest: Solution) -> float:
-    """The tilt over p̄/E*, that of a moment too."""
-    return rest.tilt * rest.scene.Estar / _mean_pressure(rest)
+def at_rest(base: Scene) -> Rest:
+    """The contact of a scene without friction, Q and σ."""
+    rest = solve(replace(base, friction=0.0, tangential_load=0.0, bulk_stress=0.0, sliding=0))
+    mean = rest.normal_load / (2.0 * rest.half_width)
+    return Rest(rest.normal_load, mean, rest.tilt * base.Estar / mean)
 
 
 @lru_cache(maxsize=1)
@@ -147,13 +145,13 @@ def sliders(file: Scene | None) -> tuple[Control, ...]:
         raise ValueError(
             "friction = inf has no place on a slider: give a finite friction, or use sie solve"
         )
-    rest = _at_rest(file)
-    limit = file.friction * rest.normal_load
+    rest = at_rest(file)
+    limit = file.friction * rest.load
     start = {
-        "tilt": _tilt(rest),
+        "tilt": rest.tilt,
         "friction": file.friction,
         "share": float(file.sliding or (file.tangential_load / limit if limit else 0.0)),
-        "bulk": file.bulk_stress / _mean_pressure(rest),
+        "bulk": file.bulk_stress / rest.mean_pressure,
         "beta": file.beta,
     }
     known = {"beta": (0.0,)} if file.body is not None else {}  # two bodies have a β of their own

@@ -33,7 +33,7 @@ from sie.errors import ContactError
 from sie.friction.slip_state import Slip
 from sie.numerics.graded_panels import OF_RULES, OF_SERIES, Rule
 from sie.numerics.zones import Zones, left_over, within
-from sie.problem.load_limit import remaining
+from sie.problem.coverage import remaining
 from sie.problem.scene import Scene
 from sie.profiles.base import Profile
 from sie.traction.base import Density

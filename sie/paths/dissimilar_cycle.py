@@ -16,8 +16,7 @@ from numpy.typing import NDArray
 from sie import arguments
 from sie.errors import ContactError
 from sie.friction.load_history.load_steps import TurningPoint, points_of_loads, steady_points
-from sie.problem.load_path import Path, loads_at
-from sie.problem.path_scene import refuse_uncovered
+from sie.problem.load_path import Path, loads_at, refuse_without_paths
 from sie.problem.request import ECONOMY
 from sie.problem.scene import Scene
 from sie.solution import Solution
@@ -80,7 +79,7 @@ def steady_cycle(
     points, tilts = zip(*(_point(name, p) for name, p in (("A", A), ("B", B))), strict=True)
     if isinstance(scene, Scene) and scene.coupled and not any(tilts):
         return DissimilarCycle(scene, points, tol)
-    refuse_uncovered(scene)
+    refuse_without_paths(scene)
     path = Path((*points, points[0]), tilt=(*tilts, tilts[0]) if any(tilts) else ())
     return SteadyCycle(History(scene, path, tol, economy, steps=steady_points))
 

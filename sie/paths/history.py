@@ -56,8 +56,7 @@ from sie.patches.friction import refuse_stretch
 from sie.patches.full import FullContact
 from sie.patches.result import PatchCertificate
 from sie.planning import Plan, Step
-from sie.problem.load_path import Path
-from sie.problem.path_scene import pressed_first, unsheared
+from sie.problem.load_path import Path, pressed_first, unsheared
 from sie.problem.request import ECONOMY
 from sie.problem.scene import Scene
 from sie.progress_bar import counted
@@ -239,11 +238,6 @@ class History(PathContacts, Sequence[Solution]):
         with suppress(ContactError):
             row["energy_lost"] = point.energy_lost if P else 0.0
         return row
-
-    def _repr_html_(self) -> str:
-        from sie.io.html_report import history_html  # noqa: PLC0415 -- a higher layer
-
-        return history_html(self)
 
     # -- for steps and states ----------------------------------------------------------------------
 

@@ -23,8 +23,7 @@ from sie.friction.states import OneSignedSlip
 from sie.numerics.interval import EPS, Interval
 from sie.patches.answer import SeveralPatches
 from sie.patches.full import FullContact
-from sie.problem.load_path import Path
-from sie.problem.path_scene import unsheared
+from sie.problem.load_path import Path, unsheared
 from sie.problem.scene import Scene
 from sie.solution import Solution
 

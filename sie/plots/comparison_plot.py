@@ -15,7 +15,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 
-from sie.io.mesh_difference import EXACT, Comparison
+from sie.io.mesh_comparison import EXACT, Comparison
 from sie.io.sample_points import abscissae, ceiling
 from sie.io.scene_file import UNITS, Units
 from sie.solution import Solution
@@ -55,13 +55,8 @@ def overlay(
     panels = figure.subplots(2 * rows, columns, squeeze=False, height_ratios=ratios)
     for k, name in enumerate(names):
         row, column = divmod(k, columns)
-        _draw(
-            figure,
-            tuple(panels[2 * row : 2 * row + 2, column]),
-            solution,
-            (comparison, name),
-            units,
-        )
+        pair = tuple(panels[2 * row : 2 * row + 2, column])
+        _draw(figure, pair, solution, (comparison, name), units)
     for axes in panels[-2:, -1] if len(names) % columns else ():
         axes.set_axis_off()
     figure.align_ylabels()
@@ -90,10 +85,10 @@ def _draw(
         for axes, (values, text, what) in zip(pair, shown, strict=True):
             places = (both.x * factor, both.y * factor)
             _draw_points(figure, axes, places, values, (text, what, name == "mises"))
-            axes.set_ylabel(f"$y$ ({length})", fontproperties=style.font())
+            style.named(axes, y=f"$y$ ({length})")
     else:
         _draw_curves(pair, solution, name, both, (factor, scale))
-        pair[0].set_ylabel(label, fontproperties=style.font())
+        style.named(pair[0], y=label)
     pair[0].sharex(pair[1])
     pair[0].tick_params(labelbottom=False)
     style.x_axis(pair[1], length)
@@ -111,7 +106,7 @@ class _Both(NamedTuple):
 
 
 def _both(solution: Solution, comparison: Comparison, name: str) -> _Both:
-    x, y, values = comparison.mesh.points(name)
+    x, y, values = comparison.mesh.fields[name]
     (x1, x2), r = solution.edges, solution.half_width
     beside = BESIDE_IN_BODY if comparison.mesh.scattered(name) else BESIDE
     near = (x >= x1 - beside * r) & (x <= x2 + beside * r)
@@ -140,20 +135,15 @@ def _draw_curves(
     bound = 2.0 * style.HEADROOM * both.largest
     exact = np.clip(EXACT[name](solution, fine, np.full_like(fine, both.y[0])), -bound, bound)
     style.curve(upper, fine * factor, exact * scale, style.BLUE, 1.0, zorder=2, label="exact")
-    dots: dict[str, Any] = {
-        "color": style.VERMILLION,
-        "markersize": 1.8,
-        "zorder": 3,
-        "label": "mesh",
-    }
-    upper.plot(both.x * factor, both.mesh * scale, "o", **dots)
+    dots: dict[str, Any] = {"color": style.VERMILLION, "markersize": 1.8, "zorder": 3}
+    upper.plot(both.x * factor, both.mesh * scale, "o", **dots, label="mesh")
     shown = np.concatenate((both.exact[np.isfinite(both.exact)], both.mesh))
     low, high = (style.HEADROOM * float(end) * scale for end in (shown.min(), shown.max()))
     upper.set_ylim(min(0.0, low), max(0.0, high) or None)
     style.legend(upper, columns=2)
     style.zero_line(lower)
     style.curve(lower, both.x * factor, both.percent, style.VERMILLION, 0.9, zorder=2)
-    lower.set_ylabel(DIFFERENCE, fontproperties=style.font())
+    style.named(lower, y=DIFFERENCE)
     for axes in panels:
         style.edge_lines(axes, solution.patches, factor, zorder=0.5)
 
@@ -173,11 +163,8 @@ def _draw_points(
     positive = positive and what == "mesh"
     bound = float(np.nanquantile(np.abs(values), COLOURED)) or 1.0
     size = float(np.clip(INK_OF_ALL / len(values), SMALLEST, LARGEST))
-    colours: dict[str, Any] = {
-        "cmap": "viridis" if positive else "RdBu_r",
-        "vmin": 0.0 if positive else -bound,
-    }
-    drawn = axes.scatter(*at, c=values, s=size, vmax=bound, linewidths=0.0, **colours)
+    low, colours = (0.0, "viridis") if positive else (-bound, "RdBu_r")
+    drawn = axes.scatter(*at, c=values, s=size, vmin=low, vmax=bound, linewidths=0.0, cmap=colours)
     bar = figure.colorbar(drawn, ax=axes, pad=0.02, aspect=14)
     bar.set_label(label, fontproperties=style.font(style.SMALL))
     for text in bar.ax.get_yticklabels():

@@ -21,22 +21,21 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
+from sie.errors import ContactError
 from sie.io.answers import slip_of
 from sie.io.sample_points import ABOVE_ORDINARY, abscissae, ceiling, full, peak, reach, summits
 from sie.io.scene_file import UNITS, Units
-from sie.paths.history import PathSolution
+from sie.paths.history import History, PathSolution
+from sie.problem.load_path import Path
 from sie.solution import Solution
 
 from . import style
-from .loop_plot import draw as draw_loop
-from .loop_plot import loop_along
 
 Array = NDArray[np.float64]
 
@@ -50,12 +49,13 @@ ARROW = {
     "shrinkB": 0,
     "mutation_scale": 6,
 }
+PARTS, MOST = 24, 600  # of a step of a loop, joined by straight lines, and of all steps
 GROUND = 0.28  # thickness of the half-plane in the lower panel, relative to the height above it
 
 
 def picture(
     solution: Solution, units: Units = UNITS, title: str = "", width: float = style.WIDTH
-) -> Figure:
+) -> style.Picture:
     """A Matplotlib figure of the pressure and the gap, and of shear and slip if there are any.
 
     `units` are labels, `width` is in inches. The figure is not registered with pyplot: save it with
@@ -101,7 +101,7 @@ def _finish(axes: Axes, view: _View) -> None:
     if not full(view.solution):
         style.edge_lines(axes, view.solution.patches, view.factor, zorder=2.5)
     style.plain(axes)
-    axes.set_xlim(view.left * view.factor, view.right * view.factor)
+    axes.set_xlim(*(end * view.factor for end in view.ends))
 
 
 # -- the quantities ------------------------------------------------------------------------------
@@ -177,12 +177,10 @@ class _View:
         return largest or self.solution.normal_load / self.solution.scene.Estar
 
     @property
-    def left(self) -> float:
-        return self.solution.edges[0] - reach(self.solution)
-
-    @property
-    def right(self) -> float:
-        return self.solution.edges[1] + reach(self.solution)
+    def ends(self) -> tuple[float, float]:
+        """The window along x."""
+        (x1, x2), beside = self.solution.edges, reach(self.solution)
+        return x1 - beside, x2 + beside
 
     @property
     def factor(self) -> float:
@@ -204,7 +202,7 @@ def _draw_pressure(axes: Axes, view: _View) -> None:
     style.curve(axes, x * view.factor, p * scale, style.BLUE, width, zorder=3, label="pressure")
     axes.set_ylim(0.0, top)
     axes.set_yticks(style.ticks(top))
-    axes.set_ylabel(f"$p$ ({stress})", fontproperties=style.font())
+    style.named(axes, y=f"$p$ ({stress})")
     _mark_peak(axes, view, scale)
     _label_peak(axes, view)
     if not full(view.solution):
@@ -216,14 +214,8 @@ def _draw_gap(axes: Axes, view: _View) -> None:
     top = 1.08 * view.highest * scale
     axes.axhspan(-GROUND * top, 0.0, color=HALF_PLANE, linewidth=0.0, zorder=0)
     style.zero_line(axes, zorder=2)
-    axes.fill_between(
-        view.x * view.factor,
-        view.loaded * scale,
-        2.0 * top,
-        color=INDENTER,
-        linewidth=0.0,
-        zorder=0,
-    )
+    filled: dict[str, Any] = {"color": INDENTER, "linewidth": 0.0, "zorder": 0}
+    axes.fill_between(view.x * view.factor, view.loaded * scale, 2.0 * top, **filled)
     before = "$h(x)$, unloaded" if view.solution.tilt == 0.0 else "$h(x)$ + tilt, unloaded"
     dashed: dict[str, Any] = {"linestyle": style.DASHED, "zorder": 4, "label": before}
     _draw_surface(axes, view, view.unloaded * scale, style.INK, 0.8, **dashed)
@@ -231,7 +223,7 @@ def _draw_gap(axes: Axes, view: _View) -> None:
     _draw_surface(axes, view, view.loaded * scale, style.VERMILLION, 1.3, **under)
     axes.set_ylim(-GROUND * top, top)
     axes.set_yticks(style.ticks(top))
-    axes.set_ylabel(f"gap ({length})", fontproperties=style.font())
+    style.named(axes, y=f"gap ({length})")
     style.legend(axes, columns=2, length=2.4)
     _name_bodies(axes, view)
 
@@ -257,7 +249,7 @@ def _draw_shear(axes: Axes, view: _View) -> None:
     style.zero_line(axes)
     top = style.HEADROOM * largest * scale
     axes.set_ylim(-top if both else min(-0.1 * top, 0.0), top)
-    axes.set_ylabel(f"$q$ ({stress})", fontproperties=style.font())
+    style.named(axes, y=f"$q$ ({stress})")
     style.legend(axes, columns=3)
 
 
@@ -267,7 +259,7 @@ def _draw_slip(axes: Axes, view: _View) -> None:
     style.zero_line(axes)
     slip = np.where(np.isfinite(view.inside), view.slip, np.nan) * scale
     style.curve(axes, view.inside * view.factor, slip, style.BLUE, 1.3, zorder=3, label="slip")
-    axes.set_ylabel(f"slip ({length})", fontproperties=style.font())
+    style.named(axes, y=f"slip ({length})")
 
 
 def _shade_stick(axes: Axes, view: _View) -> None:
@@ -292,9 +284,9 @@ def _draw_surface(
     lo, hi = view.solution.scene.profile.domain
     x, wall = view.x, [4.0 * view.highest * style.scaled(view.highest, view.units.length)[0]]
     corners = view.solution.scene.profile.ends_are_corners  # the end of a trace has no side
-    if view.left < lo and corners[0]:
+    if view.ends[0] < lo and corners[0]:
         x, y = np.concatenate((x[:1], x)), np.concatenate((wall, y))
-    if view.right > hi and corners[1]:
+    if view.ends[1] > hi and corners[1]:
         x, y = np.concatenate((x, x[-1:])), np.concatenate((y, wall))
     style.curve(axes, x * view.factor, y, color, width, **given)
 
@@ -311,60 +303,32 @@ def _mark_peak(axes: Axes, view: _View, scale: float) -> None:
         )
     if not view.cut:
         largest, where = peak(view.solution)
-        axes.plot(
-            np.array(where) * view.factor,
-            np.full(len(where), largest * scale),
-            "o",
-            color=style.BLUE,
-            markersize=2.2,
-            zorder=4,
-        )
+        dots: dict[str, Any] = {"color": style.BLUE, "markersize": 2.2, "zorder": 4}
+        height = np.full(len(where), largest * scale)
+        axes.plot(np.array(where) * view.factor, height, "o", **dots)
 
 
 def _label_peak(axes: Axes, view: _View) -> None:
     """The value of the peak above it, towards the middle of the panel, or beside an arrow."""
     largest, where = peak(view.solution)
-    text = (
-        rf"$p_{{\mathrm{{max}}}}$ = {style.quantity(largest, largest, view.units.stress)}"
-        if math.isfinite(largest)
-        else r"$p \to \infty$"
-    )
-    place = (0.5 * (min(where) + max(where)) - view.left) / (view.right - view.left)
+    text = r"$p \to \infty$"
+    if math.isfinite(largest):
+        value = style.quantity(largest, largest, view.units.stress)
+        text = rf"$p_{{\mathrm{{max}}}}$ = {value}"
+    place = (0.5 * (min(where) + max(where)) - view.ends[0]) / np.ptp(view.ends)
     beside = 0.03 if view.cut and len(where) == 1 else 0.0
-    side = (
-        "left"
-        if place < (0.6 if beside else 0.35)
-        else "right"
-        if place > (0.6 if beside else 0.65)
-        else "center"
-    )
+    left, right = (0.6, 0.6) if beside else (0.35, 0.65)
+    side = "left" if place < left else "right" if place > right else "center"
     shift = {"left": beside, "right": -beside, "center": 0.0}[side]
-    axes.text(
-        place + shift,
-        0.97,
-        text,
-        transform=axes.transAxes,
-        ha=side,
-        va="top",
-        color=style.BLUE,
-        fontproperties=style.font(style.SMALL),
-        bbox=style.opaque("white"),
-    )
+    frame: dict[str, Any] = {"transform": axes.transAxes, "bbox": style.opaque("white")}
+    style.word(axes, place + shift, 0.97, text, ha=side, va="top", color=style.BLUE, **frame)
 
 
 def _label_edges(axes: Axes, view: _View) -> None:
     frame = axes.get_xaxis_transform()
     for name, edge in zip(("x_1", "x_2"), view.solution.edges, strict=True):
         text = f"${name}$ = {style.quantity(edge, view.solution.half_width, view.units.length)}"
-        axes.text(
-            edge * view.factor,
-            1.02,
-            text,
-            transform=frame,
-            ha="center",
-            va="bottom",
-            fontproperties=style.font(style.SMALL),
-        )
+        style.word(axes, edge * view.factor, 1.02, text, va="bottom", transform=frame)
 
 
 def _name_bodies(axes: Axes, view: _View) -> None:
@@ -377,15 +341,48 @@ def _name_bodies(axes: Axes, view: _View) -> None:
         ("half-plane", centre, 0.5 * bottom, HALF_PLANE),
         ("indenter", freest, 0.72 * top, INDENTER),
     ):
-        axes.text(
-            x * view.factor,
-            y,
-            text,
-            ha="center",
-            va="center",
-            color=style.INK,
-            style="italic",
-            fontproperties=style.font(style.SMALL),
-            bbox=style.opaque(ground),
-            zorder=5,
-        )
+        given = {"style": "italic", "bbox": style.opaque(ground), "zorder": 5}
+        style.word(axes, x * view.factor, y, text, color=style.INK, **given)
+
+
+# -- the loop of a path ----------------------------------------------------------------------------
+
+
+class Loop(NamedTuple):
+    """The points of a loop, and among them its turning points, rows (shift, Q)."""
+
+    points: Array
+    corners: Array
+
+
+def loop_along(history: History) -> Loop | None:
+    """The loop of a path of several points with Q, None where the shift is not known."""
+    path = history.path
+    if len(path) < 2 or path.points[0][0] == 0.0 or not any(Q for _, Q, _ in path.points):
+        return None
+    points = [(path.points[0][0], 0.0, 0.0), *path.points]
+    parts = max(min(PARTS, MOST // len(path)), 1)
+    along = Path(points, path.tilt[:1] + path.tilt, path.moment[:1] + path.moment)
+    along = along.subdivided(parts)
+    try:
+        states = type(history)(history.scene, along, history.tol, history.economy)
+        shifts = [state.shift for state in states]
+    except ContactError:
+        return None
+    rows = np.array([(shift, Q) for shift, (_, Q, _) in zip(shifts, along.points, strict=True)])
+    return Loop(rows, rows[parts::parts])
+
+
+def draw_loop(axes: Axes, loop: Loop, units: Units) -> None:
+    """The loop, with a dot on each turning point, the last in another colour."""
+    along, length = style.scaled(float(np.abs(loop.corners[:, 0]).max()) or 1.0, units.length)
+    up, force = style.scaled(float(np.abs(loop.corners[:, 1]).max()), units.force)
+    style.zero_line(axes)
+    axes.axvline(0.0, color=style.INK, linewidth=0.6, zorder=1)
+    x, y = (loop.points * (along, up)).T
+    style.curve(axes, x, y, style.BLUE, 1.2, zorder=3)
+    dots: dict[str, Any] = {"marker": "o", "linestyle": "none"}
+    x, y = (loop.corners * (along, up)).T
+    axes.plot(x, y, color=style.BLUE, markersize=2.2, zorder=4, **dots)
+    axes.plot(x[-1:], y[-1:], color=style.VERMILLION, markersize=3.0, zorder=5, **dots)
+    style.named(axes, f"shift of the indenter by slip ({length})", f"$Q$ ({force})")

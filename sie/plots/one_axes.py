@@ -13,7 +13,7 @@ from sie.paths.history import History
 from sie.solution import Solution
 from sie.sweeps.result import labels
 
-from . import contact_plot, loop_plot, stress_plot, style
+from . import contact_plot, stress_plot, style
 
 HEIGHT = 2.2  # inches
 
@@ -36,14 +36,14 @@ def of_solution(solution: Solution, axes: Axes | None, what: str, units: Any) ->
 
 def of_history(history: History, axes: Axes | None, units: Any) -> Axes:
     """The loop of Q over the shift along a path. ValueError where there is none."""
-    labels, loop = _labels(units), loop_plot.loop_along(history)
+    labels, loop = _labels(units), contact_plot.loop_along(history)
     if loop is None:
         raise ValueError(
             "the path has no loop: give several points with a tangential load, and P > 0 at the "
             "first; where the slip of a point is not known, draw history[k].plot()"
         )
     axes = _axes(axes)
-    loop_plot.draw(axes, loop, labels)
+    contact_plot.draw_loop(axes, loop, labels)
     style.plain(axes)
     return axes
 

@@ -65,8 +65,7 @@ def draw(axes: Axes, solution: Solution, units: Units) -> None:
     _mark(axes, solution, factor, float(y[-1]))
     cross: dict[str, Any] = {"color": style.VERMILLION, "markersize": 5.0, "markeredgewidth": 1.3}
     axes.plot(*(np.array(weakest.places).T * factor), "x", **cross, clip_on=False, zorder=6)
-    axes.set_xlabel(f"$x$ ({length})", fontproperties=style.font())
-    axes.set_ylabel(f"depth $y$ ({length})", fontproperties=style.font())
+    style.named(axes, f"$x$ ({length})", f"depth $y$ ({length})")
     axes.set_aspect("equal")
     style.plain(axes)
     assert axes.figure is not None

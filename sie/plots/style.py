@@ -133,7 +133,21 @@ def legend(axes: Axes, columns: int, length: float = 2.0) -> None:
 def x_axis(axes: Axes, length: str) -> None:
     """Ticks and label of the axis along the surface."""
     axes.xaxis.set_major_locator(MaxNLocator(nbins=8, steps=ROUND))
-    axes.set_xlabel(f"$x$ ({length})", fontproperties=font())
+    named(axes, x=f"$x$ ({length})")
+
+
+def named(axes: Axes, x: str = "", y: str = "") -> None:
+    """The names of the axes."""
+    if x:
+        axes.set_xlabel(x, fontproperties=font())
+    if y:
+        axes.set_ylabel(y, fontproperties=font())
+
+
+def word(axes: Axes, x: float, y: float, text: str, **given: Any) -> None:
+    """A small word in a panel, in the middle of its place."""
+    middle: dict[str, Any] = {"ha": "center", "va": "center", "fontproperties": font(SMALL)}
+    axes.text(x, y, text, **(middle | given))
 
 
 def plain(axes: Axes) -> None:

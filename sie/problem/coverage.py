@@ -10,10 +10,9 @@ from __future__ import annotations
 import math
 from typing import NoReturn
 
-from sie.errors import ContactError
-from sie.numerics.interval import EPS
+from sie.errors import ContactError, LoadError
+from sie.numerics.interval import EPS, two_product
 
-from .load_limit import refuse_sliding
 from .scene import Scene, refuse_no_scene
 
 # The nearest contact of dissimilar bodies that is covered: E*, the bodies' shares of it and their
@@ -76,3 +75,21 @@ def refuse_corners(scene: Scene) -> NoReturn:
         f"Q = {scene.tangential_load:g} a corner of the indenter keeps old slip"
         f"{size}, which is not solved; round it, set sliding = ±1, or give dundurs = 0"
     )
+
+
+def refuse_sliding(friction: float, normal_load: float, Q: float) -> None:
+    """Raises LoadError if friction cannot carry Q."""
+    limit = friction * normal_load
+    if abs(Q) > limit:
+        enough = math.nextafter(abs(Q) / friction, math.inf)
+        raise LoadError(
+            f"|Q| = {abs(Q)!r} exceeds f P = {limit!r}: the bodies slide; lower tangential_load to "
+            f"at most that, or raise normal_load to {enough!r} or friction",
+            limit=limit,
+        )
+
+
+def remaining(friction: float, normal_load: float, Q: float) -> float:
+    """P - |Q|/f, from (f P - |Q|)/f without cancellation."""
+    product, rest = two_product(friction, normal_load)
+    return ((product - abs(Q)) + rest) / friction

@@ -6,7 +6,7 @@ Values that make no contact problem are refused when the scene is built.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -17,6 +17,52 @@ from sie.profiles.base import Profile
 from .material import RIGID, Body, Elastic, Rigid, coupling, dundurs, pair_modulus, share
 
 COUPLINGS = ("full", "goodman")
+# The loads: what they have to be, and their largest size.
+NUMBERS = (
+    ("normal_load", arguments.positive, arguments.LARGEST_LOAD),
+    ("half_width", arguments.positive, arguments.LARGEST),
+    ("tilt", arguments.measure, arguments.LARGEST),
+    ("moment", arguments.measure, arguments.LARGEST_COEFFICIENT),
+    ("tangential_load", arguments.measure, arguments.LARGEST_LOAD),
+    ("bulk_stress", arguments.measure, arguments.LARGEST),
+)
+
+# Loads that do not fit together, and what is said of a scene that has them.
+UNFIT: tuple[tuple[Callable[[Any], bool], str], ...] = (
+    (
+        lambda s: s.moment is not None and s.half_width is not None,
+        "both half_width = {0.half_width:g} and moment = {0.moment:g} given: give normal_load "
+        "beside a moment, or tilt beside a half_width",
+    ),
+    (
+        lambda s: s.moment is not None and s.tilt != 0.0,
+        "both tilt = {0.tilt:g} and moment = {0.moment:g} given: give one, the other follows",
+    ),
+    (
+        lambda s: s.tangential_load != 0.0 and s.friction == 0.0,
+        "tangential_load = {0.tangential_load:g} without friction: a frictionless contact carries "
+        "none; give friction > 0",
+    ),
+    (
+        lambda s: s.sliding and s.tangential_load != 0.0,
+        "both sliding = {0.sliding} and tangential_load = {0.tangential_load:g} given: in full "
+        "sliding Q = ±f P follows",
+    ),
+    (
+        lambda s: s.sliding and s.friction == math.inf,
+        "sliding = {0.sliding} with infinite friction: nothing slides; give a finite friction",
+    ),
+    (
+        lambda s: s.sliding and s.friction == 0.0,
+        "sliding = {0.sliding} without friction: there is no shear traction; leave it 0, or give "
+        "friction > 0",
+    ),
+    (
+        lambda s: s.coupling == "goodman" and s.friction == math.inf,
+        "coupling = 'goodman' with infinite friction: full stick of dissimilar bodies is solved "
+        "without an approximation; leave coupling out",
+    ),
+)
 
 
 def refuse_no_scene(scene: Any) -> None:
@@ -178,30 +224,6 @@ class Scene:
 
         return tables_of(self)
 
-    def to_toml(self) -> str:
-        """The scene as the text of a scene file, which reads back into an equal scene.
-
-        Returns
-        -------
-        str
-            TOML; `sie solve` takes it.
-
-        Raises
-        ------
-        ValueError
-            As of `to_dict`, and for a trace so long that its text is more than 1 MB.
-
-        Examples
-        --------
-        >>> import sie
-        >>> scene = sie.Scene(profile=sie.Wedge(0.1), modulus=1.0, normal_load=2.0)
-        >>> scene.to_toml().splitlines()[:3]
-        ['[profile]', 'kind = "wedge"', 'slope = 0.1']
-        """
-        from sie.io.scene_writing import toml_text  # noqa: PLC0415 -- a higher layer
-
-        return toml_text(self.to_dict())
-
     # -- checks ------------------------------------------------------------------------------------
 
     def _check_bodies(self) -> None:
@@ -245,89 +267,37 @@ class Scene:
         if self.poisson is not None:
             self._set("poisson", Elastic(1.0, self.poisson).poisson)
 
-    def _check_loads(self) -> None:
-        self._check_size()
-        self._check_tilt()
-        self._set("friction", arguments.real("friction", self.friction))
-        if self.friction != math.inf:
-            arguments.not_negative("friction", self.friction)
-            if self.friction:
-                arguments.positive("friction", self.friction)
-        self._set(
-            "tangential_load",
-            arguments.measure("tangential_load", self.tangential_load, arguments.LARGEST_LOAD),
-        )
-        self._set("bulk_stress", arguments.measure("bulk_stress", self.bulk_stress))
-        if self.tangential_load != 0.0 and self.friction == 0.0:
-            raise ValueError(
-                f"tangential_load = {self.tangential_load:g} without friction: a frictionless "
-                "contact carries none; give friction > 0"
-            )
-        self._check_sliding()
-        self._check_coupling()
-
-    def _check_size(self) -> None:
-        if (self.normal_load is None) == (self.half_width is None):
-            what = "neither" if self.normal_load is None else "both"
-            raise ValueError(
-                f"{what} of normal_load and half_width given: give exactly one, the other follows"
-            )
-        for name in ("normal_load", "half_width"):
+    def _check_numbers(self) -> None:
+        """Each load is a number of its kind, or not given."""
+        for name, checked, largest in NUMBERS:
             if getattr(self, name) is not None:
-                largest = arguments.LARGEST_LOAD if name == "normal_load" else arguments.LARGEST
-                self._set(name, arguments.positive(name, getattr(self, name), largest))
-
-    def _check_tilt(self) -> None:
-        self._set("tilt", arguments.measure("tilt", self.tilt))
-        if self.moment is not None:
-            self._set(
-                "moment", arguments.measure("moment", self.moment, arguments.LARGEST_COEFFICIENT)
-            )
-            if self.half_width is not None:
-                raise ValueError(
-                    f"both half_width = {self.half_width:g} and moment = {self.moment:g} given: "
-                    "give normal_load beside a moment, or tilt beside a half_width"
-                )
-            if self.tilt != 0.0:
-                raise ValueError(
-                    f"both tilt = {self.tilt:g} and moment = {self.moment:g} given: give one, the "
-                    "other follows"
-                )
-
-    def _check_sliding(self) -> None:
+                self._set(name, checked(name, getattr(self, name), largest))
+        self._set("friction", arguments.real("friction", self.friction))
+        if self.friction not in (0.0, math.inf):
+            arguments.positive("friction", arguments.not_negative("friction", self.friction))
         if not arguments.among(self.sliding, (-1, 0, 1)):
             raise ValueError(
                 f"sliding = {self.sliding!r}: give +1 or -1, the direction in which the indenter "
                 "slides, or 0"
             )
         self._set("sliding", int(self.sliding))
-        if self.sliding and self.tangential_load:
-            raise ValueError(
-                f"both sliding = {self.sliding} and tangential_load = {self.tangential_load:g} "
-                "given: in full sliding Q = ±f P follows"
-            )
-        if self.sliding and self.friction == math.inf:
-            raise ValueError(
-                f"sliding = {self.sliding} with infinite friction: nothing slides; give a finite "
-                "friction"
-            )
-        if self.sliding and self.friction == 0.0:
-            raise ValueError(
-                f"sliding = {self.sliding} without friction: there is no shear traction; leave it "
-                "0, or give friction > 0"
-            )
-
-    def _check_coupling(self) -> None:
         if not arguments.among(self.coupling, COUPLINGS):
             raise ValueError(
                 f"coupling = {self.coupling!r} is not known: give 'full', or 'goodman' to leave "
                 "β q out of the normal equation"
             )
-        if self.coupling == "goodman" and self.friction == math.inf:
+
+    def _check_loads(self) -> None:
+        """The loads fit together."""
+        if (self.normal_load is None) == (self.half_width is None):
+            what = "neither" if self.normal_load is None else "both"
             raise ValueError(
-                "coupling = 'goodman' with infinite friction: full stick of dissimilar bodies is "
-                "solved without an approximation; leave coupling out"
+                f"{what} of normal_load and half_width given: give exactly one, the other follows"
             )
+        self._check_numbers()
+        for unfit, why in UNFIT:
+            if unfit(self):
+                raise ValueError(why.format(self))
 
     def _set(self, name: str, value: Any) -> None:
         object.__setattr__(self, name, value)

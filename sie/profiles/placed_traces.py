@@ -181,8 +181,9 @@ def smoothing_remedy(profile: Profile) -> str:
     trace = next((placed.trace for placed in traces_in(profile)), None)
     if trace is None:
         return ""
-    least = "give the trace the smoothing of sie.least_smoothing(scene)"
-    return least if trace.smoothing else 'give the trace smoothing = "gcv"'
+    if trace.smoothing:
+        return f"give the trace a larger smoothing than {trace.lam:.2g}"
+    return 'give the trace smoothing = "gcv"'
 
 
 def explained(error: ContactError, profile: Profile) -> ContactError:
@@ -193,5 +194,5 @@ def explained(error: ContactError, profile: Profile) -> ContactError:
     if "end" in error.reached:
         advice = fitting.reason_at_an_end(trace.points, trace.heights, trace.reading.side)
     else:
-        advice = "sie.least_smoothing(scene) finds how much smoothing makes it one patch"
+        advice = smoothing_remedy(profile)
     return type(error)(f"{error.args[0]}; {advice}", **error.reached) if advice else error

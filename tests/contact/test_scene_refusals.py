@@ -310,7 +310,6 @@ GIVEN = {
     "economy": (lambda v: sie.solve(scene(), economy=v), "economy"),
     "a scene to plan": (sie.plan, "scene"),
     "a scene to follow": (lambda v: sie.follow(v, sie.Path([(1.0, 0.1)])), "scene"),
-    "a scene to smooth": (sie.least_smoothing, "scene"),
     "economy of a path": (lambda v: sie.follow(scene(), LOADED, economy=v), "economy"),
     "points": (sie.Path, "point"),
     "want of a plan": (lambda v: sie.plan(scene(), want=v), "want"),

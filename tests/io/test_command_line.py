@@ -173,11 +173,10 @@ def test_the_program_solves_a_scene_and_refuses_one(scene):
     )
 
 
-@pytest.mark.parametrize("words", [["-", "--want", "edges"], ["--want", "edges", "-"]])
-def test_a_scene_may_come_from_standard_input(words, monkeypatch, capsys):
+def test_a_scene_may_come_from_standard_input(monkeypatch, capsys):
     text = scene_file.example("wedge").encode()
     monkeypatch.setattr(sys, "stdin", io.TextIOWrapper(io.BytesIO(text)))
-    assert main(["solve", *words]) == 0
+    assert main(["solve", "-", "--want", "edges"]) == 0
     out, err = capsys.readouterr()
     assert err == "" and "half-width      1 mm" in out
 

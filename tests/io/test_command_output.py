@@ -10,7 +10,7 @@ from command_scenes import KINDS, example, sentence
 
 import sie
 from sie.cli import main
-from sie.io import report, sample_points, scene_file
+from sie.io import report, scene_file
 
 
 def strict(text):
@@ -90,7 +90,7 @@ def test_the_shear_of_bonded_bodies_is_reported(tmp_path):
         profile=sie.Flat(2.0), modulus=500.0, dundurs=0.3, poisson=0.3, normal_load=20.0,
         friction=np.inf, tangential_load=3.0,
     )  # fmt: skip
-    told = str(report.shear_rows(sie.solve(flat), scene_file.UNITS))
+    told = str(report.Rows(sie.solve(flat), scene_file.UNITS).shear())
     assert "Q = 3" in told and "bonded" in told and "inf" not in told
 
 
@@ -109,29 +109,6 @@ def test_json_and_csv_go_to_a_file_or_alone_to_standard_output(scene, tmp_path, 
     assert "wrote out.json" in capsys.readouterr().out
     main(["solve", scene, "--csv", "-"])
     assert capsys.readouterr().out.startswith("# Fretting pad")
-
-
-@pytest.mark.parametrize(
-    ("kind", "says"),
-    [
-        ("parabola", "# x and gap in mm, p in MPa,"),
-        ("partial-slip", "# x and gap and slip in mm, p and q in MPa,"),
-    ],
-)
-def test_csv_names_the_unit_of_every_column(kind, says, tmp_path, capsys):
-    main(["solve", example(kind, tmp_path), "--csv", "-", "--points", "20"])
-    assert says in capsys.readouterr().out
-
-
-def test_csv_points_resolve_a_rounded_edge_of_a_thousandth_of_the_contact():
-    solution = sie.solve(
-        sie.Scene(
-            profile=sie.RoundedFlat(0.999, 20.0), body=sie.Elastic(210e3, 0.3), half_width=1.0
-        )
-    )
-    x = sample_points.inside(solution, 100)
-    assert ((x >= 0.999) & (x <= 1.0)).sum() >= 10
-    assert len(x) == pytest.approx(100, abs=10)
 
 
 # -- shear and load paths --------------------------------------------------------------------------
@@ -239,12 +216,6 @@ poisson = 0.3
 [load]
 normal_load = {load}
 """
-
-
-def test_the_row_of_the_examples_touches_in_several_patches(tmp_path, capsys):
-    assert main(["solve", example("row", tmp_path)]) == 0
-    out = capsys.readouterr().out
-    assert "patches         3\n" in out and "% of the load on [" in out
 
 
 def wave(load, tmp_path):

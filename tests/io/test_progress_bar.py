@@ -66,14 +66,6 @@ def test_nothing_is_drawn_in_the_first_second(clock, bars):
     assert not bars
 
 
-def test_the_line_changes_ten_times_a_second_at_most(clock, bars):
-    with Progress("search") as work:
-        for k in range(300):
-            clock.now = 1.0 + k / 100.0
-            work.update()
-    assert len(bars[0].shown) == pytest.approx(30, abs=1)
-
-
 def test_steps_inside_are_named_behind_the_outermost_work(clock, bars):
     with Progress("sie solve"):
         for _ in counted("load path", range(2), 2):
@@ -121,8 +113,6 @@ def told(monkeypatch):
 
 
 X = np.linspace(-2.0, 2.0, 201)
-WAVY = sie.Sampled(X, X**2 / 2.0 + 0.1 * np.cos(12.0 * X))
-ROUGH = sie.Scene(profile=WAVY, modulus=1.0, normal_load=0.3)
 ROW = sie.Row([sie.Parabola(1.0), sie.Parabola(1.0).shifted(3.0)])
 SEVERAL = sie.Scene(profile=ROW, modulus=1.0, normal_load=0.3)
 PUNCH = parse(example("rounded-flat")).scene
@@ -152,7 +142,6 @@ def test_a_small_solve_opens_no_work(told):
         (lambda: sie.solve(SEVERAL).check(), "certificate", 1),
         (lambda: sie.solve(PUNCH).elastic_limit(), "largest stress", 5),
         (lambda: sie.solve(PUNCH).stress(np.zeros(9000), 0.1).j2, "stress, part", 3),
-        (lambda: sie.least_smoothing(ROUGH), "smoothing, trial", 3),
         (lambda: sie.follow(CYCLE.scene, CYCLE.load_path), "load path", 4),
         (
             lambda: sie.follow(CYCLE.scene, CYCLE.load_path)[1].energy_lost,
@@ -216,12 +205,11 @@ def test_a_long_solve_shows_what_it_does_and_wipes_it(tmp_path):
     assert not shown.split("\r")[-1].strip() and "\n" not in shown
 
 
-@pytest.mark.parametrize("option", [["--quiet"], ["--log", "info"]])
-def test_no_bar_is_shown_where_silence_or_a_log_is_asked_for(option, tmp_path, monkeypatch, bars):
+def test_no_bar_is_shown_where_silence_is_asked_for(tmp_path, monkeypatch, bars):
     scene = tmp_path / "scene.toml"
     scene.write_text(SEVERAL_TOML)
     monkeypatch.setattr(progress_bar, "PATIENCE", 0.0)
-    assert main(["solve", str(scene), *option]) == 0
+    assert main(["solve", str(scene), "--quiet"]) == 0
     assert not bars
     assert main(["solve", str(scene)]) == 0
     assert bars

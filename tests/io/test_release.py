@@ -91,10 +91,3 @@ def test_the_numbers_of_the_paper_are_those_of_the_validation():
     measured = rows((ROOT / "docs" / "validation.md").read_text(encoding="utf-8"))
     assert len(measured) > 0
     assert rows(PAPER) == measured
-
-
-def test_the_paper_has_the_fields_that_a_journal_reads():
-    fields = yaml.safe_load(PAPER.split("---\n", 2)[1])
-    assert {"title", "tags", "authors", "affiliations", "date", "bibliography"} <= set(fields)
-    assert (ROOT / "paper" / fields["bibliography"]).exists()
-    assert "\n# Statement of need\n" in PAPER

@@ -166,7 +166,7 @@ def test_a_moment_along_a_path_is_read(tmp_path):
         ('path = "cycle.csv"\ncolumns = ["P", "Q", "tilt"]', "2,0.5\n", "has 2"),
         ('path = "cycle.csv"', "P,Q,tilt,moment\n2,0.5,0,0\n", "both tilt and moment"),
         ('path = [[2, 0.5]]\ncolumns = ["P", "Q", "tilt"]', "", "2 numbers for 3 columns"),
-        ('normal_load = 1.0\ncolumns = ["P", "Q"]', "", "columns without a path"),
+        ('normal_load = 1.0\ncolumns = ["P", "Q"]', "", "columns without path"),
     ],
 )
 def test_a_table_that_makes_no_load_path_is_refused(load, cycle, said, tmp_path):

@@ -10,7 +10,7 @@ import pytest
 from scene_texts import ILL_FORMED
 
 from sie.cli import main
-from sie.io.scene_file import example, example_names, from_tables, parse
+from sie.io.scene_file import example, example_names, from_tables
 from sie.io.scene_schema import schema
 
 jsonschema = pytest.importorskip("jsonschema")
@@ -102,19 +102,6 @@ ACCEPTED = {
 @pytest.mark.parametrize("text", ACCEPTED.values(), ids=ACCEPTED)
 def test_what_a_scene_file_may_hold_is_accepted(text):
     assert accepts(tomllib.loads(text))
-
-
-QUANTITIES = (
-    '[profile]\nkind = "sampled"\nx = ["-1 mm", 0, 1, 2]\nh = [1, "0 um", 1, 4]\nlevelled = true\n'
-    '[body]\nyoung = "115 GPa"\npoisson = 0.3\n'
-    '[load]\nfriction = 0.5\npath = [["50 N/mm", 0.0], [50.0, "+.5e1kN/m"], [50.0, 0.0]]\n'
-    '[fatigue]\nfatemi_socie_k = 0.5\nyield_stress = "900MPa"\ndepth = "20 um"\n'
-)
-
-
-def test_numbers_with_units_are_accepted():
-    pytest.importorskip("pint")
-    assert accepts(tomllib.loads(QUANTITIES)) and parse(QUANTITIES)
 
 
 @pytest.mark.parametrize("text", [text for text, _ in ILL_FORMED])

@@ -2,8 +2,6 @@
 loses nothing.
 """
 
-import sys
-import threading
 from dataclasses import replace
 
 import numpy as np
@@ -11,7 +9,6 @@ import pytest
 from sweep_cases import LOADS, SCENE, TILTS, plain, single
 
 import sie
-from sie import progress_bar
 
 
 def peak(solution):
@@ -36,11 +33,6 @@ def test_every_point_equals_a_single_solution(executor):
             assert found["half_width"][i, j] == alone.half_width
     assert (found["reason"] == "").all()
     assert (found["normal_load"] == LOADS).all()
-
-
-def test_functions_of_the_solution_and_parameters_of_the_profile():
-    found = plain(sie.sweep(SCENE, over={"profile.half_flat": [0.2, 0.4]}, want={"p0": peak}))
-    assert found["p0"][1] == peak(single(profile=sie.RoundedFlat(0.4, 1.0)))
 
 
 def a_punch(a, f):
@@ -105,24 +97,6 @@ def test_the_normal_problem_is_solved_once_for_all_frictions(monkeypatch):
     assert len(solved) == 2
 
 
-@pytest.mark.parametrize(
-    ("odd", "usual"),
-    [(lambda p: p[0], (3,)), (lambda p: p[None], (3,))],
-    ids=["a number among arrays", "a matrix among arrays"],
-)
-def test_a_value_of_another_rank_costs_itself_only(odd, usual):
-    x = np.linspace(-0.1, 0.1, 3)
-    want = {
-        "p": lambda s: odd(s.pressure(x)) if s.normal_load == 0.2 else s.pressure(x),
-        "b": lambda s: s.half_width,
-    }
-    found = plain(sie.sweep(SCENE, over={"normal_load": LOADS}, want=want))
-    assert found["p"].shape == (len(LOADS), *usual)
-    assert np.isnan(found["p"]).all(axis=1).tolist() == [False, True, False]
-    assert np.isfinite(found["b"]).all()
-    assert found["reason"][1].startswith("p has") and found["reason"][0] == ""
-
-
 @pytest.mark.parametrize("value", [[[1.0], [1.0, 2.0]], 1j, "wide", None])
 def test_a_value_that_is_no_number_is_reported_in_a_sentence(value):
     found = plain(
@@ -148,34 +122,6 @@ def test_a_quantity_is_nan_by_its_own_names_where_no_point_has_an_answer(want):
     )
 
 
-def test_a_sweep_counts_the_patches_and_measures_their_length():
-    row = sie.Row([sie.Parabola(1.0).shifted(3.0 * k).raised(0.01 * k) for k in range(3)])
-    scene, loads = sie.Scene(profile=row, modulus=1.0, normal_load=1.0), [1e-3, 0.05, 0.5]
-    swept = plain(
-        sie.sweep(scene, {"normal_load": loads}, ["patches", "contact_length", "gap_volume"])
-    )
-    solutions = [sie.solve(replace(scene, normal_load=P)) for P in loads]
-    assert swept["patches"].tolist() == [len(s.patches) for s in solutions]
-    assert swept["contact_length"].tolist() == [s.contact_length for s in solutions]
-    assert swept["gap_volume"].tolist() == [s.gap_volume for s in solutions]
-
-
-def test_a_bar_is_shown_for_long_work_on_a_terminal_only(monkeypatch, capsys):
-    before = threading.active_count()
-    sie.sweep(SCENE, over={"normal_load": LOADS})
-    assert capsys.readouterr().err == ""
-    monkeypatch.setattr(progress_bar, "PATIENCE", 0.0)
-    sie.sweep(SCENE, over={"normal_load": LOADS})
-    assert capsys.readouterr().err == ""
-    monkeypatch.setattr(sys.stderr, "isatty", lambda: True)
-    pytest.importorskip("tqdm")
-    sie.sweep(SCENE, over={"normal_load": LOADS})
-    assert "/3" in capsys.readouterr().err
-    assert threading.active_count() == before
-    sie.sweep(SCENE, over={"normal_load": LOADS}, progress=False)
-    assert capsys.readouterr().err == ""
-
-
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
@@ -187,6 +133,7 @@ def test_a_bar_is_shown_for_long_work_on_a_terminal_only(monkeypatch, capsys):
         ({"over": {"tilt": [0.1]}, "want": {"b": "width"}}, 'want "width" is not known'),
         ({"over": {"tilt": [0.1]}, "want": {"b": 3}}, 'want "3" is not known'),
         ({"over": {"tilt": [0.1]}, "want": {"reason": peak}}, "another name"),
+        ({"over": {"tilt": [0.1]}, "units": {"lenght": "m"}}, "are no labels of units"),
     ],
 )
 def test_an_invalid_sweep_is_refused_before_any_work(arguments, words):
@@ -207,29 +154,9 @@ def test_with_xarray_every_quantity_and_parameter_of_the_package_has_its_name_an
     assert found["profile.radius"].attrs == {"long_name": "radius", "units": "m"}
 
 
-def test_a_quantity_of_the_user_has_no_name_or_unit_that_it_was_not_given():
-    pytest.importorskip("xarray")
-    want = {"tilt": own_quantity, "b": "half_width"}
-    found = sie.sweep(SCENE, over={"normal_load": [0.1]}, want=want)
-    at = found["b"].sel(normal_load=0.1)
-    assert float(at) == single(normal_load=0.1).half_width
-    assert found["tilt"].attrs == {}
-    assert found["b"].attrs == {"long_name": "half-width of the contact", "units": "mm"}
-
-
 def test_xarray_writes_the_result_with_its_reasons(tmp_path):
     xarray = pytest.importorskip("xarray")
     found = sie.sweep(SCENE, {"normal_load": [0.1, -1.0]}, ["half_width", "edges"])
     found.to_netcdf(tmp_path / "sweep.nc")
     with xarray.open_dataset(tmp_path / "sweep.nc") as read:
         xarray.testing.assert_identical(read.load(), found)
-
-
-def own_quantity(solution):
-    return 2.0 * solution.half_width
-
-
-@pytest.mark.parametrize("units", ["mm", {"lenght": "m"}, {"length": 1.0}])
-def test_units_that_are_no_labels_are_refused_before_any_work(units):
-    with pytest.raises(ValueError, match="are no labels of units"):
-        sie.sweep(SCENE, over={"normal_load": [0.1]}, units=units)

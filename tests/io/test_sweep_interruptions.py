@@ -2,7 +2,6 @@
 
 import os
 import signal
-import time
 import traceback
 from concurrent.futures import Executor, Future, ProcessPoolExecutor
 
@@ -12,7 +11,6 @@ from sweep_cases import LOADS, SCENE, plain
 
 import sie
 
-THREE_WIDTHS = {"over": {"normal_load": [0.1, 0.2, 0.3]}, "want": "half_width"}
 FOUR_WIDTHS = {"over": {"normal_load": [0.1, 0.2, 0.3, 0.4]}, "want": "half_width"}
 
 # -- interrupts and workers that die ---------------------------------------------------------------
@@ -42,20 +40,6 @@ def test_an_interrupt_keeps_all_chunks_that_are_done():
     assert np.isfinite(found["half_width"]).tolist() == [True, True, False, False]
     assert found["reason"].tolist() == ["", "", "interrupted", "interrupted"]
     assert all(future.done() or future.cancelled() for future in pool.futures)
-
-
-def test_an_interrupt_within_a_chunk_keeps_its_first_points():
-    asked = []
-
-    def impatient(solution):
-        asked.append(solution)
-        if len(asked) == 3:
-            raise KeyboardInterrupt
-        return solution.half_width
-
-    with pytest.raises(sie.Interrupted) as caught:
-        sie.sweep(SCENE, over={"normal_load": [0.1, 0.2, 0.3, 0.4]}, want={"b": impatient}, chunk=4)
-    assert np.isfinite(plain(caught.value.result)["b"]).tolist() == [True, True, False, False]
 
 
 @pytest.fixture
@@ -102,22 +86,6 @@ def test_a_function_that_raises_costs_its_own_point_only(executor):
     assert found["reason"][1].startswith("ZeroDivisionError")
 
 
-class Broken(Interrupting):
-    """Its third worker dies."""
-
-    def submit(self, function, /, *args, **kwargs):
-        future = super().submit(function, *args, **kwargs)
-        if not future.done():
-            future.set_exception(RuntimeError("a worker died"))
-        return future
-
-
-def test_a_worker_that_dies_costs_its_own_chunk_only():
-    found = plain(sie.sweep(SCENE, **THREE_WIDTHS, executor=Broken(), chunk=1))
-    assert np.isfinite(found["half_width"]).tolist() == [True, True, False]
-    assert found["reason"][2] == "RuntimeError: a worker died"
-
-
 def deadly(solution):
     """A half-width, but loads above 1 kill the process, as the system does with one that takes all
     memory.
@@ -140,26 +108,3 @@ def test_a_process_that_dies_costs_what_its_pool_still_held_and_each_point_says_
     lost = np.isnan(found["b"])
     assert lost[2] and (found["b"][~lost] > 0.0).all()
     assert ["died" in reason for reason in found["reason"]] == lost.tolist()
-
-
-class Ended(Executor):
-    """Takes no task."""
-
-    def submit(self, function, /, *args, **kwargs):
-        raise RuntimeError("cannot schedule new futures after shutdown")
-
-
-def test_an_executor_that_takes_no_task_leaves_the_reason():
-    found = plain(sie.sweep(SCENE, **THREE_WIDTHS, executor=Ended(), chunk=2))
-    assert all("after shutdown" in reason for reason in found["reason"])
-
-
-def test_chunks_of_no_given_size_answer_every_point(executor):
-    loads = np.linspace(0.1, 1.0, 7)
-    found = plain(sie.sweep(SCENE, {"normal_load": loads}, {"b": slow}, executor=executor))
-    assert (found["b"] > 0.0).all() and set(found["reason"]) == {""}
-
-
-def slow(solution):
-    time.sleep(0.07)
-    return solution.half_width

@@ -6,15 +6,13 @@ import io
 import sys
 from functools import partial
 
-import numpy as np
 import pytest
 
-import sie
 from sie.arguments import WIDE
 from sie.cli import main, streams
 from sie.io import scene_file
 from sie.io.report import table
-from sie.io.scene_file import example, parse
+from sie.io.scene_file import example
 from sie.problem.request import WANTS
 
 # Examples, and what each has no answer for.
@@ -82,32 +80,8 @@ def test_the_picture_is_as_wide_as_the_terminal(wide, printed, monkeypatch):
     assert {len(line) for line in picture} == {wide}
 
 
-@pytest.mark.parametrize("wide", [60, 80, 200])
-def test_a_plan_is_as_wide_as_the_terminal(wide, planned, monkeypatch):
-    piped = planned("row")
-    monkeypatch.setattr(streams.sys.stdout, "isatty", lambda: True, raising=False)
-    monkeypatch.setenv("COLUMNS", str(wide))
-    shown = planned("row")
-    assert max(map(len, shown.splitlines())) <= wide
-    assert shown.split() == piped.split()
-
-
 @pytest.mark.parametrize("name", scene_file.examples())
 def test_a_plan_that_goes_to_a_file_is_80_columns_wide(name, planned):
     wants = [want for want in WANTS if want not in {"cycle", "crack"}]
     for options in ([], ["--want", *wants]):
         assert max(map(len, planned(name, *options).splitlines())) <= WIDE
-
-
-def test_a_comparison_is_80_columns_wide(tmp_path, capsys):
-    """A half of a contact with a tangential load has a long note."""
-    path, mesh = tmp_path / "scene.toml", tmp_path / "fem.csv"
-    path.write_text(example("partial-slip"))
-    solution = sie.solve(parse(path.read_text()).scene)
-    x = np.linspace(0.0, 3.0, 101)
-    rows = zip(x.tolist(), solution.pressure(x).tolist(), strict=True)
-    mesh.write_text("x,p\n" + "".join(f"{x!r},{p!r}\n" for x, p in rows))
-    assert main(["compare", str(path), str(mesh)]) == 0
-    printed = capsys.readouterr().out
-    assert "half of the contact" in printed
-    assert max(map(len, printed.splitlines())) <= WIDE

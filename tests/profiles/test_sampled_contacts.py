@@ -89,37 +89,6 @@ def test_the_slope_of_a_noisy_trace_meets_within_its_noise(jump):
 # -- several patches -------------------------------------------------------------------------------
 
 
-WAVY = sie.Sampled(X, H + 0.1 * np.cos(12.0 * X))
-
-
-@pytest.mark.slow(but=1)
-@pytest.mark.parametrize(
-    "made",
-    [
-        lambda t: t,
-        lambda t: t.mirrored().shifted(3.0),
-        lambda t: t.tilted(0.01) + sie.Parabola(50.0),
-    ],
-    ids=["trace", "mirrored and shifted", "tilted, in a sum"],
-)
-def test_the_least_smoothing_makes_one_patch_of_the_profile_that_was_asked(made):
-    scene = sie.Scene(profile=made(WAVY), modulus=1.0, normal_load=0.3)
-    lam = sie.least_smoothing(scene)
-    assert pressed(made(WAVY.smoothed(lam)), 0.3).check().ok
-    assert len(pressed(made(WAVY.smoothed(0.3 * lam)), 0.3).patches) > 1
-
-
-def test_a_trace_that_touches_in_one_patch_needs_no_more_smoothing_than_it_has():
-    assert sie.least_smoothing(pressed(sie.Sampled(X, H)).scene) == 0.0
-
-
-def test_a_trace_that_no_smoothing_helps_and_a_profile_without_trace_are_refused():
-    with pytest.raises(sie.ContactError, match="no smoothing of the trace"):
-        sie.least_smoothing(pressed(sie.Sampled(X, -H)).scene)
-    with pytest.raises(ValueError, match="is no trace"):
-        sie.least_smoothing(pressed(sie.Parabola(1.0)).scene)
-
-
 @pytest.mark.parametrize(
     ("h", "says"),
     [

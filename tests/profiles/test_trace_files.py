@@ -99,15 +99,3 @@ def test_a_scene_reads_the_units_of_its_trace_and_says_so(tmp_path, capsys):
     (reading,) = json.loads(answer.read_text())["readings"]
     assert reading.pop("units") == ["um", "um"]
     assert reading == {"file": "scan.csv", "length": "mm", "scale": "", "side": "gap"}
-
-
-def test_a_scene_that_uses_units_asks_for_those_of_its_trace(tmp_path):
-    pytest.importorskip("pint")
-    np.savetxt(tmp_path / "scan.csv", ROWS, delimiter=",")
-    text = '[units]\nchecked = true\n[profile]\nkind = "sampled"\npath = "scan.csv"\n{}'
-    text += "[pair]\nmodulus = 1.0\n[load]\nnormal_load = 1e-5\n"
-    with pytest.raises(ValueError, match=r'states no units .* give units = "mm"'):
-        scene_file.parse(text.format(""), folder=tmp_path)
-    made = scene_file.parse(text.format('units = ["um", "nm"]\n'), folder=tmp_path).scene.profile
-    assert made.points[-1] == pytest.approx(4e-3, rel=1e-14)
-    assert made.heights.max() == pytest.approx(3.6e-6, rel=1e-14)

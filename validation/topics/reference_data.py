@@ -19,8 +19,7 @@ import numpy as np
 
 import sie
 from sie.io.calculix_deck import deck
-from sie.io.mesh_comparison import compare
-from sie.io.mesh_difference import EXACT
+from sie.io.mesh_comparison import EXACT, compare
 from sie.io.mesh_result import read_mesh
 from validation.harness.measures import largest
 from validation.harness.records import Claim, Doing, Record, Table, checked
@@ -105,7 +104,7 @@ def errors(scene: sie.Scene, count: int, loaded: float = 1.0) -> dict[str, float
         mesh = compare(solution, read_mesh(file.with_suffix(".frd")), 1.0).mesh
     found = {}
     for name in STRESSES:
-        x, y, values = mesh.points(name)
+        x, y, values = mesh.fields[name]
         exact = EXACT[name](solution, x, y)
         found[name] = float(np.sqrt(np.mean((values - exact) ** 2)) / np.abs(exact).max())
     return found

@@ -64,7 +64,7 @@ if shutil.which("ccx"):
         subprocess.run(["ccx", "punch"], cwd=folder, capture_output=True, check=True)
         found = compare(solution, read_mesh(Path(folder) / "punch.frd"), tol=1e-2)
     print(str(found).splitlines()[-2])
-    x, _, mesh = found.mesh.points("p")
+    x, _, mesh = found.mesh.fields["p"]
     fig, axes = plt.subplots(layout="constrained")
     fine = np.linspace(-1.0, 1.0, 801)
     axes.plot(fine, solution.pressure(fine), label="exact")

@@ -23,7 +23,7 @@ from sie.friction.state import State
 from sie.friction.strip_part import StripPart
 from sie.numerics.graded_panels import Pieces
 from sie.numerics.interval import EPS, Interval
-from sie.problem.load_limit import refuse_sliding
+from sie.problem.coverage import refuse_sliding
 from sie.problem.load_path import Path
 from sie.problem.scene import Scene
 from sie.progress_bar import counted

@@ -1,1 +1,1 @@
-"""Readers of the files that finite-element codes write, one format a module."""
+"""Readers of what finite-element codes write."""

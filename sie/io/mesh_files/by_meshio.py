@@ -40,10 +40,9 @@ def read(path: Path, means: Meaning) -> Raw:
     nodes = geometry(path.name, mesh)
     bodies = nodes.bodies()
     fields = _fields(mesh.point_data, means)
-    tractions = {name: v for name, v in fields.items() if name in TRACTIONS}
-    stresses = {name: v for name, v in fields.items() if name not in TRACTIONS}
+    on_surface = [{n: v for n, v in fields.items() if (n in TRACTIONS) == on} for on in (1, 0)]
     labels = range(len(mesh.points))
-    groups = [nodes.columns(labels, of, bodies) for of in (tractions, stresses) if of]
+    groups = [nodes.columns(labels, some, bodies) for some in on_surface if some]
     groups += _of_cells(mesh, bodies, means)
     if not groups:
         found = ", ".join([*mesh.point_data, *mesh.cell_data]) or "no field"
@@ -88,9 +87,8 @@ def _of_cells(mesh: Any, bodies: dict[int, int], means: Meaning) -> Iterator[Col
         if fields:
             cells = np.asarray(block.data)
             x, y = points[cells][..., 0], points[cells][..., 1]
-            width = {"width": np.ptp(x, axis=1)} if set(fields) <= set(TRACTIONS) else {}
             body = np.array([bodies.get(n, 0) for n in cells[:, 0].tolist()], dtype=float)
-            yield {"x": x.mean(axis=1), "y": y.mean(axis=1), **fields, **width, "body": body}
+            yield {"x": x.mean(axis=1), "y": y.mean(axis=1), **fields, "body": body}
 
 
 def _fields(data: dict[str, Any], means: Meaning) -> dict[str, Array]:
@@ -99,16 +97,13 @@ def _fields(data: dict[str, Any], means: Meaning) -> dict[str, Array]:
     for name, given in data.items():
         values = np.asarray(given, dtype=float)
         values = values.reshape(len(values), -1)
-        for component, column in zip(_components(name, values.shape[1]), values.T, strict=False):
+        count, short = values.shape[1], name.lower()
+        components: tuple[str, ...] = (name,) if count == 1 else ()
+        if count > 1 and short == "contact":
+            components = _CONTACT
+        elif count > 1 and short in _TENSORS:
+            components = tuple(f"s{pair}" for pair in _LETTERS.get(count, ()))
+        for component, column in zip(components, values.T, strict=False):
             if means(component) in QUANTITIES:
                 fields.setdefault(means(component), column)
     return fields
-
-
-def _components(name: str, count: int) -> tuple[str, ...]:
-    if count == 1:
-        return (name,)
-    if name.lower() == "contact":
-        return _CONTACT
-    letters = _LETTERS.get(count, ()) if name.lower() in _TENSORS else ()
-    return tuple(f"s{pair}" for pair in letters)

@@ -38,11 +38,13 @@ def read(path: Path, means: Meaning) -> Raw:
     """Stress and contact at the nodes, of the last step. ValueError without either."""
     mesh, blocks = _blocks(path)
     bodies = mesh.bodies()
-    last = [block for block in _last(blocks) if any(map(means, block.components))]
-    listed = [block for block in last if not mesh.nodes.keys().isdisjoint(block.values)]
+    latest = blocks[-1].time if blocks else 0.0
+    last = {block.name: block for block in blocks if block.time == latest}.values()
+    known = [block for block in last if any(map(means, block.components))]
+    listed = [block for block in known if not mesh.nodes.keys().isdisjoint(block.values)]
     notes = [
         f"{block.name} is at nodes that {path.name} does not list: have them written, OUTPUT=3D"
-        for block in last
+        for block in known
         if block not in listed
     ]
     if notes and not listed:
@@ -59,12 +61,6 @@ def read(path: Path, means: Meaning) -> Raw:
     if len(times) > 1:
         notes.append(f"the last of {len(times)} times is read, {times[-1]:g}")
     return Raw(path.name, tuple(groups), notes=tuple(notes), tops=mesh.tops(bodies))
-
-
-def _last(blocks: list[_Block]) -> list[_Block]:
-    """The last block of each name that was written at the last time."""
-    latest = blocks[-1].time if blocks else 0.0
-    return list({block.name: block for block in blocks if block.time == latest}.values())
 
 
 def _group(mesh: MeshGeometry, bodies: dict[int, int], block: _Block, means: Meaning) -> Columns:

@@ -19,59 +19,41 @@ QUANTITIES = (*TRACTIONS, *STRESSES)
 BODIES = ("below", "above")
 
 # Coordinates are numbered from 1 in Abaqus and from 0 in VTK; Code_Aster and Ansys name the axes.
-_AXES = (
-    "{a}", "{a}_coordinate", "{a}_coord", "coord_{a}", "coor_{a}", "coordinates_{a}",
-    "{a}_location", "{a}_koordinate", "koordinate_{a}", "{a}_position", "{a}_ort", "ort_{a}",
-    "coor{n}", "coord{n}", "coord_{n}", "coord_coor{n}", "points_{a}", "points_{k}",
-    "coordinates_{k}",
-)  # fmt: skip
+_AXIS = """{a} {a}_coordinate {a}_coord coord_{a} coor_{a} coordinates_{a} {a}_location
+    {a}_koordinate koordinate_{a} {a}_position {a}_ort ort_{a} points_{a} coor{n} coord{n} coord_{n}
+    coord_coor{n} points_{k} coordinates_{k}"""
 # Code_Aster's SIXX, the solid mechanics of COMSOL and Ansys' SX; S11 of Abaqus; names by letters.
-_STRESSES = (
-    "s{a}", "s{n}", "s_s{n}", "s_s{a}", "s_{a}", "si{a}", "sigma_{a}", "sigma{a}", "stress_{a}",
-    "sig_{a}", "spannung_{a}", "σ_{a}", "σ{a}", "s_{n}", "sigma_{n}", "stress_{n}", "stress_s{a}",
-)  # fmt: skip
-_TABLE: dict[str, str] = {
+_STRESS = """s{a} s{n} s_s{n} s_s{a} s_{a} s_{n} si{a} sigma_{a} sigma{a} sigma_{n} σ_{a} σ{a}
+    sig_{a} stress_{a} stress_{n} stress_s{a} spannung_{a}"""
+_CALLED = {
+    **{axis: _AXIS.format(a=axis, n=k + 1, k=k) for k, axis in enumerate("xy")},
+    "p": """p pressure cpress contact_pressure contact_cpress press pres contact_press cont_press
+        cont_pres contpres tn lags_c normal_lm mortar_normal_lm frictional_normal_lm p_n druck
+        kontaktdruck pressung flächenpressung flaechenpressung kontaktpressung""",
+    "q": """q shear cshear1 cshear_1 contact_cshear1 traction tang1 contact_tang1 sfric cont_sfric
+        contsfric ttx lags_f1 tangential_lm mortar_tangential_lm frictional_tangential_lm
+        schubspannung reibspannung reibschubspannung kontaktschubspannung schub""",
     **{
-        form.format(a=axis, n=number + 1, k=number): axis
-        for number, axis in enumerate("xy")
-        for form in _AXES
-    },
-    **dict.fromkeys(("depth", "tiefe"), "y"),
-    **dict.fromkeys(
-        (
-            "p", "pressure", "cpress", "contact_pressure", "contact_cpress", "press", "pres",
-            "contact_press", "cont_press", "cont_pres", "contpres", "tn", "lags_c", "normal_lm",
-            "mortar_normal_lm", "frictional_normal_lm", "p_n", "druck", "kontaktdruck", "pressung",
-            "flächenpressung", "flaechenpressung", "kontaktpressung",
-        ),
-        "p",
-    ),
-    **dict.fromkeys(
-        (
-            "q", "shear", "cshear1", "cshear_1", "contact_cshear1", "traction", "tang1",
-            "contact_tang1", "sfric", "cont_sfric", "contsfric", "ttx", "lags_f1", "tangential_lm",
-            "mortar_tangential_lm", "frictional_tangential_lm", "schubspannung", "reibspannung",
-            "reibschubspannung", "kontaktschubspannung", "schub",
-        ),
-        "q",
-    ),
-    **{
-        form.format(a=letters, n=digits): f"s{letters}"
+        f"s{letters}": _STRESS.format(a=letters, n=digits)
         for letters, digits in (("xx", "11"), ("yy", "22"), ("xy", "12"), ("zz", "33"))
-        for form in _STRESSES
     },
-    **{"sx": "sxx", "sy": "syy", "sz": "szz"},
-    **dict.fromkeys(("tau_xy", "txy", "τ_xy", "schubspannung_xy"), "sxy"),
-    **{f"normalspannung_{a}": f"s{a}{a}" for a in "xyz"},
-    **dict.fromkeys(
-        (
-            "mises", "von_mises", "von_mises_stress", "vonmises_stress", "s_mises", "seqv", "vmis",
-            "sigma_mises", "equivalent_stress", "equivalent_von_mises_stress", "stress_mises",
-            "vergleichsspannung", "von_mises_vergleichsspannung", "mises_vergleichsspannung",
-        ),
-        "mises",
-    ),
-}  # fmt: skip
+    "mises": """mises von_mises von_mises_stress vonmises_stress s_mises seqv vmis sigma_mises
+        equivalent_stress equivalent_von_mises_stress stress_mises vergleichsspannung
+        von_mises_vergleichsspannung mises_vergleichsspannung""",
+}
+_ALSO = {
+    "y": "depth tiefe",
+    "sxx": "sx normalspannung_x",
+    "syy": "sy normalspannung_y",
+    "szz": "sz normalspannung_z",
+    "sxy": "tau_xy txy τ_xy schubspannung_xy",
+}
+_TABLE = {
+    word: quantity
+    for called in (_CALLED, _ALSO)
+    for quantity, words in called.items()
+    for word in words.split()
+}
 WORDS = tuple(_TABLE)
 # Words that decide, whatever stands around them: "cpress_path", "PI: BLOCK-1 N: 23 CPRESS".
 _DECISIVE = {"cpress": "p", "cshear1": "q"}
@@ -110,10 +92,10 @@ def meaning(name: str) -> str:
     return _TABLE.get(spelt) or (decisive[0] if len(decisive) == 1 else "")
 
 
-def chosen(columns: Mapping[str, str]) -> Meaning:
+def chosen_names(columns: Mapping[str, str]) -> Meaning:
     """The meaning of names where `columns` has those of some quantities.
 
-    >>> means = chosen({"p": "Last [MPa]"})
+    >>> means = chosen_names({"p": "Last [MPa]"})
     >>> means("Last [MPa]"), means("CPRESS"), means("CSHEAR1")
     ('p', '', 'q')
     """

@@ -5,7 +5,11 @@
 
 A line of names begins a list, other text ends it, and both repeat on every page. Commas, semicolons
 or tabs may separate the cells. The lines below *NODE in an input deck list coordinates too. Both
-lists may stand in one file.
+lists may stand in one file. Sets of nodes are those of a deck, or of a mesh that meshio reads:
+
+    *NSET, NSET=OUTER                    labels or names of sets, several in a line
+    *NSET, NSET=OUTER, GENERATE          first, last, step
+    *NODE, NSET=OUTER                    the nodes below are its nodes
 """
 
 from __future__ import annotations
@@ -13,13 +17,16 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
-from sie.arguments import shortened
+from sie import files
+from sie.arguments import shortened, suggestion
 from sie.profiles.trace_files import MESH, text_lines
 
+from . import by_meshio
 from .names import QUANTITIES, Meaning, meaning, spelling
 from .raw import Columns, MeshGeometry, Raw
 
@@ -132,3 +139,55 @@ def _numbers(line: str) -> list[str]:
     numbers = _NUMBER.findall(bare)
     other = re.search(r"[^\s,;]", _NUMBER.sub("", bare))
     return [] if other or not numbers or not numbers[0].isdigit() else numbers
+
+
+# -- sets of nodes ---------------------------------------------------------------------------------
+
+
+def nodes_of_set(path: str | Path, name: str) -> tuple[NDArray[np.int64], MeshGeometry]:
+    """The labels of the nodes in a set, and the mesh. ValueError where there is no such set."""
+    path = Path(path)
+    if path.suffix.lower() in by_meshio.SUFFIXES:
+        mesh = by_meshio.opened(path)
+        geometry = by_meshio.geometry(path.name, mesh)
+        sets: dict[str, Any] = {key: np.asarray(nodes) for key, nodes in mesh.point_sets.items()}
+        for key, blocks in mesh.cell_sets.items():  # a physical group of Gmsh
+            cells = [block.data[chosen] for block, chosen in zip(mesh.cells, blocks, strict=True)]
+            sets.setdefault(key, np.concatenate([c.ravel() for c in cells]))
+    else:
+        files.content(path, MESH.size)
+        geometry, sets = coordinates(path), dict(_of_deck(path))
+    known = {key.upper(): np.unique(nodes) for key, nodes in sets.items()}
+    if name.upper() not in known:
+        raise ValueError(f"{path.name} has no node set {name!r}: {suggestion(name, sorted(sets))}")
+    return known[name.upper()].astype(np.int64), geometry
+
+
+def _of_deck(path: Path) -> dict[str, list[int]]:
+    """The labels in every set of a deck, by its name in upper case."""
+    sets: dict[str, list[int]] = {}
+    current, generate, of_nodes = None, False, False
+    for line in text_lines(path, MESH):
+        text = line.strip().upper()
+        if not text or text.startswith("**"):
+            continue
+        if text.startswith("*"):
+            card, *parameters = re.split(r"\s*,\s*", text)
+            given = dict(re.split(r"\s*=\s*|$", parameter, maxsplit=1) for parameter in parameters)
+            of_nodes, generate = card == "*NODE", "GENERATE" in given
+            current = given.get("NSET") if card in ("*NODE", "*NSET") else None
+            sets |= {current: sets.get(current, [])} if current else {}
+        elif current:
+            cells = [cell.strip() for cell in text.split(",") if cell.strip()]
+            sets[current] += _labels(cells[:1] if of_nodes else cells, sets, generate)
+    return sets
+
+
+def _labels(cells: list[str], sets: dict[str, list[int]], generate: bool) -> Iterator[int]:
+    """The labels that a line of a set names."""
+    if generate:
+        first, last, step = (*map(int, cells), 1)[:3]
+        yield from range(first, last + 1, step)
+        return
+    for cell in cells:
+        yield from sets.get(cell, []) if not cell.isdigit() else (int(cell),)

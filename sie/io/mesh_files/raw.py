@@ -14,10 +14,8 @@ Labels = NDArray[np.int64]
 
 ON_SURFACE = 1e-9  # of the largest depth: the digits of a deck
 
-# Quantities that are given at the same n points, each (n,): x, y where the file has it, quantities,
-# and, where they are known,
-#     width    lengths along x of the element faces whose means the values are, not of nodes
-#     body     number of the connected part of the mesh, 0 being the lowest
+# Quantities that are given at the same n points, each (n,): x, y where the file has it, quantities
+# and, where it is known, body: the number of the connected part of the mesh, 0 being the lowest.
 Columns = dict[str, Array]
 
 

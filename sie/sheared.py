@@ -1,0 +1,397 @@
+"""The contact of a scene with its shear: the stages of the work, each computed when it is read.
+
+Similar bodies have the pressure first and the shear from it; bodies that are bonded, and dissimilar
+ones in partial slip, have both from one problem.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import fields, replace
+from functools import cached_property, partial
+from typing import TYPE_CHECKING, Any, cast
+
+from .contact.known_contact import Edges, Normal
+from .contact.normal import contact_under
+from .contact.pressure import pressure
+from .errors import InequalityError
+from .frictionless import Frictionless
+from .numerics.interval import Interval
+from .problem.coverage import held_moment
+from .problem.request import sheared
+from .problem.scene import Scene
+from .traction.base import Density
+from .traction.combination import ZERO, scaled
+from .traction.of_slope import SlopeDensity
+
+if TYPE_CHECKING:  # what a stage needs is imported when it is computed
+    from .cauchy.density import JacobiDensity
+    from .certificate.result import Certificate, ShearCertificate
+    from .friction.coupled.answer import LoadedContact
+    from .friction.coupled.pressed import Pressed
+    from .friction.coupled.traction import OnPieces
+    from .friction.full_stick import Component
+    from .friction.slip_state import Slip, Step
+    from .patches.answer import SeveralPatches
+    from .patches.friction import PatchesUnder
+    from .patches.full import FullContact
+    from .patches.result import PatchCertificate
+
+FIELDS = frozenset(f.name for f in fields(Scene))
+# The fields and properties of a scene that each stage depends on.
+LOADS = ("normal_load", "half_width", "tilt", "moment")
+NORMAL = frozenset(
+    ("profile", "body", "indenter", "modulus", *LOADS, "epsilon", "bonded", "coupled")
+)
+TANGENTIAL = ("friction", "tangential_load", "sliding", "bulk_stress")
+SHEAR = NORMAL | {*TANGENTIAL, "dundurs", "coupling"}
+OF_SHEAR = ("bonded", "coupled", "tangential", "dissipated", "certificate", "coupling_notes")
+PRESSED = (NORMAL - {"coupled"}) | {"friction", "dundurs", "coupling"}
+STAGES = {
+    **dict.fromkeys(("rises", "unverified", "density", "normal", "in_patches", "pressure"), NORMAL),
+    **dict.fromkeys(OF_SHEAR, SHEAR),
+    **dict.fromkeys(("pressed", "locked_in"), PRESSED),
+}
+
+BALANCED = 1e-9  # of P times the half-width: a moment that needs no tilt
+
+
+class Sheared(Frictionless):
+    """The contact of a scene with its shear, as a lazy view; parameters are those of `solve`."""
+
+    def _contact(self) -> Normal | SeveralPatches | FullContact:
+        if self.scene.bonded:
+            return Normal(self.bonded[0], False)
+        if self.scene.coupled:
+            return Normal(self.coupled[0], not (self.scene.tangential_load or self.scene.tau))
+        return super()._contact()
+
+    @property
+    def _not_convex(self) -> Normal | SeveralPatches | FullContact:
+        """The same; of dissimilar bodies that slide one patch, whose inequalities are verified."""
+        if not self.scene.epsilon:
+            return super()._not_convex
+        from .certificate.pressure_check import certificate
+        from .contact.gap import TOLERATED, shown
+
+        found = self.unverified
+        density = pressure(found, self.scene, self.tol, self.economy)
+        measured = certificate(density, found.slope(self.scene.profile), self.tol)
+        if min(measured.lowest_pressure, measured.lowest_gap) < -TOLERATED:
+            where = shown(measured.tension or measured.overlap)
+            raise InequalityError(
+                f"one patch of contact {density.interval} would need tension, or overlap, at "
+                f"{where}, and dissimilar bodies that slide are solved in one patch only; smooth "
+                "the profile, or give dundurs = 0 to neglect β",
+                edges=density.interval,
+                tension=measured.tension,
+                overlap=measured.overlap,
+            )
+        return found
+
+    @cached_property
+    def bonded(self) -> tuple[Edges, JacobiDensity]:
+        """The edges of a flat punch in full stick, and p + i q."""
+        from .friction.full_stick import full_stick_contact
+
+        return full_stick_contact(self.scene, self.tol)
+
+    @cached_property
+    def coupled(self) -> tuple[Edges, Pressed | LoadedContact]:
+        """The edges and the state of dissimilar bodies in partial slip."""
+        scene = self.scene
+        if not (scene.tangential_load or scene.tau):
+            return self.pressed
+        state = self.locked_in.under(scene.tangential_load, scene.tau)
+        return replace(state.edges, tilt=scene.tilt), state
+
+    def go_on_from(self, before: Pressed | LoadedContact | None) -> None:
+        """Goes on from another state under the same P, and not from that under P alone."""
+        if before is not None and hasattr(before, "under"):
+            state = before.under(self.scene.tangential_load, self.scene.tau)
+            self.__dict__["coupled"] = replace(state.edges, tilt=self.scene.tilt), state
+
+    @cached_property
+    def pressed(self) -> tuple[Edges, Pressed]:
+        """The same under the normal load alone."""
+        from .friction.coupled.normal import coupled_contact
+
+        scene = self._upright
+        if not scene.profile.convex:
+            P, b = scene.normal_load, scene.half_width
+            plain = Scene(profile=scene.profile, modulus=scene.Estar, normal_load=P, half_width=b)
+            _ = Frictionless(plain, self.tol).grown_as_one_patch
+        edges, state = coupled_contact(scene, self._frictionless)
+        lever = edges.normal_load * edges.contact.r
+        if scene.moment is not None and abs(edges.moment - scene.moment) > BALANCED * lever:
+            raise held_moment(self.scene)
+        return replace(edges, tilt=self.scene.tilt), state
+
+    @property
+    def _upright(self) -> Scene:
+        """The scene with its tilt in the profile."""
+        scene = self.scene
+        return replace(scene, profile=scene.profile.tilted(scene.tilt), tilt=0.0)
+
+    @cached_property
+    def locked_in(self) -> LoadedContact:
+        """The same with what it locks in, from which Q and bulk stress lead to other states."""
+        from .friction.coupled.answer import pressed_contact
+
+        return pressed_contact(self.pressed[1])
+
+    def _frictionless(self, scene: Scene) -> Normal:
+        return Frictionless(scene, self.tol).unverified
+
+    @property
+    def normal_and_shear(self) -> JacobiDensity:
+        """The traction p + i q in full stick."""
+        _ = self.normal
+        return self.bonded[1]
+
+    @cached_property
+    def pressure(self) -> SlopeDensity | Component | OnPieces:
+        """The contact pressure p, a `Density` in units of stress.
+
+        Returns
+        -------
+        Density
+            `pressure(x)` gives its values, `.resultant` and `.moment` its load, `.cauchy(z)` its
+            Cauchy potential ∫p(t)/(t - z) dt up to a factor, and `.hilbert(x)` the principal value.
+
+        Raises
+        ------
+        ContactError
+            If the profile carries no such load.
+        """
+        if self.scene.bonded:
+            from .friction.full_stick import Component
+
+            return Component(self.normal_and_shear, imaginary=False)
+        _ = self.normal
+        if self.scene.coupled:
+            return self.coupled[1].tractions[0]
+        several = self._several
+        return self.density if several is None else cast(SlopeDensity, several.pressure)
+
+    @property
+    def _loads(self) -> tuple[float, float]:
+        return self.tangential_load, self.scene.tau if self.scene.friction else 0.0
+
+    @property
+    def sheared(self) -> bool:
+        """Whether the shear is found after the pressure: partial slip, or similar bodies."""
+        scene = self.scene
+        elsewhere = scene.epsilon or scene.bonded or scene.coupled
+        return sheared(scene, self.economy) and not elsewhere
+
+    @property
+    def carries_shear(self) -> bool:
+        """Whether there is a shear traction, of partial slip, sliding or full stick."""
+        scene = self.scene
+        return self.sheared or bool(scene.epsilon) or scene.bonded or scene.coupled
+
+    @cached_property
+    def tangential(self) -> Slip:
+        """Zones of stick and slip, and the shear."""
+        return self.first_loading(self._loads, self.patches_under)
+
+    def first_loading(
+        self,
+        loads: tuple[float, float],
+        under: PatchesUnder,
+        near: Interval | None = None,
+        *,
+        one_sign: bool = False,
+    ) -> Slip:
+        """The state after Q and τ on this contact without shear.
+
+        `under` is the contact in several patches as a function of load and tilt, `near` as in
+        `load_step`; with `one_sign` slip is positive at both edges, whatever Q and τ. ContactError
+        if Q exceeds f P, or no zones of stick and slip meet all conditions.
+        """
+        if self._several is None:
+            from .friction.partial_slip import slip
+
+            step = self.load_step(*loads, near)
+            if self.convex or self._sticks_in_one_patch(step):
+                return slip(step, one_sign)
+        from .patches.friction import PatchSlip
+
+        state = PatchSlip(self.scene, self.in_patches, loads, under)
+        _ = state.corrective
+        return state
+
+    def _sticks_in_one_patch(self, step: Step) -> bool:
+        """Whether the stick zone of slip in one direction is one patch; there may be none."""
+        from .friction.partial_slip import corrective_loads
+
+        f, Q = self.scene.friction, step.Q
+        slides = not 0.0 < abs(Q) < f * step.normal_load
+        if slides or math.pi * step.pressure.contact.r * abs(step.tau) > abs(Q):
+            return True
+        loads = corrective_loads(step, math.copysign(1.0, Q))
+        return isinstance(self._contact_under(*loads).normal, Normal)
+
+    def _contact_under(self, load: float, tilt: float) -> Frictionless:
+        """The contact of the profile under another load and tilt, kept."""
+        if (load, tilt) not in self._others:
+            plain = self._without_shear(load, tilt)
+            self._others[load, tilt] = Frictionless(plain, self.tol, self.economy)
+        return self._others[load, tilt]
+
+    @cached_property
+    def _others(self) -> dict[tuple[float, float], Frictionless]:
+        return {}
+
+    def load_step(self, Q: float, tau: float, near: Interval | None = None) -> Step:
+        """The load Q and the strain τ on this contact of one patch.
+
+        `near` is a stick zone that may be close to the one sought. It saves work, and does not
+        change the answer.
+        """
+        from .friction.slip_state import Step
+
+        scene, tol, economy, normal = self.scene, self.tol, self.economy, self.as_one_patch
+        under: Callable[[float, float], Normal] = partial(
+            contact_under, scene=scene, tol=tol, economy=economy, near=near, seen=normal.seen
+        )
+        if not self.convex:
+            under = lambda load, tilt: self._contact_under(load, tilt).as_one_patch  # noqa: E731
+        on = partial(pressure, scene=scene, tol=tol, economy=economy)
+        return Step(scene, normal, self.slope_density, Q, tau, tol, economy, under, on)
+
+    @cached_property
+    def dissipated(self) -> float:
+        """The energy dissipated by slip."""
+        if self.scene.coupled:
+            return self.coupled[1].energy
+        slip = self.tangential
+        return slip.integrals.work if slip.integrals else slip.energy
+
+    @cached_property
+    def certificate(self) -> Certificate | PatchCertificate:
+        """The certificate that `check` returns, measured once."""
+        if self.scene.bonded:
+            from .certificate.coupled_check import full_stick_certificate
+
+            return full_stick_certificate(
+                self.normal.edges, self.normal_and_shear, self.scene, self.tol
+            )
+        if self.scene.coupled:
+            from .certificate.coupled_check import coupled_certificate
+
+            return coupled_certificate(self.coupled[1], self._upright, self.tol)
+        others = self.tangential.contacts if self.sheared else ()
+        if others or self._several is not None:
+            from .patches.result import worst_of
+
+            each = [c.certificate(self.tol) for c in (self.in_patches, *others)]
+            return replace(worst_of(each), shear=self._shear_certificate(each))
+        from .certificate.pressure_check import certificate
+
+        found = certificate(self.slope_density, self._slope, self.tol)
+        return replace(found, shear=self._shear_certificate())
+
+    def _shear_certificate(
+        self, of_pressures: Sequence[PatchCertificate] = ()
+    ) -> ShearCertificate | None:
+        """The certificate of the shear, on several patches with those of its pressures."""
+        if not self.sheared:
+            return None
+        from .certificate.shear_check import shear_certificate
+
+        p: Density = self.pressure
+        tol = min((c.tol for c in of_pressures), default=self.tol)
+        state, slope = self.tangential, self._slope
+        return shear_certificate(state, p, self._loads, slope, tol=tol, of_pressures=of_pressures)
+
+    @property
+    def slope_density(self) -> SlopeDensity:
+        """The pressure, where it is not that of full stick."""
+        return cast(SlopeDensity, self.pressure)
+
+    # -- answers -----------------------------------------------------------------------------------
+
+    @property
+    def tangential_load(self) -> float:
+        """Tangential load Q, force per length; ±f P in full sliding."""
+        slides = self.scene.slides
+        return (
+            slides * self.scene.friction * self.normal_load
+            if slides
+            else self.scene.tangential_load
+        )
+
+    @property
+    def stick(self) -> tuple[tuple[float, float], ...]:
+        """The stick zones, ((lo, hi), ...) in lengths.
+
+        Returns
+        -------
+        tuple of tuple of float
+            The whole contact where no tangential load was applied; () in full sliding and without
+            friction.
+        """
+        if self.scene.epsilon:
+            return ()
+        if self.sheared:
+            return self.tangential.stick
+        if self.scene.coupled:
+            return self.coupled[1].stick
+        return self.patches if self.scene.friction else ()
+
+    @property
+    def shear(self) -> Density:
+        """The shear traction q, which acts on the body along +x, a `Density` in units of stress.
+
+        Returns
+        -------
+        Density
+            As for `pressure`; zero everywhere without friction.
+        """
+        if self.scene.bonded:
+            from .friction.full_stick import Component
+
+            return Component(self.normal_and_shear, imaginary=True)
+        if self.scene.epsilon:
+            return scaled(self.scene.slides * self.scene.friction, self.pressure)
+        if self.scene.coupled:
+            _ = self.normal
+            return self.coupled[1].tractions[1]
+        return self.tangential.shear if self.sheared else ZERO
+
+
+# -- what a change of the scene keeps --------------------------------------------------------------
+
+
+def changed_scene(scene: Scene, changes: Mapping[str, Any]) -> Scene:
+    """The scene with other values of some fields.
+
+    `normal_load` and `half_width` replace each other, and so do `tilt` and `moment`, and `modulus`
+    and the bodies.
+    """
+    for name in changes:
+        if name not in FIELDS:
+            raise ValueError(
+                f"{name} is not a field of a scene: change {', '.join(sorted(FIELDS))}"
+            )
+    replaced: dict[str, Any] = {}
+    for one, other in (("normal_load", "half_width"), ("tilt", "moment")):
+        for given, taken_out in ((one, other), (other, one)):
+            if changes.get(given) is not None:
+                replaced[taken_out] = 0.0 if taken_out == "tilt" else None
+    if "modulus" in changes and scene.body is not None:
+        replaced |= {"body": None, "indenter": None, "dundurs": None}
+    return replace(scene, **(replaced | dict(changes)))
+
+
+def kept_stages(old: Scene, new: Scene) -> frozenset[str]:
+    """The stages that depend on nothing in which the scenes differ."""
+    pairs = ((name, getattr(new, name), getattr(old, name)) for name in SHEAR)
+    changed = {name for name, now, before in pairs if now is not before and now != before}
+    # One equation then gives pressure and shear: what changes the one changes the other.
+    if changed:
+        changed |= {name for name in ("bonded", "coupled") if getattr(old, name)}
+    return frozenset(stage for stage, needs in STAGES.items() if not changed & needs)
