@@ -35,7 +35,7 @@ from .quadrature import composite_rule, finite
 from .result import EXPLAINED, ShearCertificate
 
 if TYPE_CHECKING:
-    from sie.friction.part import Part
+    from sie.friction.finite_step import Part
     from sie.friction.strip_part import StripPart
 
 Array = NDArray[np.float64]

@@ -19,10 +19,9 @@ from sie.numerics.root_finding import false_position
 from .admissible import EXCEEDED
 from .cells import zones_on_cells
 from .equations import Equations, Zones
-from .finite_step import balanced, newton, on_earlier_zones, solved, without_idle
+from .finite_step import Part, balanced, newton, on_earlier_zones, solved, without_idle
 from .loading import LoadStep
 from .onset import End, Motion, Onset, onset, set_out
-from .part import Part
 from .state import Contact, State
 from .strip_part import StripPart, strip_part
 from .zones_between import rates_of

@@ -7,23 +7,22 @@ marks of the shear, which are tried.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
-from dataclasses import replace
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field, replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
 from sie.errors import ContactError
-from sie.numerics.graded_panels import (
-    Pieces,
-)
+from sie.numerics.graded_panels import Pieces
 
 from .admissible import built, refuse_inadmissible
 from .equations import Equations, Zones
-from .state import SAME, Contact, State, between, intervals
+from .onset import End
+from .state import SAME, Contact, Ends, State, between, intervals
 
 Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 STEPS = 40  # of Newton's method
 PINNED_STEPS = 8  # of it with one end on a mark
 SLOW, FAR = 14, 1e-2  # after so many one that is so long, of the contact, finds nothing
@@ -42,6 +41,33 @@ CLOSE = 1e-7  # of the contact: so close to a mark an end may be on it
 ON_MARK, ON_MARK_AT_LEAST = 1e-13, 3e-10  # of the loads: by so much equations may be missed there
 IDLE = 1e-6  # of f p: q so close to it all over a stick zone has reached it
 NARROWEST = 1e-12  # of the contact: a stick zone
+
+
+@dataclass(frozen=True, eq=False)
+class Part:
+    """A finite part of a step: the states at its ends, and its shares of the step.
+
+    known   what ends of stick zones do next, by their places, where an event decided it
+    """
+
+    before: State
+    state: State
+    begun: float
+    until: float
+    known: Mapping[float, End] = field(default_factory=dict)
+    opened: tuple[float, float] | None = None
+    solved: bool = True
+
+    @property
+    def stuck(self) -> Ends:
+        """What stuck all along."""
+        return self.state.stick
+
+    @cached_property
+    def equations(self) -> Equations:
+        """Those that the state solves."""
+        signs = tuple(s for *_, s in self.state.slip)
+        return Equations(self.before, self.state.contact, Zones(self.state.stick, signs))
 
 
 def solved(before: State, after: Contact, guess: Zones) -> State:

@@ -32,10 +32,9 @@ from sie.numerics.graded_panels import OF_SERIES, Rule
 from sie.numerics.root_finding import false_position
 
 from .equations import Equations, Zones
-from .finite_step import balanced
+from .finite_step import Part, balanced
 from .gained_slip import GainedSlip
 from .loading import LoadStep
-from .part import Part
 from .rates import Rates
 from .state import SAME, Contact, State, intervals
 from .strip_part import StripPart

@@ -19,10 +19,9 @@ from sie.errors import ContactError
 
 from .cells import zones_on_cells
 from .equations import Equations, Zones
-from .finite_step import newton
+from .finite_step import Part, newton
 from .loading import LoadStep
 from .onset import onset
-from .part import Part
 from .rates import Rates
 from .state import Contact, Ends, Slips, State
 

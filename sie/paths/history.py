@@ -10,7 +10,7 @@ point to the next all loads change in proportion to time. What is exact, and cov
     dissimilar bodies                  P that grows alone, then Q and σ at constant P
 
 `path_contacts` has the contacts under the loads of the path, `friction.memory` the layers,
-`friction.course` the parts of a step, and `load_history.path_slip` the state at one point.
+`friction.course` the parts of a step, and `friction.path_slip` the state at one point.
 
 Everything else raises ContactError, which names the step and the reason. `History.plan` says which
 steps are followed part by part, and why. A path may begin unloaded, at (0, 0, 0).
@@ -32,14 +32,15 @@ from sie.certificate.shear_check import certificate_of_parts
 from sie.contact.known_contact import Normal
 from sie.errors import ContactError
 from sie.friction.course import course
-from sie.friction.load_history.load_steps import (
+from sie.friction.load_steps import (
     Followable,
     TurningPoint,
     named,
     points_of_loads,
     turning_points,
 )
-from sie.friction.load_history.path_slip import (
+from sie.friction.loading import Loads, LoadStep
+from sie.friction.path_slip import (
     CourseSlip,
     PathSlip,
     state_of,
@@ -47,8 +48,6 @@ from sie.friction.load_history.path_slip import (
     step_shift,
     touched,
 )
-from sie.friction.loading import LoadStep
-from sie.friction.loads import Loads
 from sie.friction.slip_state import Slip
 from sie.friction.state import State
 from sie.patches.answer import SeveralPatches

@@ -4,7 +4,7 @@ In a state that repeats, a point that slips one way on the way to A slips back o
 Where it slips, q_A - q_B = s f (p_A + p_B); in the permanent stick zone the strain of q_A - q_B is
 that of the bulk stresses. Neither the means of Q and σ, nor what is locked in, nor the way to the
 steady state matter. At constant P and tilt q_A - q_B is twice the first loading by half of the
-change; otherwise each way is followed from q = ± f p all over (`load_history.load_steps`).
+change; otherwise each way is followed from q = ± f p all over (`friction.load_steps`).
 """
 
 from __future__ import annotations
@@ -17,9 +17,9 @@ from typing import Any, overload
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from sie.friction.load_history.load_steps import TurningPoint
-from sie.friction.load_history.path_slip import CourseSlip, step_slip
-from sie.friction.loads import Loads
+from sie.friction.load_steps import TurningPoint
+from sie.friction.loading import Loads
+from sie.friction.path_slip import CourseSlip, step_slip
 from sie.friction.slip_state import Slip
 from sie.numerics.zones import within
 from sie.solution import Solution

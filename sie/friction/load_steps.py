@@ -13,20 +13,20 @@ from functools import partial
 from typing import Protocol, TypeVar
 
 from sie.errors import ContactError
-from sie.friction.loading import Contacts, LoadStep, contact_under
-from sie.friction.loads import Loads
-from sie.friction.memory import LoadMemory, SlippedLayer, in_proportion, simple
-from sie.friction.onset import Motion, onset
-from sie.friction.part import Part
-from sie.friction.slip_state import Slip
-from sie.friction.state import State
-from sie.friction.strip_part import StripPart
 from sie.numerics.graded_panels import Pieces
 from sie.numerics.interval import EPS, Interval
 from sie.problem.load_limit import refuse_sliding
 from sie.problem.load_path import Path
 from sie.problem.scene import Scene
 from sie.progress_bar import counted
+
+from .finite_step import Part
+from .loading import Contacts, Loads, LoadStep, contact_under
+from .memory import LoadMemory, SlippedLayer, in_proportion, simple
+from .onset import Motion, onset
+from .slip_state import Slip
+from .state import State
+from .strip_part import StripPart
 
 Result = TypeVar("Result")
 

@@ -11,13 +11,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie.errors import ContactError
-from sie.friction.loading import contact_under
-from sie.friction.loads import Loads
-from sie.friction.panel_shear import PanelShear
-from sie.friction.part_answers import drag, slip
-from sie.friction.slip_state import Slip
-from sie.friction.state import SAME, State, between, intervals
-from sie.friction.step_energy import work
 from sie.numerics import chebyshev
 from sie.numerics.graded_panels import Pieces, Rule
 from sie.numerics.interval import Interval
@@ -25,7 +18,13 @@ from sie.numerics.zones import within
 from sie.traction.base import ZERO, Density
 from sie.traction.combination import superposed
 
+from .gained_slip import drag, slip
 from .load_steps import Followable, TurningPoint, sheared_all_over
+from .loading import Loads, contact_under
+from .panel_shear import PanelShear
+from .slip_state import Slip
+from .state import SAME, State, between, intervals
+from .step_energy import work
 
 Array = NDArray[np.float64]
 
