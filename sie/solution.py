@@ -328,8 +328,7 @@ class Solution(Frictionless, StressAnswers, DerivativeAnswers):
         """The energy dissipated by slip."""
         if self.scene.coupled:
             return self.coupled[1].energy
-        slip = self.tangential
-        return slip.integrals.work if slip.integrals else slip.energy
+        return self.tangential.energy
 
     @cached_property
     def certificate(self) -> Certificate | PatchCertificate:

@@ -127,7 +127,7 @@ def shear_certificate(
             condition=state.condition,
             advancing=state.advancing,
             kind=state.kind,
-            tol=tol,
+            tol=max(tol, state.promised),
         )
 
 
@@ -209,11 +209,14 @@ def excess(
     slipped: Sequence[tuple[float, float, float]], contact: Interval, x: Array, p: Array, q: Array
 ) -> float:
     """The largest |q| - f p in stick, or error of |q| = f p in slip."""
-    # A node on a corner, where p is infinite, was set to 0.
-    worst = float(np.where(p > 0.0, np.abs(q) - p, -np.inf).max())
     margin = ENDS * (contact.r + abs(contact.m))
+    ends = np.array([e for zone in slipped for e in zone[:2]])
+    near = (np.abs(x[:, None] - ends) <= margin).any(axis=1)
+    # A node on a corner, where p is infinite, was set to 0.
+    x, p, q = (values[(p > 0.0) & ~near] for values in (x, p, q))
+    worst = float((np.abs(q) - p).max(initial=-np.inf))
     for lo, hi, sign in slipped:
-        slipping = (x > lo + margin) & (x < hi - margin) & (p > 0.0)
+        slipping = (x > lo) & (x < hi)
         worst = max(worst, float(np.abs(sign * q - p)[slipping].max(initial=0.0)))
     return worst
 

@@ -20,7 +20,6 @@ from .equations import Equations
 from .state import SAME, Ends, State, intervals, united
 
 Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 EXCEEDED = 1e-8  # of the largest f p: by so much |q| may exceed f p
 KNOWN = 1e-10  # of the contact: next to marks q is known from there on
 OPPOSING = 1e-10  # of the largest slip: by so much it may oppose its direction
@@ -30,25 +29,20 @@ def built(found: Equations) -> State:
     """The state of solved equations."""
     before, after = found.before, found.after
     same = SAME * after.width
-    slip = intervals([zone[:2] for zone in found.slip], after.limit.marks, same)
     marks = np.unique(np.concatenate((before.marks, after.limit.marks, found.begins)))
-    stuck = [intervals([zone], marks, same) for zone in found.zones.stick]
-    ends = np.concatenate((slip, *stuck))
-    values = Pieces.places(ends)
-    q = np.zeros(len(values.lo))
-    each = len(values.lo) // len(ends)
-    first = len(slip) * each
+    parts, values = [], []
     for lo, hi, s in found.slip:
-        part = Pieces.places(intervals([(lo, hi)], after.limit.marks, same))
-        at = (values.lo >= lo) & (values.hi <= hi)
-        q[at] = s * after.limit.on(part)
-    for k, zone in enumerate(stuck):
-        part = Pieces.places(zone)
-        n = len(part.lo)
-        q[first : first + n] = before.shear.on(part) + found.in_stick(k, part)
-        first += n
-    order = np.argsort(ends[:, 0])
-    series = Pieces.of_values(ends, q)
+        parts.append(Pieces.places(intervals([(lo, hi)], after.limit.marks, same)))
+        values.append(s * after.limit.on(parts[-1]))
+    for k, zone in enumerate(found.zones.stick):
+        part = Pieces.places(intervals([zone], marks, same))
+        near = np.minimum(part.from_lo, part.from_hi) <= KNOWN * after.width
+        limit = np.where(near, after.limit.on(part), np.inf)
+        q = before.shear.on(part) + found.in_stick(k, part)
+        parts.append(part)
+        values.append(np.minimum(np.maximum(q, -limit), limit))
+    ends = np.concatenate([part.ends for part in parts])
+    order, series = np.argsort(ends[:, 0]), Pieces.of_values(ends, np.concatenate(values))
     return State(after, found.zones.stick, found.slip, Pieces(ends[order], series[order]))
 
 

@@ -27,7 +27,8 @@ STEPS = 40  # of Newton's method
 PINNED_STEPS = 8  # of it with one end on a mark
 SLOW, FAR = 14, 1e-2  # after so many one that is so long, of the contact, finds nothing
 SETTLED = 2e-14  # of the contact: a step so short is the last
-GOOD = 1e-9  # and one so short is good enough if later ones do not shorten
+GOOD = 1e-9  # and one so short is good enough if later ones do not shorten ...
+GOOD_OF_ZONE = 1e-3  # ... and it is so short a part of the narrowest stick zone
 INSIDE = 1e-9  # of what is between the bounds of an end: a guess is as far from them
 CLOSEST = 0.9  # of the distance to its neighbour: an end moves so far at most in a step
 SHARES = (1.0, 0.5, 0.25, 0.1)  # of a step of Newton's method that are tried
@@ -136,7 +137,8 @@ def _iterated(now: Equations, bounds: Array) -> tuple[Equations, bool]:
             break
         step = np.linalg.lstsq(matrix, right, rcond=1e-14)[0]
         longest = float(np.abs(step).max())
-        if longest <= SETTLED * width or (longest <= GOOD * width and longest >= last):
+        good = min(GOOD * width, GOOD_OF_ZONE * float(np.diff(now.stick, axis=1).min()))
+        if longest <= SETTLED * width or last <= longest <= good:
             return now, True
         if number >= SLOW and longest > FAR * width:
             break

@@ -8,6 +8,7 @@ one that gained a strip slipped by the integral of D before.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -16,7 +17,7 @@ from numpy.polynomial.chebyshev import chebval, chebvander
 from numpy.typing import NDArray
 
 from sie.errors import ContactError
-from sie.numerics.graded_panels import Pieces, Rule
+from sie.numerics.graded_panels import OF_SERIES, Pieces, Rule
 
 from .equations import Equations, Gap
 from .finite_step import Part
@@ -58,6 +59,15 @@ class GainedSlip:
             if sense:
                 found.append((lo, hi, sense, pieces))
         return found
+
+    def paired(self, density: Callable[[Rule], Array]) -> float:
+        """∫ d s Δg dx of a density d, s the direction of slip."""
+        total, contact = 0.0, self.equations.after
+        for lo, hi, sense, pieces in self.slipped:
+            marks = np.unique(np.concatenate((pieces.marks, contact.limit.marks)))
+            rule = Rule.graded(intervals([(lo, hi)], marks, SAME * contact.width), OF_SERIES)
+            total += sense * float(rule.weight @ (density(rule) * pieces.on(rule)))
+        return total
 
     @cached_property
     def at_ends(self) -> dict[float, float]:

@@ -19,8 +19,7 @@ In one-signed slip p̂, the corrective pressure, is that of the same profile, ti
 under the reduced load P - |Q|/f, and gap^ is the gap beside that contact. This is Cattaneo's and
 Mindlin's superposition for any profile (Ciavarella 1998; Jäger 1998): subtracting the equations (1)
 and (12) leaves the normal problem for p̂ and for the slip. It holds where the contact of p̂ lies
-within that of p and p̂ <= 2p there. In two-signed slip the ends of the slip zones have equations of
-their own (`slip_zones`, and `narrow_stick_zone` for a large bulk stress).
+within that of p and p̂ <= 2p there. Two-signed slip is one finite step of the engine (`state_slip`).
 
 Along the step dq = [dQ/π - dτ (x - c)]/sqrt(ρ² - (x - c)²) in the stick zone of half-width ρ. With
 π r |τ| <= |Q|, r the half-width of the contact, slip is one-signed and the slip zones only grow.
@@ -35,26 +34,17 @@ import math
 
 import numpy as np
 
-from sie.contact.edge_integrals import edge_integrals
 from sie.errors import ContactError, LoadError
 from sie.numerics.interval import EPS
 from sie.problem.load_limit import refuse_sliding, remaining
-from sie.profiles.resolution import refined
-from sie.traction.on_panels import PanelDensity
-from sie.traction.panels import Panels
-from sie.traction.piece_quadrature import Geometry
 
-from .narrow_stick_zone import narrow_stick_zone
-from .slip_state import NoSlip, Slip, Step, edge_frames
-from .slip_zones import Drive, slip_zones
-from .states import OneSignedSlip, Sliding, TwoSignedSlip
+from .slip_state import NoSlip, Slip, Step
+from .state_slip import two_signed
+from .states import OneSignedSlip, Sliding
 
 # Violations of |q| <= f p below this fraction of f p are rounding.
 TOLERATED = 1e-10
 SCANNED = 400
-# Part of the contact: a slope is resolved so far beyond a stick zone, which may be so narrow that
-# it lies between two doubles.
-BESIDE = 16.0 * EPS
 # Forces over a zone are its length to the power of 3/2 and more: below this fraction of f P they
 # would underflow.
 SMALLEST = 1e-60
@@ -94,7 +84,7 @@ def slip(step: Step, one_sign: bool = False) -> Slip:
         tried = _fitting(step, sign)
         if tried is not None:
             return tried
-    return _two_signed(step)
+    return two_signed(step)
 
 
 def sliding(step: Step) -> Sliding:
@@ -148,28 +138,3 @@ def _fitting(step: Step, sign: float) -> OneSignedSlip | None:
         ).all()
         else None
     )
-
-
-def _two_signed(step: Step) -> TwoSignedSlip:
-    """Slip in both directions.
-
-    To the left of the stick zone it is in that of τ, to the right of it against it.
-    """
-    contact, G = step.pressure.contact, step.pressure.half_modulus
-    f, Q, tau = step.scene.friction, step.Q, step.tau
-    sign = math.copysign(1.0, tau)
-    drive = Drive(Q / f, math.pi * tau / f, sign, -sign)
-    seen_from = edge_frames(step.pressure, step.slope)
-    found = narrow_stick_zone(seen_from, contact, drive) or slip_zones(
-        seen_from, contact, drive, (0.25 * contact.r, 0.25 * contact.r)
-    )
-    lo, hi = step.slope.domain
-    beyond = BESIDE * (contact.r + abs(contact.m))
-    slope = refined(
-        step.slope, max(found.stick.x1 - beyond, lo), min(found.stick.x2 + beyond, hi), EPS
-    )
-    I0 = edge_integrals(slope, found.stick).I0
-    formal = PanelDensity(
-        found.stick, G, 0.0, 0.0, math.nan, math.nan, Panels(Geometry(slope, found.stick), I0)
-    )
-    return TwoSignedSlip(step.pressure, step.slope, f, step, found, formal)

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from sie.errors import ContactError
 from sie.numerics import chebyshev
-from sie.numerics.graded_panels import Pieces, Rule
+from sie.numerics.graded_panels import Pieces
 from sie.numerics.interval import Interval
 from sie.numerics.zones import within
 from sie.traction.base import ZERO, Density
@@ -21,9 +21,9 @@ from sie.traction.combination import superposed
 from .gained_slip import drag, slip
 from .load_steps import Followable, TurningPoint, sheared_all_over
 from .loading import Loads, contact_under
-from .panel_shear import PanelShear
 from .slip_state import Slip
 from .state import SAME, State, between, intervals
+from .state_slip import StateSlip
 from .step_energy import work
 
 Array = NDArray[np.float64]
@@ -114,6 +114,10 @@ class PathSlip(Slip):
     def condition(self) -> float:  # type: ignore[override]
         return max((loading.condition for _, loading in self._terms), default=1.0)
 
+    @property
+    def promised(self) -> float:  # type: ignore[override]
+        return sum(abs(weight) * loading.promised for weight, loading in self._terms)
+
     @cached_property
     def shear(self) -> Density:
         terms = self._terms
@@ -159,44 +163,16 @@ class PathSlip(Slip):
         return sum(self.history.shift_of_step(index) for index in range(self.index + 1))
 
 
-class CourseSlip(PathSlip):
+class CourseSlip(StateSlip, PathSlip):
     """Stick, slip and shear at a point of a path, the step to which was followed part by part."""
 
     @property
     def kind(self) -> str:  # type: ignore[override]
         return f"followed part by part, as {self.state.why}"
 
-    @cached_property
-    def shear(self) -> Density:
-        state = self.state.state
-        contact = state.contact
-        room = SAME * contact.width
-
-        def of_patch(x1: float, x2: float) -> Density:
-            zone, marks = Interval(x1, x2), state.marks
-            inside = marks[(marks > x1 + room) & (marks < x2 - room)]
-            rule = Rule.graded(intervals([(x1, x2)], inside, room))
-            load = float(rule.weight @ state.shear.on(rule))
-            return PanelShear(zone, state.shear, inside.tolist(), load, contact.limit)
-
-        found = [of_patch(*patch) for patch in contact.patches]
-        return found[0] if len(found) == 1 else superposed(*((1.0, q) for q in found))
-
     @property
-    def stick(self) -> tuple[tuple[float, float], ...]:  # type: ignore[override]
-        return self.state.state.stick
-
-    @property
-    def slipped(self) -> tuple[tuple[float, float, float], ...]:
-        return self.state.state.slip
-
-    @property
-    def levels(self) -> tuple[float, ...]:
-        return tuple(self.state.state.marks.tolist())
-
-    @property
-    def contacts(self) -> tuple[()]:
-        return ()
+    def locked(self) -> State:
+        return self.state.state
 
 
 def state_of(history: Followed, point: TurningPoint) -> State:
@@ -234,7 +210,7 @@ def step_energy(history: Followed, index: int) -> float:
 
     def until(depth: complex) -> float:
         loading = history.first_loading(state.loads.normal, depth, state.turned)
-        return loading.integrals.work if depth and loading.integrals else 0.0
+        return loading.energy if depth else 0.0
 
     return sum(o.jump * (until(o.lower) - until(o.upper)) for o in state.slipped)
 

@@ -7,7 +7,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable, Collection, Iterable
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, NamedTuple, Protocol
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -53,14 +53,6 @@ class Step:
         return self.normal.edges.normal_load
 
 
-class WorkOfSlip(Protocol):
-    """The work of f p on the slip, and of what other loads add to f p."""
-
-    @property
-    def work(self) -> float: ...
-    def work_of(self, dP: float, strain: float) -> float: ...
-
-
 class Slip(ABC):
     """A state of stick and slip.
 
@@ -72,6 +64,7 @@ class Slip(ABC):
     slip(x)      relative slip
     advancing    whether the slip zones grow along the whole step
     condition    relative error of the load on the stick zone over one of P or Q
+    promised     error of q that is promised at best, over its peak
     """
 
     kind: str
@@ -80,6 +73,7 @@ class Slip(ABC):
     stick: tuple[tuple[float, float], ...]
     advancing: bool = True
     condition: float = 1.0
+    promised: float = 0.0
 
     @property
     @abstractmethod
@@ -112,13 +106,8 @@ class Slip(ABC):
 
     @property
     def energy(self) -> float:
-        """The dissipated energy; that of the states on one patch is found in `dissipation`."""
+        """The dissipated energy ∫ f p |slip| dx at constant P."""
         return 0.0
-
-    @property
-    def integrals(self) -> WorkOfSlip | None:
-        """Integrals over the zones of slip; None where nothing slips."""
-        return None
 
     @property
     def slipped(self) -> tuple[tuple[float, float, float], ...]:
@@ -181,33 +170,23 @@ class IntegralsOfSlip(NamedTuple):
 
     work     ∫f p |slip| dx
     shift    ∫slip dμ: what slip adds to the shift of the indenter
-    spread   f ∫|slip| dμ
-    lever    f ∫|slip| (x - m) dμ
     """
 
     work: float
     shift: float
-    spread: float
-    lever: float
 
     @classmethod
     def over(
-        cls, parts: Iterable[tuple[SlipZone, float, float, Array]], friction: float, half: float
+        cls, parts: Iterable[tuple[SlipZone, float, Array]], friction: float, half: float
     ) -> IntegralsOfSlip:
-        """`parts`: zones, -1 at the left edge and 1 at the right, the sign of slip, and |slip|."""
-        work = shift = spread = lever = 0.0
-        for zone, side, sign, slip in parts:
+        """`parts`: zones, the sign of slip, and |slip|."""
+        work = shift = 0.0
+        for zone, sign, slip in parts:
             from_other_edge = (2.0 * half - zone.length) + zone.from_stick
             moved = zone.weight * slip / np.sqrt(zone.from_edge * from_other_edge) / math.pi
             work += friction * float(zone.force @ slip)
             shift += sign * float(moved.sum())
-            spread += friction * float(moved.sum())
-            lever += friction * side * float(moved @ (half - zone.from_edge))
-        return cls(work, shift, spread, lever)
-
-    def work_of(self, dP: float, strain: float) -> float:
-        """f ∫|slip| dp dx for a change of P, and of E*/2 times the tilt."""
-        return dP * self.spread - math.pi * strain * self.lever
+        return cls(work, shift)
 
 
 @dataclass(frozen=True, eq=False)
@@ -269,11 +248,13 @@ class Slipping(Slip):
         """Integrals over the zones."""
         f, frames = self.friction, zip(self.frames, self.zones, self.signs, strict=True)
         parts = [
-            (z, r.side, sign, f * self._opening(z.from_edge, r))
-            for r, z, sign in frames
-            if z.length > 0.0
+            (z, sign, f * self._opening(z.from_edge, r)) for r, z, sign in frames if z.length > 0.0
         ]
         return IntegralsOfSlip.over(parts, f, self.contact.r)
+
+    @property
+    def energy(self) -> float:
+        return self.integrals.work
 
     @property
     def shift(self) -> float:

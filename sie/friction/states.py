@@ -7,7 +7,6 @@ that does not slip, and what a step of the load is, stands in `slip_state`.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -25,12 +24,11 @@ from sie.traction.base import Density
 from sie.traction.combination import Combination
 from sie.traction.of_slope import SlopeDensity
 
-from .shear_density import OneSignedShear, TwoSignedShear
+from .shear_density import OneSignedShear
 from .slip_state import Slipping, Step
 from .slip_zones import (
     Drive,
     EdgeFrame,
-    SlipZone,
     SlipZones,
     slip_zones,
 )
@@ -178,77 +176,6 @@ class OneSignedSlip(Slipping):
     def _opening(self, distance: Array, frame: EdgeFrame) -> Array:
         corrective, slope = in_frame(self.corrective, self._tilted, self.lengths, frame)
         return gap(-frame.side * distance, corrective, slope)
-
-
-@dataclass(frozen=True, eq=False)
-class TwoSignedSlip(Slipping):
-    """Slip in opposite directions at the two edges.
-
-    found     stick zone and slip zones, with the signs of slip
-    formal    the inversion of the profile's slope on the stick zone, which needs the tails of p to
-              vanish at both ends
-    """
-
-    found: SlipZones
-    formal: SlopeDensity
-    kind = "two signs"
-
-    @property
-    def stick(self) -> tuple[tuple[float, float], ...]:  # type: ignore[override]
-        found = self.found
-        return (
-            (found.stick.m, found.stick.m) if found.unheld else (found.stick.x1, found.stick.x2),
-        )
-
-    @cached_property
-    def shear(self) -> Density:
-        held = self.step.tau - math.copysign(
-            self.friction * self.found.unheld / math.pi, self.step.tau
-        )
-        return TwoSignedShear(
-            self.pressure, self.formal, self.friction, self.found, self.step.Q, held
-        )
-
-    @property
-    def advancing(self) -> bool:  # type: ignore[override]
-        return _advancing(self, self.step, (self.contact.r, self.found.stick.r))
-
-    @property
-    def signs(self) -> tuple[float, float]:
-        return self.found.drive.left, self.found.drive.right
-
-    @property
-    def lengths(self) -> tuple[float, float]:
-        return self.found.left.length, self.found.right.length
-
-    @property
-    def zones(self) -> tuple[SlipZone, SlipZone]:
-        return self.found.left, self.found.right
-
-    def _opening(self, distance: Array, frame: EdgeFrame) -> Array:
-        formal, slope = in_frame(self.formal, self.slope, self.lengths, frame)
-        return gap(-frame.side * distance, formal, slope, self._more(formal.contact))
-
-    def _more(self, stick: Interval) -> Callable[[Array, float], Array]:
-        """The part of the outward derivative of slip/f from outside the zone.
-
-        It is that of the other zone's shear, and of strain that nothing holds back.
-        """
-        G, rho = self.pressure.half_modulus, stick.r
-
-        def more(x: Array, side: float) -> Array:
-            from_far, from_near = (
-                (stick.from_left(x), -stick.from_right(x))
-                if side > 0.0
-                else (stick.from_right(x), -stick.from_left(x))
-            )
-            other = self.found.left if side > 0.0 else self.found.right
-            near = np.maximum(from_near, 0.0)
-            pull = 2.0 * np.sqrt(from_far * near) * other.pull(from_far, rho)
-            opening: Array = (pull + self.found.unheld) / (math.pi * G)
-            return opening
-
-        return more
 
 
 def _advancing(state: Slipping, step: Step, half_widths: tuple[float, float]) -> bool:

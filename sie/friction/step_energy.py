@@ -28,7 +28,6 @@ from numpy.polynomial.chebyshev import chebvander
 from numpy.typing import NDArray
 
 from sie.errors import ContactError
-from sie.numerics.graded_panels import OF_SERIES, Rule
 from sie.numerics.root_finding import false_position
 
 from .equations import Equations, Zones
@@ -36,7 +35,7 @@ from .finite_step import Part, balanced
 from .gained_slip import GainedSlip
 from .loading import LoadStep
 from .rates import Rates
-from .state import SAME, Contact, State, intervals
+from .state import State
 from .strip_part import StripPart
 from .strips import TAU
 from .zones_between import ZonesBetween, rates_of
@@ -68,7 +67,7 @@ def work(part: Part | StripPart, step: LoadStep) -> float:
             "energy lost is not covered; ask for the state alone, or change Q at constant P"
         )
     contact = part.state.contact
-    whole, error = _paired(contact, part.equations, contact.limit.on), 0.0
+    whole, error = GainedSlip(part.equations).paired(contact.limit.on), 0.0
     if not step.constant:
         if isinstance(part, StripPart):
             moved, error = _of_panel(part, step, whole)
@@ -108,16 +107,6 @@ def _turned(part: Part, step: LoadStep) -> float:
     return float(more.mean() * sum(hi - lo for lo, hi in contact.patches))
 
 
-def _paired(contact: Contact, now: Equations, density: Callable[[Rule], Array]) -> float:
-    """∫ d s Δg dx of a density d, s the direction of slip."""
-    total = 0.0
-    for lo, hi, sense, pieces in GainedSlip(now).slipped:
-        marks = np.unique(np.concatenate((pieces.marks, contact.limit.marks)))
-        rule = Rule.graded(intervals([(lo, hi)], marks, SAME * contact.width), OF_SERIES)
-        total += sense * float(rule.weight @ (density(rule) * pieces.on(rule)))
-    return total
-
-
 def _sticking(state: State) -> list[bool]:
     """For each patch whether some of it sticks."""
     return [any(x1 <= a and b <= x2 for a, b in state.stick) for x1, x2 in state.contact.patches]
@@ -125,7 +114,7 @@ def _sticking(state: State) -> list[bool]:
 
 def _by_pressure(now: Equations, rates: Rates) -> float:
     """∫ f dp/dt s Δg dx."""
-    return rates.friction * _paired(now.after, now, rates.pressure.density)
+    return rates.friction * GainedSlip(now).paired(rates.pressure.density)
 
 
 @lru_cache(maxsize=2)

@@ -13,9 +13,6 @@ from dataclasses import replace
 from functools import cached_property
 from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
-
 from sie.errors import LoadError
 from sie.friction.loading import Loads
 from sie.friction.slip_state import Slip
@@ -27,8 +24,6 @@ from sie.problem.load_path import Path
 from sie.problem.path_scene import unsheared
 from sie.problem.scene import Scene
 from sie.solution import Solution
-
-FEW = 8  # breaks of a profile: of more, a trace, each one is faint
 
 # P, and what is added to the scene's tilt or moment.
 Under = tuple[float, float]
@@ -107,12 +102,6 @@ class PathContacts:
             pressure = found.slope_density
             return (pressure.interval,), pressure
         return found.patches, found.in_patches.pressure
-
-    @cached_property
-    def corners(self) -> NDArray[np.float64]:
-        """Where the pressure is not smooth: the breaks of a profile of few pieces."""
-        breaks = np.array(self.scene.profile.pieces.break_points)
-        return breaks if len(breaks) <= FEW else breaks[:0]
 
     def sheared_by(self, loads: Loads) -> tuple[float, float]:
         """Q and τ of loads."""

@@ -1,0 +1,253 @@
+"""Stick, slip and shear of a state of the engine, and the state that a large bulk stress leaves.
+
+Where π r |τ| > |Q| the two edges slip in opposite directions, that of τ at the left one. The state
+is that of one finite step from no shear (`equations`), at constant P: of the friction law in total
+displacements, as in Nowell & Hills (1987). A narrow stick zone [c - ρ, c + ρ] lies where slip in
+both directions balances Q, and of Hertz's contact with the half-width d about c it has
+
+    ρ = 4 d exp(-1 - π |τ|/(2 f p(c)))
+
+from which Newton's method starts.
+"""
+
+from __future__ import annotations
+
+import math
+from abc import abstractmethod
+from collections.abc import Callable, Collection
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from sie.errors import ContactError
+from sie.friction.coupled.half_potential import HalfPotential
+from sie.friction.coupled.traction import OnHalves, resolved_panels
+from sie.numerics.graded_panels import Pieces, Rule
+from sie.numerics.interval import Interval
+from sie.numerics.root_finding import false_position
+from sie.traction.base import Complex, Density, on_line
+from sie.traction.combination import superposed
+
+from .admissible import built, refuse_inadmissible
+from .cells import zones_on_cells
+from .equations import Zones
+from .finite_step import Part, newton
+from .gained_slip import GainedSlip, drag
+from .loading import limit_on
+from .slip_state import Slip, Step
+from .state import SAME as SAME_MARK
+from .state import Contact, State, intervals
+
+Array = NDArray[np.float64]
+
+SAME = 1e-13  # of the contact: marks that are nearer to each other are one
+# of a shear at a smooth edge: its power of the distance
+AT_EDGE = 0.5
+# of the largest f p, at these parts of the half-width: of a shear below it rounding would be seen,
+# which is some 1e-14 of f p
+FAINT, SEEN = 1e-4, np.linspace(-0.9, 0.9, 10)
+SHORT = 2e-9  # of the contact: panels at marks, less than what an end of a stick zone is known to
+MOST = 13.0  # of τ/(f p(c)): beyond, the stick zone is narrower than 1e-8 of the contact
+WIDE = 0.75  # of the distance to the nearer edge: a stick zone at most, at a guess
+
+
+class PanelShear(OnHalves):
+    """A shear traction as Chebyshev series on panels, which are halved towards its marks.
+
+    Parameters
+    ----------
+    contact : Interval
+        The contact, whose edges are smooth.
+    values : callable
+        q at places (1-d), 0 beyond the contact.
+    marks : collection of float
+        Places where q is not smooth.
+    load : float
+        Its resultant, force per length.
+    limit : callable
+        f p at places in the contact: q is a difference of tractions as large as that.
+    """
+
+    def __init__(
+        self,
+        contact: Interval,
+        values: Callable[[Array], Array],
+        marks: Collection[float],
+        load: float,
+        limit: Callable[[Array], Array],
+    ) -> None:
+        self.contact, self.resultant, self._values = contact, load, values
+        self._least = FAINT * float(limit(contact.m + contact.r * SEEN).max())
+        width = 2.0 * contact.r
+        kept = [0.0]
+        for y in sorted(contact.from_left(x) for x in marks):
+            if y - kept[-1] > SAME * width < width - y:
+                kept.append(y)
+        self._ends = (*kept[1:], width)
+
+    @property
+    def middle(self) -> float:
+        return self.contact.x1
+
+    @cached_property
+    def _half(self) -> HalfPotential:
+        def from_left(y: Array, _: Array) -> Array:
+            return self._values(np.minimum(self.contact.x1 + y, self.contact.x2))
+
+        panels = resolved_panels(from_left, self._ends, AT_EDGE, short=SHORT, least=self._least)
+        return HalfPotential(panels[0])
+
+    @cached_property
+    def moment(self) -> float:  # type: ignore[override]
+        y, force = self._half.quadrature
+        return float(force @ (self.contact.x1 + y))
+
+    @property
+    def breaks(self) -> tuple[float, ...]:
+        inner = (self.contact.x1 + y for y in self._ends[:-1])
+        return self.contact.x1, *inner, self.contact.x2
+
+    def __call__(self, x: ArrayLike) -> Array:
+        return on_line(self._values, x)
+
+    def _potentials(self, z: Complex, derivative: bool) -> tuple[Complex, Complex]:
+        return self._half(z, derivative)
+
+
+class StateSlip(Slip):
+    """Stick, slip and shear of a state, `locked`."""
+
+    contacts = ()
+
+    @property
+    @abstractmethod
+    def locked(self) -> State: ...
+
+    @cached_property
+    def shear(self) -> Density:
+        state = self.locked
+        contact = state.contact
+        room = SAME_MARK * contact.width
+
+        def of_patch(x1: float, x2: float) -> Density:
+            zone, marks = Interval(x1, x2), state.marks
+            inside = marks[(marks > x1 + room) & (marks < x2 - room)]
+            rule = Rule.graded(intervals([(x1, x2)], inside, room))
+            load = float(rule.weight @ state.shear.on(rule))
+            return PanelShear(zone, state.shear, inside.tolist(), load, contact.limit)
+
+        found = [of_patch(*patch) for patch in contact.patches]
+        return found[0] if len(found) == 1 else superposed(*((1.0, q) for q in found))
+
+    @property
+    def stick(self) -> tuple[tuple[float, float], ...]:  # type: ignore[override]
+        return self.locked.stick
+
+    @property
+    def slipped(self) -> tuple[tuple[float, float, float], ...]:
+        return self.locked.slip
+
+    @property
+    def levels(self) -> tuple[float, ...]:
+        return tuple(self.locked.marks.tolist())
+
+
+@dataclass(frozen=True, eq=False)
+class TwoSignedSlip(StateSlip):
+    """Slip in opposite directions at the two edges: a finite step from no shear, at constant P."""
+
+    step: Step
+    part: Part
+    kind = "two signs"
+    promised = 1e-8
+
+    @property
+    def locked(self) -> State:
+        return self.part.state
+
+    @property
+    def contact(self) -> Interval:  # type: ignore[override]
+        return self.step.pressure.contact
+
+    @property
+    def friction(self) -> float:  # type: ignore[override]
+        return self.step.scene.friction
+
+    @property
+    def advancing(self) -> bool:  # type: ignore[override]
+        """Whether s (Q ∓ π ρ τ) >= 0 at both ends, from the first stick zone to the last."""
+        Q, strain, (lo, hi) = self.step.Q, math.pi * self.step.tau, self.stick[0]
+        narrow, sign = 0.5 * (hi - lo), math.copysign(1.0, self.step.tau)
+        return all(
+            sign * (Q + strain * rho) >= 0.0 <= sign * (strain * rho - Q)
+            for rho in (self.contact.r, narrow)
+        )
+
+    @cached_property
+    def _gained(self) -> GainedSlip:
+        return GainedSlip(self.part.equations)
+
+    def slip(self, x: Array) -> Array:
+        return self._gained.at(x) * (2.0 / self.step.scene.Estar)
+
+    @property
+    def energy(self) -> float:
+        now = self.part.state.contact
+        return self._gained.paired(now.limit.on) * 2.0 / self.step.scene.Estar
+
+    @property
+    def shift(self) -> float:
+        contact, step = self.contact, self.step
+        stuck = math.pi * step.tau * contact.m - step.Q * math.log(0.5 * contact.r)
+        return (drag(self.part) - stuck) / (0.5 * math.pi * step.scene.Estar)
+
+
+def two_signed(step: Step) -> TwoSignedSlip:
+    """The state where the two edges slip in opposite directions.
+
+    Raises ContactError at sharp edges, and where no zones are found.
+    """
+    patches = (step.pressure.interval,)
+    limit = limit_on(step.scene, patches, step.pressure)
+    infinite = limit.marks[np.isinf(step.pressure(limit.marks))]
+    if infinite.size:
+        raise ContactError(
+            "the bulk stress makes the two edges slip in opposite directions, which is not covered "
+            f"with an infinite pressure at x = {infinite[0]:.6g}: round the profile there, or "
+            "lower the bulk stress"
+        )
+    before = State.untouched(Contact(patches, limit, 0.0, 0.0))
+    after = Contact(patches, limit, step.Q, step.tau)
+    guess = _zones(after)
+    try:
+        found = newton(before, after, guess)
+    except ContactError:
+        found = newton(before, after, zones_on_cells(before, after)[0])
+    state = built(found)
+    refuse_inadmissible(found, state)
+    return TwoSignedSlip(step, Part(before, state, 0.0, 1.0))
+
+
+def _zones(after: Contact) -> Zones:
+    """The narrow stick zone between slip in opposite directions, about."""
+    ((x1, x2),), sign = after.patches, math.copysign(1.0, after.tau)
+    places = Pieces.places(after.limit.ends)
+    force = Pieces.integral(places, after.limit.on(places))
+    aim = 0.5 * (force.last + sign * after.Q)
+
+    def missed(c: float) -> float:
+        return float(force(np.array([c]))[0]) - aim
+
+    c = false_position(missed, x1, x2, (-aim, force.last - aim), lambda *_: False)
+    near, limit = min(c - x1, x2 - c), float(after.limit(np.array([c]))[0])
+    strain = abs(after.tau) / limit
+    if strain > MOST:
+        share = 0.999 * MOST / strain
+        raise ContactError(
+            f"the bulk stress is {strain:.4g} times f p at x = {c:.6g} and leaves a stick zone too "
+            f"narrow for doubles: give at most {share:.4g} times as much"
+        )
+    rho = near * min(WIDE, 4.0 * math.exp(-1.0 - 0.5 * math.pi * strain))
+    return Zones(((c - rho, c + rho),), (sign, -sign))
