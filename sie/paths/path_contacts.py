@@ -15,8 +15,8 @@ from typing import Any
 
 from sie.errors import LoadError
 from sie.friction.loading import Loads
+from sie.friction.partial_slip import OneSignedSlip
 from sie.friction.slip_state import Slip
-from sie.friction.states import OneSignedSlip
 from sie.numerics.interval import EPS, Interval
 from sie.patches.answer import SeveralPatches
 from sie.patches.full import FullContact

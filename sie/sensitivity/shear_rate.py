@@ -15,7 +15,7 @@ from dataclasses import replace
 from typing import Any, NamedTuple
 
 from sie.errors import ContactError
-from sie.friction.states import OneSignedSlip
+from sie.friction.partial_slip import OneSignedSlip
 from sie.patches.friction import PatchSlip
 from sie.traction.base import Density
 from sie.traction.combination import superposed
@@ -55,13 +55,14 @@ def shear_rate(solution: Any, by: Parameter, contact: ContactRate) -> ShearRate:
             raise _begins("Q and the bulk stress are 0")
         return ShearRate(contact.patches)
     state: Any = solution.tangential
+    found: Any
     density: Density
     if scene.sliding:
         return _sum((), scene.sliding, ((f, solution.pressure, contact.pressure),), by.friction)
     if scene.slides:
         raise _begins("|Q| = f P")
     if isinstance(state, OneSignedSlip):
-        found, density = _with_contact(state.found, state.corrective), state.corrective
+        found, density = state.found, state.corrective
     elif isinstance(state, PatchSlip):
         found, density = state.corrective, state.corrective.pressure
     else:
@@ -89,10 +90,6 @@ def _sum(
     rates = tuple((sign * f, rate) for f, _, rate in parts)
     by_friction = tuple((sign * math.copysign(1.0, f) * friction, p) for f, p, _ in parts)
     return ShearRate(stick, terms, rates + by_friction)
-
-
-def _with_contact(found: Any, density: Any) -> Any:
-    return replace(found, edges=replace(found.edges, contact=density.contact))
 
 
 def _begins(where: str) -> ContactError:
