@@ -17,9 +17,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from sie.friction.admissible import change_of_shear, excess_in_stick, opposing_slip
 from sie.friction.slip_state import Slip
-from sie.friction.state import SAME, intervals
+from sie.friction.state import SAME, change_of_shear, excess_in_stick, intervals, opposing_slip
 from sie.numerics.chord import Chord, Points
 from sie.numerics.graded_panels import Rule as GradedRule
 from sie.numerics.interval import EPS, Interval
@@ -36,7 +35,6 @@ from .result import EXPLAINED, ShearCertificate
 
 if TYPE_CHECKING:
     from sie.friction.finite_step import Part
-    from sie.friction.strip_part import StripPart
 
 Array = NDArray[np.float64]
 
@@ -277,9 +275,7 @@ FOLLOWED = 1e-8  # of the largest shear, and of a half-width: what is promised o
 FAINT = 1e-4  # of the largest f p, a shear: of a smaller one that is promised of so large a one
 
 
-def certificate_of_parts(
-    state: Slip, parts: Sequence[Part | StripPart], tol: float
-) -> ShearCertificate:
+def certificate_of_parts(state: Slip, parts: Sequence[Part], tol: float) -> ShearCertificate:
     """The certificate from the changes of the shear in the parts of the last step.
 
     It is measured from the states at the ends of parts: 1/π PV∫ Δq/(x - t) dt - Δτ where the

@@ -9,7 +9,6 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
-from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,10 +16,10 @@ from numpy.typing import NDArray
 from sie.errors import ContactError
 from sie.numerics.graded_panels import Pieces
 
-from .admissible import built, refuse_inadmissible
 from .equations import Equations, Zones
 from .onset import End
-from .state import SAME, Contact, Ends, State, between, intervals
+from .state import SAME, Contact, Ends, State, between, intervals, overlaps, refuse_inadmissible
+from .strips import Panel
 
 Array = NDArray[np.float64]
 STEPS = 40  # of Newton's method
@@ -46,47 +45,52 @@ NARROWEST = 1e-12  # of the contact: a stick zone
 
 @dataclass(frozen=True, eq=False)
 class Part:
-    """A finite part of a step: the states at its ends, and its shares of the step.
+    """A part of a step: its end, and its shares of the step.
 
-    known   what ends of stick zones do next, by their places, where an event decided it
+    equations      those that the state at its end solves
+    state          that state
+    begun, until   shares of the step
+    panel          the moments of a part on which something came to stick; None: a finite step
+    known          what ends of stick zones do next, by their places, where an event decided it
+    opened         place and direction of slip that begins in stick
+    solved         whether no longer part was tried in vain
     """
 
-    before: State
+    equations: Equations
     state: State
     begun: float
     until: float
+    panel: Panel | None = None
     known: Mapping[float, End] = field(default_factory=dict)
     opened: tuple[float, float] | None = None
     solved: bool = True
 
     @property
+    def before(self) -> State:
+        """The state at the start."""
+        return self.equations.before
+
+    @property
     def stuck(self) -> Ends:
         """What stuck all along."""
-        return self.state.stick
-
-    @cached_property
-    def equations(self) -> Equations:
-        """Those that the state solves."""
-        signs = tuple(s for *_, s in self.state.slip)
-        return Equations(self.before, self.state.contact, Zones(self.state.stick, signs))
+        stick = self.state.stick
+        return stick if self.panel is None else overlaps(self.before.stick, stick)
 
 
-def solved(before: State, after: Contact, guess: Zones) -> State:
-    """The state at the end, whose zones Newton's method finds from a guess.
+def solved(before: State, after: Contact, guess: Zones) -> Equations:
+    """The equations at the end, whose zones Newton's method finds from a guess.
 
     Raises ContactError where it finds none, or one that is not admissible.
     """
     found = Equations(before, after, guess)
     if guess.signs and not balanced(found, ON_MARK_AT_LEAST):
         found = newton(before, after, guess)
-    state = built(found)
     try:
-        refuse_inadmissible(found, state)
+        refuse_inadmissible(before, found.state, found.state.stick)
     except ContactError:
         found = on_marks(found, ON_MARK_AT_LEAST)  # the history is known to so much
-        state = built(found)
-        refuse_inadmissible(found, state)
-    return state
+        refuse_inadmissible(before, found.state, found.state.stick)
+    return found
 
 
 def newton(before: State, after: Contact, guess: Zones) -> Equations:

@@ -23,7 +23,6 @@ from .equations import Equations, Gap
 from .finite_step import Part
 from .loading import LoadStep
 from .state import SAME, intervals, united
-from .strip_part import StripPart
 from .strips import TAU, StripEquations
 from .zones_between import ZonesBetween
 
@@ -138,7 +137,7 @@ class GainedSlip:
 # -- what is asked of a part -----------------------------------------------------------------------
 
 
-def slip(part: Part | StripPart, step: LoadStep, x: Array) -> Array:
+def slip(part: Part, step: LoadStep, x: Array) -> Array:
     """The slip at places (1-d); at one that came into contact in the part, since then."""
     found = GainedSlip(part.equations).at(x)
     old, new = (part.before.contact.patches, part.state.contact.patches)
@@ -151,7 +150,7 @@ def slip(part: Part | StripPart, step: LoadStep, x: Array) -> Array:
     return np.where(touches, found, 0.0) * (2.0 / step.contacts.scene.Estar)
 
 
-def drag(part: Part | StripPart) -> float:
+def drag(part: Part) -> float:
     """π E*/2 times the shift of the indenter, but for a multiple of ΔQ that is always the same.
 
     It is -∫Δq ln|x_s - t| dt + π Δτ x_s, x_s a place that stuck all along.
@@ -173,7 +172,7 @@ def _within(x: Array, patches: tuple[tuple[float, float], ...]) -> NDArray[np.bo
     return out
 
 
-def _stuck_all_along(part: Part | StripPart) -> float:
+def _stuck_all_along(part: Part) -> float:
     """The middle of the longest zone that stuck all along."""
     if not part.stuck:
         raise ContactError("no point stuck all along: how far slip shifts is not covered")
@@ -184,7 +183,7 @@ def _stuck_all_along(part: Part | StripPart) -> float:
 # -- places that come into contact -----------------------------------------------------------------
 
 
-def _slip_at_touch(part: Part | StripPart, step: LoadStep, x: Array) -> Array:
+def _slip_at_touch(part: Part, step: LoadStep, x: Array) -> Array:
     """(E*/2) Δg at places when they come into contact, at an edge that grows steadily.
 
     The place of the edge and the slip there are series in τ, t = t0 + T τ².
@@ -210,9 +209,9 @@ def _slip_at_touch(part: Part | StripPart, step: LoadStep, x: Array) -> Array:
     return found
 
 
-def _moments(part: Part | StripPart, step: LoadStep) -> list[Equations]:
+def _moments(part: Part, step: LoadStep) -> list[Equations]:
     """The equations at the moments of a part."""
-    if isinstance(part, StripPart):
+    if part.panel is not None:
         return list(part.panel.equations)
     way = ZonesBetween.back(part, step)
     shares = part.begun + (part.until - part.begun) * TAU[1:] ** 2

@@ -26,7 +26,6 @@ from .memory import LoadMemory, SlippedLayer, in_proportion, simple
 from .onset import Motion, onset
 from .slip_state import Slip
 from .state import State
-from .strip_part import StripPart
 
 Result = TypeVar("Result")
 
@@ -58,7 +57,7 @@ class TurningPoint:
     sign: float = 1.0
     slipped: tuple[SlippedLayer, ...] = ()
     turned: bool = False
-    parts: tuple[Part | StripPart, ...] = ()
+    parts: tuple[Part, ...] = ()
     step: LoadStep | None = None
     why: str = ""
 

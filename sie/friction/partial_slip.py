@@ -327,10 +327,6 @@ class OneSignedSlip(Slipping):
         inner, outer = self.found.edges.contact, self.contact
         return ((max(inner.x1, outer.x1), min(inner.x2, outer.x2)),)
 
-    @property
-    def stick_zone(self) -> Interval:
-        return self.found.edges.contact
-
     @cached_property
     def corrective(self) -> SlopeDensity:
         """p̂."""

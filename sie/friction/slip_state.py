@@ -122,12 +122,6 @@ class Slip(ABC):
         return self.stick[0] if self.stick else (0.0, 0.0)
 
     @property
-    def stick_zone(self) -> Interval:
-        """The stick zone, which of a corner may reach beyond the contact; its centre if none."""
-        middle = self.contact.m
-        return Interval(*self.stick[0]) if self.stick else Interval(middle, middle)
-
-    @property
     def levels(self) -> tuple[float, ...]:
         """Further kinks of q: the ends of earlier stick zones."""
         return ()

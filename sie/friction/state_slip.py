@@ -30,7 +30,6 @@ from sie.numerics.root_finding import false_position
 from sie.traction.base import Complex, Density, on_line
 from sie.traction.combination import superposed
 
-from .admissible import built, refuse_inadmissible
 from .cells import zones_on_cells
 from .equations import Zones
 from .finite_step import Part, newton
@@ -38,7 +37,7 @@ from .gained_slip import GainedSlip, drag
 from .loading import limit_on
 from .slip_state import Slip, Step
 from .state import SAME as SAME_MARK
-from .state import Contact, State, intervals
+from .state import Contact, State, intervals, refuse_inadmissible
 
 Array = NDArray[np.float64]
 
@@ -225,9 +224,8 @@ def two_signed(step: Step) -> TwoSignedSlip:
         found = newton(before, after, guess)
     except ContactError:
         found = newton(before, after, zones_on_cells(before, after)[0])
-    state = built(found)
-    refuse_inadmissible(found, state)
-    return TwoSignedSlip(step, Part(before, state, 0.0, 1.0))
+    refuse_inadmissible(before, found.state, found.state.stick)
+    return TwoSignedSlip(step, Part(found, found.state, 0.0, 1.0))
 
 
 def _zones(after: Contact) -> Zones:

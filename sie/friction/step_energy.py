@@ -36,9 +36,8 @@ from .gained_slip import GainedSlip
 from .loading import LoadStep
 from .rates import Rates
 from .state import State
-from .strip_part import StripPart
-from .strips import TAU
-from .zones_between import ZonesBetween, rates_of
+from .strips import TAU, Panel
+from .zones_between import ZonesBetween
 
 Array = NDArray[np.float64]
 
@@ -56,7 +55,7 @@ NEARER = 0.6  # times the distance of a share that was not solved: the next that
 MOST_PIECES, MOST_MISSED = 40, 60
 
 
-def work(part: Part | StripPart, step: LoadStep) -> float:
+def work(part: Part, step: LoadStep) -> float:
     """The energy of a part. Raises ContactError where it is not known to `REFUSED`."""
     if not part.state.slip and (step.constant or not _leaves(part, step)):
         return 0.0
@@ -69,12 +68,12 @@ def work(part: Part | StripPart, step: LoadStep) -> float:
     contact = part.state.contact
     whole, error = GainedSlip(part.equations).paired(contact.limit.on), 0.0
     if not step.constant:
-        if isinstance(part, StripPart):
-            moved, error = _of_panel(part, step, whole)
+        if part.panel is not None:
+            moved, error = _of_panel(part.panel)
         else:
             moved, error = _of_finite_part(part, step, whole)
         whole -= moved
-    elif not isinstance(part, StripPart):
+    elif part.panel is None:
         error = _turned(part, step)
     if error > REFUSED * whole:
         raise ContactError(
@@ -84,9 +83,9 @@ def work(part: Part | StripPart, step: LoadStep) -> float:
     return whole * 2.0 / step.contacts.scene.Estar
 
 
-def _leaves(part: Part | StripPart, step: LoadStep) -> bool:
+def _leaves(part: Part, step: LoadStep) -> bool:
     """Whether slip zones have left the contact before the end of a part."""
-    if isinstance(part, StripPart) or part.state.contact.width >= part.before.contact.width:
+    if part.panel is not None or part.state.contact.width >= part.before.contact.width:
         return False
     after = step.at(part.begun + 0.5 * (part.until - part.begun))
     return not balanced(Equations(part.before, after, Zones(after.patches, ())), STUCK)
@@ -138,9 +137,8 @@ def _integral(values: Array) -> tuple[float, float]:
     return float(weights @ values), float(tail) / n**2
 
 
-def _of_panel(part: StripPart, step: LoadStep, whole: float) -> tuple[float, float]:
+def _of_panel(panel: Panel) -> tuple[float, float]:
     """∫ dt ∫ f dp/dt s Δg dx of a part on which something comes to stick, and its error."""
-    panel = part.panel
     values = [_by_pressure(*one) for one in zip(panel.equations, panel.rates, strict=True)]
     return _integral(np.append(0.0, 2.0 * panel.span.length * TAU[1:] * np.array(values)))
 
@@ -211,7 +209,7 @@ class Way(ZonesBetween):
                 return between, doubt
         if share not in self.values:
             now = self.known[share]
-            self.values[share] = _by_pressure(now, rates_of(now, self.step))
+            self.values[share] = _by_pressure(now, now.rates(self.step.rates, self.step.friction))
         return self.values[share], 0.0
 
     def _between(self, share: float) -> tuple[float, float, tuple[float, float]]:
