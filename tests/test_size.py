@@ -20,7 +20,7 @@ LINES = {
     "cli": 980,
     "contact": 2510,
     "examples": 10,
-    "friction": 10330,
+    "friction": 10270,
     "inverse": 320,
     "io": 5580,
     "live": 1170,

@@ -36,9 +36,10 @@ from sie.numerics.graded_panels import (
     gauss_shares,
     principal_value,
 )
+from sie.numerics.zones import left_over
 
 from .rates import LoadRates, Rates
-from .state import KNOWN, SAME, Contact, Ends, State, between, intervals, united
+from .state import KNOWN, SAME, Contact, Ends, State, intervals, united
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -134,7 +135,7 @@ class Equations:
         old, new = self.before.contact, self.after
         edges = np.array((*old.patches, *new.patches)).ravel()
         marks = np.unique(np.concatenate((self.before.marks, new.limit.marks, edges)))
-        return intervals(between(self.touched, self.zones.stick), marks, SAME * new.width)
+        return intervals(left_over(self.touched, self.zones.stick), marks, SAME * new.width)
 
     @property
     def sources(self) -> Array:
@@ -158,7 +159,7 @@ class Equations:
 
     @cached_property
     def slip(self) -> tuple[tuple[float, float, float], ...]:
-        beside = between(self.after.patches, self.zones.stick)
+        beside = left_over(self.after.patches, self.zones.stick)
         if len(beside) != len(self.zones.signs):
             raise ContactError("a stick zone reaches an edge of the contact")
         return tuple((*zone, s) for zone, s in zip(beside, self.zones.signs, strict=True))

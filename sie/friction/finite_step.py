@@ -15,10 +15,11 @@ from numpy.typing import NDArray
 
 from sie.errors import ContactError
 from sie.numerics.graded_panels import Pieces
+from sie.numerics.zones import left_over
 
 from .equations import Equations, Zones
 from .onset import End
-from .state import SAME, Contact, Ends, State, between, intervals, overlaps, refuse_inadmissible
+from .state import SAME, Contact, Ends, State, intervals, overlaps, refuse_inadmissible
 from .strips import Panel
 
 Array = NDArray[np.float64]
@@ -309,7 +310,7 @@ def _bounds(before: State, after: Contact, zones: Zones, goes_on: bool) -> Array
     """
     ends = np.array(zones.stick).ravel()
     out = np.empty((len(ends), 2))
-    beside, old = between(after.patches, zones.stick), {e for zone in before.stick for e in zone}
+    beside, old = left_over(after.patches, zones.stick), {e for zone in before.stick for e in zone}
     for j, e in enumerate(ends):
         inside = []
         for patches in (before.contact.patches, after.patches):

@@ -10,7 +10,7 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from functools import partial
-from typing import Protocol, TypeVar
+from typing import Any, Protocol, TypeVar
 
 from sie.errors import ContactError
 from sie.numerics.graded_panels import Pieces
@@ -77,7 +77,14 @@ class Followable(Contacts, Protocol):
     first_loading   the state of a contact that was never sheared before S rose to a depth
     in_parts        the turning point after a step that no layers answer
     followed        the same from any state
+    plain           the solution under P and a tilt, without shear
+    shift_of_step   the shift that slip adds in one step
     """
+
+    turning_points: tuple[TurningPoint, ...]
+
+    @property
+    def period(self) -> float: ...
 
     def shear(self, loads: Loads) -> complex: ...
     @property
@@ -88,6 +95,8 @@ class Followable(Contacts, Protocol):
     def first_loading(self, normal: tuple[float, float], depth: complex, turned: bool) -> Slip: ...
     def in_parts(self, before: TurningPoint, loads: Loads) -> TurningPoint: ...
     def followed(self, start: State, first: Loads, loads: Loads) -> TurningPoint: ...
+    def plain(self, P: float, turn: float) -> Any: ...
+    def shift_of_step(self, index: int) -> float: ...
 
 
 def turning_points(scene: Scene, path: Path, contacts: Followable) -> tuple[TurningPoint, ...]:
@@ -147,12 +156,12 @@ def stepped(contacts: Followable, before: TurningPoint, loads: Loads) -> Turning
     pull = simple(shear - memory.total)
     if abs(pull) <= ROUNDED * max(abs(shear), abs(memory.total)):
         pull = 0.0
-    if not pull and (same or memory.top is None):
+    if not pull and (same or not memory.layers):
         return replace(before, loads=loads, slipped=())
     why = "P or the tilt changes"
     if same:
         why = "Q and bulk stress change in another proportion"
-        if memory.top is None or in_proportion(pull, memory.top.depth):
+        if not memory.layers or in_proportion(pull, memory.depth):
             point = layered(contacts, before, loads, pull)
             if point:
                 return point

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from functools import cached_property
 from itertools import pairwise
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,38 +15,21 @@ from sie.errors import ContactError
 from sie.numerics import chebyshev
 from sie.numerics.graded_panels import Pieces
 from sie.numerics.interval import Interval
-from sie.numerics.zones import within
+from sie.numerics.zones import left_over, within
 from sie.traction.base import ZERO, Density
 from sie.traction.combination import superposed
 
 from .gained_slip import drag, slip
-from .load_steps import Followable, TurningPoint, sheared_all_over
+from .load_steps import Followable, TurningPoint
 from .loading import Loads, contact_under
 from .slip_state import Slip
-from .state import SAME, State, between, intervals
+from .state import SAME, State, intervals
 from .state_slip import StateSlip
 from .step_energy import work
 
 Array = NDArray[np.float64]
 
 NODES, EARLY = 24, 6  # of a step: nodes in a root of its share
-
-
-class Followed(Followable, Protocol):
-    """A path that was followed, and its contacts.
-
-    turning_points   the layers after each step
-    period           of the profile
-    plain            the solution under P and a tilt, without shear
-    shift_of_step    the shift that slip adds in one step
-    """
-
-    turning_points: tuple[TurningPoint, ...]
-
-    @property
-    def period(self) -> float: ...
-    def plain(self, P: float, turn: float) -> Any: ...
-    def shift_of_step(self, index: int) -> float: ...
 
 
 class PathSlip(Slip):
@@ -57,7 +41,7 @@ class PathSlip(Slip):
     kind = "after a path"
 
     def __init__(
-        self, history: Followed, index: int = 0, state: TurningPoint | None = None
+        self, history: Followable, index: int = 0, state: TurningPoint | None = None
     ) -> None:
         self.history, self.index = history, index
         self.state = history.turning_points[index] if state is None else state
@@ -84,8 +68,8 @@ class PathSlip(Slip):
     @property
     def _now(self) -> Slip | None:
         """The first loading whose depth is that of the last step's slip."""
-        top = self.state.memory.top
-        return self._loading(top.thickness) if self.state.slipped and top else None
+        layers = self.state.memory.layers
+        return self._loading(layers[0][0]) if self.state.slipped and layers else None
 
     @property
     def stick(self) -> tuple[tuple[float, float], ...]:  # type: ignore[override]
@@ -175,7 +159,7 @@ class CourseSlip(StateSlip, PathSlip):
         return self.state.state
 
 
-def state_of(history: Followed, point: TurningPoint) -> State:
+def state_of(history: Followable, point: TurningPoint) -> State:
     """What a step from a turning point starts from."""
     if point.parts:
         return point.state
@@ -187,62 +171,53 @@ def state_of(history: Followed, point: TurningPoint) -> State:
     marks = np.unique(np.concatenate((slip.levels, contact.limit.marks)))
     q = Pieces.fitted(intervals(contact.patches, marks, room), lambda rule: shear(rule.x))
     stick = tuple((lo, hi) for lo, hi in slip.stick if hi > lo)
-    zones = between(contact.patches, stick)
+    zones = left_over(contact.patches, stick)
     signs = np.sign(q(np.array([0.5 * (lo + hi) for lo, hi in zones])))
     slips = tuple((*zone, float(s)) for zone, s in zip(zones, signs, strict=True))
     return State(contact, stick, slips, q)
 
 
-def touched(history: Followed, loads: Loads) -> State:
-    """The same where the bodies have just come into contact: q is in proportion to p."""
-    return sheared_all_over(history, loads, loads.Q)
-
-
 # -- what a step adds ------------------------------------------------------------------------------
 
 
-def step_energy(history: Followed, index: int) -> float:
+def _overwritten(history: Followable, point: TurningPoint) -> Iterator[tuple[float, Slip]]:
+    """The first loadings whose sum, each times a factor, is what slip adds in a step by layers."""
+    for layer in point.slipped:
+        for depth, factor in ((layer.lower, layer.jump), (layer.upper, -layer.jump)):
+            if depth:
+                yield factor, history.first_loading(point.loads.normal, depth, point.turned)
+
+
+def step_energy(history: Followable, index: int) -> float:
     """The energy that friction dissipates in one step."""
     state = history.turning_points[index]
     if state.step is not None:
         with np.errstate(all="ignore"):  # what that leaves is not accurate, and refused
             return sum(work(part, state.step) for part in state.parts)
-
-    def until(depth: complex) -> float:
-        loading = history.first_loading(state.loads.normal, depth, state.turned)
-        return loading.energy if depth else 0.0
-
-    return sum(o.jump * (until(o.lower) - until(o.upper)) for o in state.slipped)
+    return sum(factor * loading.energy for factor, loading in _overwritten(history, state))
 
 
-def step_slip(history: Followed, index: int, x: Array) -> Array:
+def step_slip(history: Followable, index: int, x: Array) -> Array:
     """The slip in one step; where x came into contact in it, since then."""
     state, out = history.turning_points[index], np.zeros(x.shape)
     for part in state.parts:
         assert state.step is not None
         out += slip(part, state.step, x)
-    for o in state.slipped:
-        for depth, way in ((o.lower, state.sign), (o.upper, -state.sign)):
-            if depth:
-                loading = history.first_loading(state.loads.normal, depth, state.turned)
-                out += way * o.jump * loading.slip(x)
+    for factor, loading in _overwritten(history, state):
+        out += state.sign * factor * loading.slip(x)
     return out
 
 
-def step_shift(history: Followed, index: int) -> float:
+def step_shift(history: Followable, index: int) -> float:
     """The shift that slip adds in one step."""
     state = history.turning_points[index]
     if state.step is not None:
         return _shift_of_parts(history, state)
-
-    def until(depth: complex) -> float:
-        loading = history.first_loading(state.loads.normal, depth, state.turned)
-        return loading.shift if depth else 0.0
-
-    return sum(state.sign * o.jump * (until(o.lower) - until(o.upper)) for o in state.slipped)
+    parts = _overwritten(history, state)
+    return state.sign * sum(factor * loading.shift for factor, loading in parts)
 
 
-def _shift_of_parts(history: Followed, point: TurningPoint) -> float:
+def _shift_of_parts(history: Followable, point: TurningPoint) -> float:
     """The shift that slip adds in a step: all of it, less that without slip.
 
     A contact [M - R, M + R] that does not slip shifts by -2 ln R/(π E*) dQ + 2/E* M dτ.

@@ -91,21 +91,6 @@ def intervals(zones: Iterable[tuple[float, float]], marks: Array, same: float) -
     return np.concatenate(found) if found else np.zeros((0, 2))
 
 
-def between(patches: Ends, stick: Ends) -> Ends:
-    """What of the patches is beside the stick zones, ascending."""
-    found = []
-    for lo, hi in patches:
-        start = lo
-        for a, b in stick:
-            if lo <= a and b <= hi:
-                if a > start:
-                    found.append((start, a))
-                start = b
-        if hi > start:
-            found.append((start, hi))
-    return tuple(found)
-
-
 def united(first: Ends, second: Ends) -> Ends:
     """The union of two sets of patches."""
     found: list[tuple[float, float]] = []

@@ -20,7 +20,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass, field
-from functools import lru_cache
+from functools import lru_cache, partial
 from itertools import pairwise
 
 import numpy as np
@@ -241,33 +241,21 @@ def _cuts(way: Way, shares: list[float]) -> list[float]:
                 and first.zones.signs != last.zones.signs
                 and ends[0][j] * ends[1][j] < 0.0
             ):
-                found.append(_root(_Coordinate(way, j), way, sooner, later))
+                found.append(_root(partial(_coordinate, way, j), way, sooner, later))
             inside = (way.before.marks - a) * (b - way.before.marks) > near**2
             for mark in way.before.marks[inside]:
-                found.append(_root(_Beyond(j, float(mark)), way, sooner, later))
+                found.append(_root(partial(_beyond, j, float(mark)), way, sooner, later))
     return found
 
 
-@dataclass(frozen=True)
-class _Coordinate:
+def _coordinate(way: Way, j: int, now: Equations) -> float:
     """Coordinate j of the zones."""
-
-    way: Way
-    j: int
-
-    def __call__(self, now: Equations) -> float:
-        return float(self.way.coordinates(now)[self.j])
+    return float(way.coordinates(now)[j])
 
 
-@dataclass(frozen=True)
-class _Beyond:
+def _beyond(j: int, mark: float, now: Equations) -> float:
     """How far end j is beyond a mark."""
-
-    j: int
-    mark: float
-
-    def __call__(self, now: Equations) -> float:
-        return float(_places(now)[self.j] - self.mark)
+    return float(_places(now)[j] - mark)
 
 
 def _places(now: Equations) -> Array:

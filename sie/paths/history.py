@@ -37,6 +37,7 @@ from sie.friction.load_steps import (
     TurningPoint,
     named,
     points_of_loads,
+    sheared_all_over,
     turning_points,
 )
 from sie.friction.loading import Loads, LoadStep
@@ -46,7 +47,6 @@ from sie.friction.path_slip import (
     state_of,
     step_energy,
     step_shift,
-    touched,
 )
 from sie.friction.slip_state import Slip
 from sie.friction.state import State
@@ -250,7 +250,10 @@ class History(PathContacts, Sequence[Solution]):
         """The turning point after a step, followed part by part."""
         first = before.loads.touching(loads)
         self._refuse_unseen(first, loads)
-        start = state_of(self, before) if first is before.loads else touched(self, first)
+        if first is before.loads:
+            start = state_of(self, before)
+        else:  # the bodies have just come into contact
+            start = sheared_all_over(self, first, first.Q)
         return self.followed(start, first, loads)
 
     def followed(self, start: State, first: Loads, loads: Loads) -> TurningPoint:

@@ -66,10 +66,10 @@ class SteadyCycle(Sequence["SteadyState"]):
     def _reduced(self) -> Slip | None:
         """The first loading of A to the depth of slip, at constant P and tilt."""
         point = self.history.turning_points[0]
-        top = point.memory.top
-        if top is None:
+        if not point.memory.layers:
             return None
-        return self.history.first_loading(point.loads.normal, top.thickness, point.turned)
+        depth = point.memory.layers[0][0]
+        return self.history.first_loading(point.loads.normal, depth, point.turned)
 
     @property
     def stick(self) -> tuple[tuple[float, float], ...]:
@@ -147,9 +147,8 @@ class SteadyCycle(Sequence["SteadyState"]):
     def shear_change(self) -> Density:
         """q_A - q_B, a `Density` in units of stress."""
         A, B = self._ends
-        top, reduced = A.memory.top, self._reduced
-        if top is not None and reduced is not None:
-            return superposed((2.0 * top.k, reduced.shear))
+        if self._reduced is not None:
+            return superposed((2.0 * A.memory.layers[0][1], self._reduced.shear))
         if B.parts:
             assert B.step is not None
             s = -B.state.slip[0][2]
