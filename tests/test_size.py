@@ -27,7 +27,7 @@ LINES = {
     "many": 950,
     "numerics": 2130,
     "patches": 5240,
-    "paths": 1060,
+    "paths": 1070,
     "plots": 1030,
     "problem": 950,
     "profiles": 5570,

@@ -18,6 +18,7 @@ steps are followed part by part, and why. A path may begin unloaded, at (0, 0, 0
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Collection, Sequence
 from contextlib import suppress
 from dataclasses import replace
@@ -69,6 +70,7 @@ Array = NDArray[np.float64]
 
 UNSEEN = 1e-9  # of f P: a smaller step of P is not followed part by part ...
 UNTOLD = 1e-11  # ... and a smaller one at constant P
+SLIDES, STICKS = 1e-10, 1e-9  # of f P, that Q is below it: what is refused, and what is not
 
 
 def follow(
@@ -260,6 +262,14 @@ class History(PathContacts, Sequence[Solution]):
         """The turning point after a step from a state, part by part."""
         if first.sigma != loads.sigma:
             refuse_stretch(self.period)
+        f, limit = self.scene.friction, self.scene.friction * loads.P
+        slips = abs(loads.Q - first.Q) > f * (loads.P - first.P) * (1.0 + SLIDES)
+        if slips and abs(loads.Q) > (1.0 - SLIDES) * limit:
+            Q = math.copysign((1.0 - STICKS) * limit, loads.Q)
+            raise ContactError(
+                "|Q| comes to f P in a step in which P, the tilt or the proportion of Q and σ "
+                f"changes: no stick zone is left to follow; end it at Q = {Q:.12g}"
+            )
         for at in (first, loads):
             found = self.plain(*at.normal)
             if any(found.sharp):
