@@ -267,8 +267,7 @@ class Sheared(Frictionless):
         """The energy dissipated by slip."""
         if self.scene.coupled:
             return self.coupled[1].energy
-        slip = self.tangential
-        return slip.integrals.work if slip.integrals else slip.energy
+        return self.tangential.energy
 
     @cached_property
     def certificate(self) -> Certificate | PatchCertificate:

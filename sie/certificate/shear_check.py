@@ -17,9 +17,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from sie.friction.admissible import change_of_shear, excess_in_stick, opposing_slip
 from sie.friction.slip_state import Slip
-from sie.friction.state import SAME, intervals
+from sie.friction.state import SAME, change_of_shear, excess_in_stick, intervals, opposing_slip
 from sie.numerics.chord import Chord, Points
 from sie.numerics.graded_panels import Rule as GradedRule
 from sie.numerics.interval import EPS, Interval
@@ -36,8 +35,7 @@ from .quadrature import composite_rule, finite
 from .result import EXPLAINED, ShearCertificate
 
 if TYPE_CHECKING:
-    from sie.friction.part import Part
-    from sie.friction.strip_part import StripPart
+    from sie.friction.finite_step import Part
 
 Array = NDArray[np.float64]
 
@@ -123,7 +121,7 @@ def shear_certificate(
             condition=state.condition,
             advancing=state.advancing,
             kind=state.kind,
-            tol=tol,
+            tol=max(tol, state.promised),
         )
 
 
@@ -205,11 +203,14 @@ def excess(
     slipped: Sequence[tuple[float, float, float]], contact: Interval, x: Array, p: Array, q: Array
 ) -> float:
     """The largest |q| - f p in stick, or error of |q| = f p in slip."""
-    # A node on a corner, where p is infinite, was set to 0.
-    worst = float(np.where(p > 0.0, np.abs(q) - p, -np.inf).max())
     margin = ENDS * (contact.r + abs(contact.m))
+    ends = np.array([e for zone in slipped for e in zone[:2]])
+    near = (np.abs(x[:, None] - ends) <= margin).any(axis=1)
+    # A node on a corner, where p is infinite, was set to 0.
+    x, p, q = (values[(p > 0.0) & ~near] for values in (x, p, q))
+    worst = float((np.abs(q) - p).max(initial=-np.inf))
     for lo, hi, sign in slipped:
-        slipping = (x > lo + margin) & (x < hi - margin) & (p > 0.0)
+        slipping = (x > lo) & (x < hi)
         worst = max(worst, float(np.abs(sign * q - p)[slipping].max(initial=0.0)))
     return worst
 
@@ -265,9 +266,7 @@ FOLLOWED = 1e-8  # of the largest shear, and of a half-width: what is promised o
 FAINT = 1e-4  # of the largest f p, a shear: of a smaller one that is promised of so large a one
 
 
-def certificate_of_parts(
-    state: Slip, parts: Sequence[Part | StripPart], tol: float
-) -> ShearCertificate:
+def certificate_of_parts(state: Slip, parts: Sequence[Part], tol: float) -> ShearCertificate:
     """The certificate from the changes of the shear in the parts of the last step.
 
     It is measured from the states at the ends of parts: 1/π PV∫ Δq/(x - t) dt - Δτ where the

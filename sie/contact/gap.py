@@ -12,8 +12,6 @@ is least: its slope changes sign there, however far the contact is.
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -28,7 +26,6 @@ from sie.traction.of_slope import SlopeDensity
 from .convexity import rises, rises_at
 
 Array = NDArray[np.float64]
-More = Callable[[Array, float], Array] | None
 Intervals = tuple[tuple[float, float], ...]
 
 NODES = 20
@@ -55,15 +52,12 @@ def gap(
     x: Array,
     density: SlopeDensity,
     slope: Slope,
-    more: More = None,
     places: tuple[Array, Array] | None = None,
 ) -> Array:
     """The gap at x (1-d): 0 in contact, inf beyond the ends of the indenter.
 
     `slope` includes the tilt. A function's narrow valleys are looked for at `places`, left and
     right of the contact.
-
-    `more(x, side)` is added to the outward derivative of the gap: what else opens it.
     """
     out = np.where(np.isnan(x), np.nan, 0.0)
     lo, hi = slope.domain
@@ -81,7 +75,7 @@ def gap(
     ):
         if outside.any():
             with np.errstate(over="ignore"):  # a gap may be larger than all doubles
-                out[outside] = _on_one_side(x[outside], (side, cuts), density, slope, more)
+                out[outside] = _on_one_side(x[outside], (side, cuts), density, slope)
     return out
 
 
@@ -103,9 +97,7 @@ def gap_slope(x: Array, density: SlopeDensity, slope: Slope) -> Array:
     return difference + G
 
 
-def _on_one_side(
-    x: Array, way: tuple[float, Array], density: SlopeDensity, slope: Slope, more: More = None
-) -> Array:
+def _on_one_side(x: Array, way: tuple[float, Array], density: SlopeDensity, slope: Slope) -> Array:
     """The gap at x on one side, with places at which a function has to be cut."""
     side, contact = way[0], density.contact
     distance = -(contact.from_right(x) if side > 0.0 else contact.from_left(x))
@@ -124,8 +116,6 @@ def _on_one_side(
         right, left = (contact.x2 + d) + contact.tail2, (contact.x1 - d) + contact.tail1
         at = np.maximum(right, beyond) if side > 0.0 else np.minimum(left, beyond)
         opening = side * gap_slope(at.ravel(), density, slope)
-        if more is not None:
-            opening = opening + more(at.ravel(), side)
         values = opening.reshape(t.shape) * (root * (root_width * np.cosh(0.5 * t)))
         return length * (values @ w)
 

@@ -16,16 +16,13 @@ from numpy.typing import NDArray
 from sie.errors import ContactError
 from sie.numerics.root_finding import false_position
 
-from .admissible import EXCEEDED
 from .cells import zones_on_cells
 from .equations import Equations, Zones
-from .finite_step import balanced, newton, on_earlier_zones, solved, without_idle
+from .finite_step import Part, balanced, newton, on_earlier_zones, solved, without_idle
 from .loading import LoadStep
 from .onset import End, Motion, Onset, onset, set_out
-from .part import Part
-from .state import Contact, State
-from .strip_part import StripPart, strip_part
-from .zones_between import rates_of
+from .state import EXCEEDED, TURNS, Contact, State
+from .strip_part import strip_part
 
 Array = NDArray[np.float64]
 
@@ -36,7 +33,6 @@ SHARES = (np.arange(1, 9) / 8.0) ** 1.5  # of a part at which it is tested
 EARLIER = (0.2, 0.02, 2e-3, 1e-4)  # of the first one, where that fails
 SEEN = 1e-2  # of the contact: ends that move less are not seen well on cells
 STOPS = -1e-7  # of the largest K: an end that recedes so little goes on
-TURNS = -1e-7  # of the largest rate of slip
 MOST_PARTS, SHORT, MOST_SHORT = 30, 1e-4, 5  # of a step; of them so short ones of it
 MOST_MOMENTS = 250  # of a step at which states are asked for: some 20 seconds
 LONGER = 5.0  # times the last part, where a longer one was not solved
@@ -44,9 +40,9 @@ FINE = 1e-2  # of a part: so well it is known where it ends, if by no event
 STILL, STOPPED = 1e-13, 1e-8  # of the largest K
 
 
-def course(before: State, step: LoadStep) -> tuple[Part | StripPart, ...]:
+def course(before: State, step: LoadStep) -> tuple[Part, ...]:
     """The parts of a step from a state. Raises ContactError where one is not found."""
-    parts: list[Part | StripPart] = []
+    parts: list[Part] = []
     done, state = 0.0, before
     while done < 1.0:
         with np.errstate(all="ignore"):  # what that leaves is not admissible
@@ -60,9 +56,7 @@ def course(before: State, step: LoadStep) -> tuple[Part | StripPart, ...]:
     return tuple(parts)
 
 
-def _next_part(
-    state: State, step: LoadStep, begun: float, last: Part | StripPart | None
-) -> Part | StripPart:
+def _next_part(state: State, step: LoadStep, begun: float, last: Part | None) -> Part:
     """The part from a share on.
 
     A finite step is tried first at the start of a step, unless new contact sticks there.
@@ -135,7 +129,8 @@ def finite_part(state: State, step: LoadStep, begun: float) -> Part:
     """A finite step from a share on, as long as it passes the tests."""
     if _unsheared(state, step):
         after = step.at(1.0)
-        return Part(state, State.untouched(after), begun, 1.0)
+        held = Equations(state, after, Zones(after.patches, ()))
+        return Part(held, State.untouched(after), begun, 1.0)
     shares = begun + (1.0 - begun) * SHARES
     shares[-1] = 1.0
     verdicts = _tested(state, step, begun, shares)
@@ -143,7 +138,8 @@ def finite_part(state: State, step: LoadStep, begun: float) -> Part:
     why = ""
     if good == len(shares):
         try:
-            return Part(state, solved(state, step.at(1.0), verdicts[-1].solution.zones), begun, 1.0)
+            ended = solved(state, step.at(1.0), verdicts[-1].solution.zones)
+            return Part(ended, ended.state, begun, 1.0)
         except ContactError as problem:
             why, good = str(problem), good - 1
     if good == 0:
@@ -168,7 +164,7 @@ def finite_part(state: State, step: LoadStep, begun: float) -> Part:
             raise ContactError(found.why)
         until = last.share
     ended = solved(state, step.at(until), found.solution.zones)
-    return Part(state, ended, begun, until, _stopped(found))
+    return Part(ended, ended.state, begun, until, known=_stopped(found))
 
 
 def _stopped(verdict: Verdict) -> dict[float, End]:
@@ -289,7 +285,7 @@ def _verdict(state: State, step: LoadStep, share: float, guess: Zones | None) ->
 
 def _judged(found: Equations, step: LoadStep, share: float) -> Verdict:
     """The verdict on zones by the rates."""
-    rates = rates_of(found, step)
+    rates = found.rates(step.rates, step.friction)
     margins = rates.signed_K.ravel() / max(np.abs(rates.K).max(), 1e-300)
     why = ""
     if not (margins >= STOPS).all():

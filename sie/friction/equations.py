@@ -30,13 +30,16 @@ from sie.numerics.chord import Chord
 from sie.numerics.graded_panels import (
     OF_RULES,
     OF_SERIES,
+    Pieces,
     Rule,
     breaks_for,
     gauss_shares,
     principal_value,
 )
+from sie.numerics.zones import left_over
 
-from .state import SAME, Contact, Ends, State, between, intervals, united
+from .rates import LoadRates, Rates
+from .state import KNOWN, SAME, Contact, Ends, State, intervals, united
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -132,7 +135,7 @@ class Equations:
         old, new = self.before.contact, self.after
         edges = np.array((*old.patches, *new.patches)).ravel()
         marks = np.unique(np.concatenate((self.before.marks, new.limit.marks, edges)))
-        return intervals(between(self.touched, self.zones.stick), marks, SAME * new.width)
+        return intervals(left_over(self.touched, self.zones.stick), marks, SAME * new.width)
 
     @property
     def sources(self) -> Array:
@@ -156,10 +159,17 @@ class Equations:
 
     @cached_property
     def slip(self) -> tuple[tuple[float, float, float], ...]:
-        beside = between(self.after.patches, self.zones.stick)
+        beside = left_over(self.after.patches, self.zones.stick)
         if len(beside) != len(self.zones.signs):
             raise ContactError("a stick zone reaches an edge of the contact")
         return tuple((*zone, s) for zone, s in zip(beside, self.zones.signs, strict=True))
+
+    def rates(self, loads: LoadRates, friction: float) -> Rates:
+        """The rates where these are solved."""
+        patches, period = self.after.patches, self.after.period
+        return Rates.solved(
+            patches, self.zones.stick, self.slip, loads, friction=friction, period=period
+        )
 
     @property
     def begins(self) -> Array:
@@ -323,3 +333,24 @@ class Equations:
                 middle = d(places.apart(m))
                 out *= np.sqrt((d(places.apart(lo)) / middle) * (d(places.apart(hi)) / middle))
         return out
+
+    @cached_property
+    def state(self) -> State:
+        """The state that solved equations leave."""
+        before, after = self.before, self.after
+        same = SAME * after.width
+        marks = np.unique(np.concatenate((before.marks, after.limit.marks, self.begins)))
+        parts, values = [], []
+        for lo, hi, s in self.slip:
+            parts.append(Pieces.places(intervals([(lo, hi)], after.limit.marks, same)))
+            values.append(s * after.limit.on(parts[-1]))
+        for k, zone in enumerate(self.zones.stick):
+            part = Pieces.places(intervals([zone], marks, same))
+            near = np.minimum(part.from_lo, part.from_hi) <= KNOWN * after.width
+            limit = np.where(near, after.limit.on(part), np.inf)
+            q = before.shear.on(part) + self.in_stick(k, part)
+            parts.append(part)
+            values.append(np.minimum(np.maximum(q, -limit), limit))
+        ends = np.concatenate([part.ends for part in parts])
+        order, series = np.argsort(ends[:, 0]), Pieces.of_values(ends, np.concatenate(values))
+        return State(after, self.zones.stick, self.slip, Pieces(ends[order], series[order]))

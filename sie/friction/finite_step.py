@@ -7,28 +7,28 @@ marks of the shear, which are tried.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
-from dataclasses import replace
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from sie.errors import ContactError
-from sie.numerics.graded_panels import (
-    Pieces,
-)
+from sie.numerics.graded_panels import Pieces
+from sie.numerics.zones import left_over
 
-from .admissible import built, refuse_inadmissible
 from .equations import Equations, Zones
-from .state import SAME, Contact, State, between, intervals
+from .onset import End
+from .state import SAME, Contact, Ends, State, intervals, overlaps, refuse_inadmissible
+from .strips import Panel
 
 Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 STEPS = 40  # of Newton's method
 PINNED_STEPS = 8  # of it with one end on a mark
 SLOW, FAR = 14, 1e-2  # after so many one that is so long, of the contact, finds nothing
 SETTLED = 2e-14  # of the contact: a step so short is the last
-GOOD = 1e-9  # and one so short is good enough if later ones do not shorten
+GOOD = 1e-9  # and one so short is good enough if later ones do not shorten ...
+GOOD_OF_ZONE = 1e-3  # ... and it is so short a part of the narrowest stick zone
 INSIDE = 1e-9  # of what is between the bounds of an end: a guess is as far from them
 CLOSEST = 0.9  # of the distance to its neighbour: an end moves so far at most in a step
 SHARES = (1.0, 0.5, 0.25, 0.1)  # of a step of Newton's method that are tried
@@ -44,22 +44,54 @@ IDLE = 1e-6  # of f p: q so close to it all over a stick zone has reached it
 NARROWEST = 1e-12  # of the contact: a stick zone
 
 
-def solved(before: State, after: Contact, guess: Zones) -> State:
-    """The state at the end, whose zones Newton's method finds from a guess.
+@dataclass(frozen=True, eq=False)
+class Part:
+    """A part of a step: its end, and its shares of the step.
+
+    equations      those that the state at its end solves
+    state          that state
+    begun, until   shares of the step
+    panel          the moments of a part on which something came to stick; None: a finite step
+    known          what ends of stick zones do next, by their places, where an event decided it
+    opened         place and direction of slip that begins in stick
+    solved         whether no longer part was tried in vain
+    """
+
+    equations: Equations
+    state: State
+    begun: float
+    until: float
+    panel: Panel | None = None
+    known: Mapping[float, End] = field(default_factory=dict)
+    opened: tuple[float, float] | None = None
+    solved: bool = True
+
+    @property
+    def before(self) -> State:
+        """The state at the start."""
+        return self.equations.before
+
+    @property
+    def stuck(self) -> Ends:
+        """What stuck all along."""
+        stick = self.state.stick
+        return stick if self.panel is None else overlaps(self.before.stick, stick)
+
+
+def solved(before: State, after: Contact, guess: Zones) -> Equations:
+    """The equations at the end, whose zones Newton's method finds from a guess.
 
     Raises ContactError where it finds none, or one that is not admissible.
     """
     found = Equations(before, after, guess)
     if guess.signs and not balanced(found, ON_MARK_AT_LEAST):
         found = newton(before, after, guess)
-    state = built(found)
     try:
-        refuse_inadmissible(found, state)
+        refuse_inadmissible(before, found.state, found.state.stick)
     except ContactError:
         found = on_marks(found, ON_MARK_AT_LEAST)  # the history is known to so much
-        state = built(found)
-        refuse_inadmissible(found, state)
-    return state
+        refuse_inadmissible(before, found.state, found.state.stick)
+    return found
 
 
 def newton(before: State, after: Contact, guess: Zones) -> Equations:
@@ -110,7 +142,8 @@ def _iterated(now: Equations, bounds: Array) -> tuple[Equations, bool]:
             break
         step = np.linalg.lstsq(matrix, right, rcond=1e-14)[0]
         longest = float(np.abs(step).max())
-        if longest <= SETTLED * width or (longest <= GOOD * width and longest >= last):
+        good = min(GOOD * width, GOOD_OF_ZONE * float(np.diff(now.stick, axis=1).min()))
+        if longest <= SETTLED * width or last <= longest <= good:
             return now, True
         if number >= SLOW and longest > FAR * width:
             break
@@ -277,7 +310,7 @@ def _bounds(before: State, after: Contact, zones: Zones, goes_on: bool) -> Array
     """
     ends = np.array(zones.stick).ravel()
     out = np.empty((len(ends), 2))
-    beside, old = between(after.patches, zones.stick), {e for zone in before.stick for e in zone}
+    beside, old = left_over(after.patches, zones.stick), {e for zone in before.stick for e in zone}
     for j, e in enumerate(ends):
         inside = []
         for patches in (before.contact.patches, after.patches):

@@ -1,22 +1,52 @@
-"""The contact on the way from one point of a load path to the next, and the rates of its loads."""
+"""The loads of a path, the contact under them, and a step from one point to the next."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any, Protocol
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from sie.numerics.graded_panels import Pieces
 from sie.problem.scene import Scene
+from sie.traction.base import Density
 
-from .loads import Loads
 from .rates import LoadRates
-from .state import SAME, Contact, intervals
+from .state import SAME, Contact, Ends, intervals
 
 Array = NDArray[np.float64]
+
+FEW = 8  # breaks of a profile: of more, a trace, each one is faint
+FIRST = 1e-14  # of a step from nothing: after that the bodies touch
+
+
+class Loads(NamedTuple):
+    """The loads of a contact: P, Q, σ, and what is added to the tilt or the moment of the scene."""
+
+    P: float
+    Q: float
+    sigma: float
+    turn: float = 0.0
+
+    def towards(self, end: Loads, share: float) -> Loads:
+        """The loads in a step to others, after this share of its time."""
+        pairs = zip(self, end, strict=True)
+        return Loads(*(a + share * (b - a) for a, b in pairs)) if share < 1.0 else end
+
+    def touching(self, end: Loads) -> Loads:
+        """The same, or if nothing touches under them, those soon after it in a step to others."""
+        return self if self.P else self.towards(end, FIRST)
+
+    @property
+    def normal(self) -> tuple[float, float]:
+        """What the pressure depends on."""
+        return self.P, self.turn
+
+    def __str__(self) -> str:
+        shown = ", ".join(f"{v:.6g}" for v in self[:3])
+        return f"(P, Q, σ) = ({shown})" + (f" at {self.turn:.6g}" if self.turn else "")
 
 
 class Contacts(Protocol):
@@ -25,7 +55,6 @@ class Contacts(Protocol):
     scene           profile, bodies and friction
     pressed         the patches and the pressure under loads
     sheared_by      Q and τ of loads
-    corners         where the pressure is not smooth
     curved          whether the tilt follows from a moment, and not in proportion to time
     by_moment       whether moments are added along the path, not tilts
     """
@@ -35,8 +64,6 @@ class Contacts(Protocol):
     def pressed(self, loads: Loads) -> tuple[tuple[tuple[float, float], ...], Any]: ...
     def sheared_by(self, loads: Loads) -> tuple[float, float]: ...
     @property
-    def corners(self) -> Array: ...
-    @property
     def curved(self) -> bool: ...
     @property
     def by_moment(self) -> bool: ...
@@ -44,11 +71,17 @@ class Contacts(Protocol):
 
 def contact_under(contacts: Contacts, loads: Loads) -> Contact:
     """The contact under loads."""
-    scene = contacts.scene
     patches, pressure = contacts.pressed(loads)
-    ends = intervals(patches, contacts.corners, SAME * (patches[-1][1] - patches[0][0]))
-    limit = Pieces.fitted(ends, lambda rule: scene.friction * pressure(rule.x))
-    return Contact(patches, limit, *contacts.sheared_by(loads), scene.profile.period)
+    limit = limit_on(contacts.scene, patches, pressure)
+    return Contact(patches, limit, *contacts.sheared_by(loads), contacts.scene.profile.period)
+
+
+def limit_on(scene: Scene, patches: Ends, pressure: Density) -> Pieces:
+    """f p, with marks at the breaks of a profile of few pieces."""
+    breaks = np.array(scene.profile.pieces.break_points)
+    corners = breaks if len(breaks) <= FEW else breaks[:0]
+    ends = intervals(patches, corners, SAME * (patches[-1][1] - patches[0][0]))
+    return Pieces.fitted(ends, lambda rule: scene.friction * pressure(rule.x))
 
 
 @dataclass(frozen=True, eq=False)

@@ -14,6 +14,7 @@ Deresiewicz 1953; docs/derivations/layered-memory.md).
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import NamedTuple
@@ -34,27 +35,6 @@ class SlippedLayer(NamedTuple):
     jump: float
 
 
-class Layer(NamedTuple):
-    """A layer: thickness, κ, the layer below, and S and depth of it with all below.
-
-    Memories share the layers below.
-    """
-
-    thickness: complex
-    k: float
-    below: Layer | None
-    total: complex
-    depth: complex
-
-
-def _laid(thickness: complex, k: float, below: Layer | None) -> Layer:
-    """A layer on others; one with those of the same κ."""
-    if below is not None and below.k == k:
-        thickness, below = thickness + below.thickness, below.below
-    total, depth = (below.total, below.depth) if below else (0.0, 0.0)
-    return Layer(thickness, k, below, thickness * k + total, thickness + depth)
-
-
 def simple(change: complex) -> complex:
     """The same, as a float where the imaginary part is 0."""
     return change if change.imag else change.real
@@ -66,32 +46,25 @@ def in_proportion(one: complex, other: complex) -> bool:
     return abs(ratio.imag) <= PROPORTIONAL * abs(ratio)
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True)
 class LoadMemory:
-    """The layers of a contact from the top down; below them κ = 0.
+    """The layers (thickness, κ) of a contact from the top down; below them κ = 0.
 
     >>> LoadMemory().changed(3.0, 1.0)[0].changed(2.0, -1.0)[0].layers
     ((1.0, -1.0), (2.0, 1.0))
     """
 
-    top: Layer | None = None
-
-    @property
-    def layers(self) -> tuple[tuple[complex, float], ...]:
-        """(thickness, κ) from the top down."""
-        found, layer = [], self.top
-        while layer is not None:
-            found.append((layer.thickness, layer.k))
-            layer = layer.below
-        return tuple(found)
-
-    def __repr__(self) -> str:
-        return f"<load memory: {self.layers}>"
+    layers: tuple[tuple[complex, float], ...] = ()
 
     @property
     def total(self) -> complex:
         """S."""
-        return self.top.total if self.top else 0.0
+        return sum((thickness * k for thickness, k in reversed(self.layers)), 0.0)
+
+    @property
+    def depth(self) -> complex:
+        """That of all layers."""
+        return sum((thickness for thickness, _ in reversed(self.layers)), 0.0)
 
     @property
     def corners(self) -> tuple[tuple[complex, float], ...]:
@@ -105,26 +78,29 @@ class LoadMemory:
 
     def changed(self, pull: complex, sign: float) -> tuple[LoadMemory, tuple[SlippedLayer, ...]]:
         """(new memory, the layers overwritten) after S has changed by sign × pull."""
-        layer, left = self.top, pull
+        below, left = list(reversed(self.layers)), pull
         depth: complex = 0.0
         done: list[SlippedLayer] = []
         while abs(left) > NOTHING * abs(pull):
-            if layer and layer.k == sign:
-                depth, layer = depth + layer.thickness, layer.below
+            thickness, k = below[-1] if below else (math.inf, 0.0)
+            if k == sign:
+                depth += thickness
+                below.pop()
                 continue
-            jump = 1.0 - sign * layer.k if layer else 1.0
+            jump = 1.0 - sign * k
             taken = left / jump
-            passes = layer is not None and _passed(layer.thickness, depth, taken)
-            if layer and passes:
-                taken = layer.thickness
+            passes = bool(below) and _passed(thickness, depth, taken)
+            if passes:
+                taken = thickness
+                below.pop()
+            elif below:
+                below[-1] = thickness - taken, k
             left = left - jump * taken if passes else 0.0
             done.append(SlippedLayer(depth, depth + taken, jump))
             depth += taken
-            if layer:
-                layer = (
-                    layer.below if passes else _laid(layer.thickness - taken, layer.k, layer.below)
-                )
-        return LoadMemory(_laid(depth, sign, layer)), tuple(done)
+        if below and below[-1][1] == sign:
+            depth += below.pop()[0]
+        return LoadMemory(((depth, sign), *reversed(below))), tuple(done)
 
 
 def _passed(thickness: complex, depth: complex, taken: complex) -> bool:

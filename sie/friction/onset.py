@@ -97,10 +97,14 @@ class Onset:
         slip = tuple(zone for zone in self.slip if zone[1] > zone[0])
         return Rates.solved(self.patches, self.stick, slip, loads, friction=friction, period=period)
 
+    def of_ends(self, ends: list[End]) -> Onset:
+        """The same with other ends."""
+        return replace(self, zones=tuple(zip(ends[::2], ends[1::2], strict=True)))
+
     def placed(self, places: Array) -> Onset:
         """The same with its ends at other places."""
-        ends = [replace(end, place=float(x)) for end, x in zip(self.ends, places, strict=True)]
-        return replace(self, zones=tuple(zip(ends[::2], ends[1::2], strict=True)))
+        pairs = zip(self.ends, places, strict=True)
+        return self.of_ends([replace(end, place=float(x)) for end, x in pairs])
 
     def on(self, patches: tuple[tuple[float, float], ...]) -> Onset:
         """The same on other patches."""
@@ -108,16 +112,13 @@ class Onset:
 
     def split(self, place: float, sense: float) -> Onset:
         """The same with slip that begins inside a stick zone."""
-        opened = (End(place, sense), End(place, sense))
-        ends = [e for zone in self.zones for e in zone]
-        k = sum(e.place < place for e in ends)
-        ends[k:k] = opened
-        return replace(self, zones=tuple(zip(ends[::2], ends[1::2], strict=True)))
+        k = sum(e.place < place for e in self.ends)
+        opened = [End(place, sense), End(place, sense)]
+        return self.of_ends([*self.ends[:k], *opened, *self.ends[k:]])
 
     def moved(self, j: int, end: End) -> Onset:
         """The same with another end j."""
-        ends = [*self.ends[:j], end, *self.ends[j + 1 :]]
-        return replace(self, zones=tuple(zip(ends[::2], ends[1::2], strict=True)))
+        return self.of_ends([*self.ends[:j], end, *self.ends[j + 1 :]])
 
     def outer(self, j: int) -> float:
         """Where the slip zone beside end j ends: at an edge, or at another stick zone."""
@@ -137,8 +138,7 @@ class Onset:
         if any(outer in patch for patch in self.patches):
             return self.moved(j, End(outer, 0.0))
         first = min(j, j + step)
-        ends = [*self.ends[:first], *self.ends[first + 2 :]]
-        return replace(self, zones=tuple(zip(ends[::2], ends[1::2], strict=True)))
+        return self.of_ends([*self.ends[:first], *self.ends[first + 2 :]])
 
 
 def onset(

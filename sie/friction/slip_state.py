@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import math
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Collection, Iterable
+from collections.abc import Callable, Collection
 from dataclasses import dataclass
-from functools import cached_property
-from typing import Any, NamedTuple, Protocol
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,8 +17,6 @@ from sie.profiles.slope import Slope
 from sie.traction.base import Density
 from sie.traction.combination import ZERO
 from sie.traction.of_slope import SlopeDensity
-
-from .slip_zones import EdgeFrame, SlipZone, edge_frame, slip_zone
 
 Array = NDArray[np.float64]
 
@@ -54,14 +50,6 @@ class Step:
         return self.normal.edges.normal_load
 
 
-class WorkOfSlip(Protocol):
-    """The work of f p on the slip, and of what other loads add to f p."""
-
-    @property
-    def work(self) -> float: ...
-    def work_of(self, dP: float, strain: float) -> float: ...
-
-
 class Slip(ABC):
     """A state of stick and slip.
 
@@ -73,6 +61,7 @@ class Slip(ABC):
     slip(x)      relative slip
     advancing    whether the slip zones grow along the whole step
     condition    relative error of the load on the stick zone over one of P or Q
+    promised     error of q that is promised at best, over its peak
     """
 
     kind: str
@@ -81,6 +70,7 @@ class Slip(ABC):
     stick: tuple[tuple[float, float], ...]
     advancing: bool = True
     condition: float = 1.0
+    promised: float = 0.0
 
     @property
     @abstractmethod
@@ -113,13 +103,8 @@ class Slip(ABC):
 
     @property
     def energy(self) -> float:
-        """The dissipated energy; that of the states on one patch is found in `dissipation`."""
+        """The dissipated energy ∫ f p |slip| dx at constant P."""
         return 0.0
-
-    @property
-    def integrals(self) -> WorkOfSlip | None:
-        """Integrals over the zones of slip; None where nothing slips."""
-        return None
 
     @property
     def slipped(self) -> tuple[tuple[float, float, float], ...]:
@@ -136,12 +121,6 @@ class Slip(ABC):
     def untouched(self) -> tuple[float, float]:
         """The zone that never slipped."""
         return self.stick[0] if self.stick else (0.0, 0.0)
-
-    @property
-    def stick_zone(self) -> Interval:
-        """The stick zone, which of a corner may reach beyond the contact; its centre if none."""
-        middle = self.contact.m
-        return Interval(*self.stick[0]) if self.stick else Interval(middle, middle)
 
     @property
     def levels(self) -> tuple[float, ...]:
@@ -175,120 +154,3 @@ class NoSlip(Slip):
     @property
     def shift(self) -> float:
         return 0.0
-
-
-class IntegralsOfSlip(NamedTuple):
-    """Integrals of slip over the zones at both edges, with dμ = dx/(π w).
-
-    work     ∫f p |slip| dx
-    shift    ∫slip dμ: what slip adds to the shift of the indenter
-    spread   f ∫|slip| dμ
-    lever    f ∫|slip| (x - m) dμ
-    """
-
-    work: float
-    shift: float
-    spread: float
-    lever: float
-
-    @classmethod
-    def over(
-        cls, parts: Iterable[tuple[SlipZone, float, float, Array]], friction: float, half: float
-    ) -> IntegralsOfSlip:
-        """`parts`: zones, -1 at the left edge and 1 at the right, the sign of slip, and |slip|."""
-        work = shift = spread = lever = 0.0
-        for zone, side, sign, slip in parts:
-            from_other_edge = (2.0 * half - zone.length) + zone.from_stick
-            moved = zone.weight * slip / np.sqrt(zone.from_edge * from_other_edge) / math.pi
-            work += friction * float(zone.force @ slip)
-            shift += sign * float(moved.sum())
-            spread += friction * float(moved.sum())
-            lever += friction * side * float(moved @ (half - zone.from_edge))
-        return cls(work, shift, spread, lever)
-
-    def work_of(self, dP: float, strain: float) -> float:
-        """f ∫|slip| dp dx for a change of P, and of E*/2 times the tilt."""
-        return dP * self.spread - math.pi * strain * self.lever
-
-
-@dataclass(frozen=True, eq=False)
-class Slipping(Slip):
-    """The common part of the states with slip: slip is sign f opening(x) on each side.
-
-    It is integrated over the zones in the frames of the edges.
-    """
-
-    pressure: SlopeDensity
-    slope: Slope
-    friction: float
-    step: Step
-
-    @property
-    def contact(self) -> Interval:  # type: ignore[override]
-        return self.pressure.contact
-
-    @property
-    @abstractmethod
-    def signs(self) -> tuple[float, float]:
-        """Signs of slip at the left and the right edge."""
-
-    @property
-    @abstractmethod
-    def lengths(self) -> tuple[float, float]: ...
-
-    @abstractmethod
-    def _opening(self, distance: Array, frame: EdgeFrame) -> Array:
-        """|slip|/f at these distances from the edge."""
-
-    @cached_property
-    def frames(self) -> tuple[EdgeFrame, EdgeFrame]:
-        return edge_frames(self.pressure, self.slope)
-
-    def slip(self, x: Array) -> Array:
-        out = np.zeros(x.shape)
-        if not x.size:
-            return out
-        from_edge = self.contact.from_left(x), self.contact.from_right(x)
-        nearer_left = from_edge[0] - self.lengths[0] < from_edge[1] - self.lengths[1]
-        for r, distance, sign, side in zip(
-            self.frames, from_edge, self.signs, (nearer_left, ~nearer_left), strict=True
-        ):
-            at = side & (distance >= 0.0)
-            if at.any():
-                out[at] = sign * self.friction * self._opening(distance[at], r)
-        return out
-
-    @property
-    def zones(self) -> tuple[SlipZone, SlipZone]:
-        left, right = (
-            slip_zone(r, length) for r, length in zip(self.frames, self.lengths, strict=True)
-        )
-        return left, right
-
-    @cached_property
-    def integrals(self) -> IntegralsOfSlip:
-        """Integrals over the zones."""
-        f, frames = self.friction, zip(self.frames, self.zones, self.signs, strict=True)
-        parts = [
-            (z, r.side, sign, f * self._opening(z.from_edge, r))
-            for r, z, sign in frames
-            if z.length > 0.0
-        ]
-        return IntegralsOfSlip.over(parts, f, self.contact.r)
-
-    @property
-    def shift(self) -> float:
-        return self.integrals.shift
-
-    @property
-    def slipped(self) -> tuple[tuple[float, float, float], ...]:
-        (x1, x2), (left, right) = self.pressure.interval, self.signs
-        if not self.stick:
-            return ((x1, x2, left),)
-        (c1, c2), (lengths) = self.stick[0], self.lengths
-        both = ((x1, c1, left), (c2, x2, right))
-        return tuple(z for z, length in zip(both, lengths, strict=True) if length > 0.0)
-
-
-def edge_frames(density: SlopeDensity, slope: Slope) -> tuple[EdgeFrame, EdgeFrame]:
-    return edge_frame(density, slope, -1.0), edge_frame(density, slope, 1.0)

@@ -20,7 +20,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass, field
-from functools import lru_cache
+from functools import lru_cache, partial
 from itertools import pairwise
 
 import numpy as np
@@ -28,19 +28,16 @@ from numpy.polynomial.chebyshev import chebvander
 from numpy.typing import NDArray
 
 from sie.errors import ContactError
-from sie.numerics.graded_panels import OF_SERIES, Rule
 from sie.numerics.root_finding import false_position
 
 from .equations import Equations, Zones
-from .finite_step import balanced
+from .finite_step import Part, balanced
 from .gained_slip import GainedSlip
 from .loading import LoadStep
-from .part import Part
 from .rates import Rates
-from .state import SAME, Contact, State, intervals
-from .strip_part import StripPart
-from .strips import TAU
-from .zones_between import ZonesBetween, rates_of
+from .state import State
+from .strips import TAU, Panel
+from .zones_between import ZonesBetween
 
 Array = NDArray[np.float64]
 
@@ -58,7 +55,7 @@ NEARER = 0.6  # times the distance of a share that was not solved: the next that
 MOST_PIECES, MOST_MISSED = 40, 60
 
 
-def work(part: Part | StripPart, step: LoadStep) -> float:
+def work(part: Part, step: LoadStep) -> float:
     """The energy of a part. Raises ContactError where it is not known to `REFUSED`."""
     if not part.state.slip and (step.constant or not _leaves(part, step)):
         return 0.0
@@ -69,14 +66,14 @@ def work(part: Part | StripPart, step: LoadStep) -> float:
             "energy lost is not covered; ask for the state alone, or change Q at constant P"
         )
     contact = part.state.contact
-    whole, error = _paired(contact, part.equations, contact.limit.on), 0.0
+    whole, error = GainedSlip(part.equations).paired(contact.limit.on), 0.0
     if not step.constant:
-        if isinstance(part, StripPart):
-            moved, error = _of_panel(part, step, whole)
+        if part.panel is not None:
+            moved, error = _of_panel(part.panel)
         else:
             moved, error = _of_finite_part(part, step, whole)
         whole -= moved
-    elif not isinstance(part, StripPart):
+    elif part.panel is None:
         error = _turned(part, step)
     if error > REFUSED * whole:
         raise ContactError(
@@ -86,9 +83,9 @@ def work(part: Part | StripPart, step: LoadStep) -> float:
     return whole * 2.0 / step.contacts.scene.Estar
 
 
-def _leaves(part: Part | StripPart, step: LoadStep) -> bool:
+def _leaves(part: Part, step: LoadStep) -> bool:
     """Whether slip zones have left the contact before the end of a part."""
-    if isinstance(part, StripPart) or part.state.contact.width >= part.before.contact.width:
+    if part.panel is not None or part.state.contact.width >= part.before.contact.width:
         return False
     after = step.at(part.begun + 0.5 * (part.until - part.begun))
     return not balanced(Equations(part.before, after, Zones(after.patches, ())), STUCK)
@@ -109,16 +106,6 @@ def _turned(part: Part, step: LoadStep) -> float:
     return float(more.mean() * sum(hi - lo for lo, hi in contact.patches))
 
 
-def _paired(contact: Contact, now: Equations, density: Callable[[Rule], Array]) -> float:
-    """∫ d s Δg dx of a density d, s the direction of slip."""
-    total = 0.0
-    for lo, hi, sense, pieces in GainedSlip(now).slipped:
-        marks = np.unique(np.concatenate((pieces.marks, contact.limit.marks)))
-        rule = Rule.graded(intervals([(lo, hi)], marks, SAME * contact.width), OF_SERIES)
-        total += sense * float(rule.weight @ (density(rule) * pieces.on(rule)))
-    return total
-
-
 def _sticking(state: State) -> list[bool]:
     """For each patch whether some of it sticks."""
     return [any(x1 <= a and b <= x2 for a, b in state.stick) for x1, x2 in state.contact.patches]
@@ -126,7 +113,7 @@ def _sticking(state: State) -> list[bool]:
 
 def _by_pressure(now: Equations, rates: Rates) -> float:
     """∫ f dp/dt s Δg dx."""
-    return rates.friction * _paired(now.after, now, rates.pressure.density)
+    return rates.friction * GainedSlip(now).paired(rates.pressure.density)
 
 
 @lru_cache(maxsize=2)
@@ -150,9 +137,8 @@ def _integral(values: Array) -> tuple[float, float]:
     return float(weights @ values), float(tail) / n**2
 
 
-def _of_panel(part: StripPart, step: LoadStep, whole: float) -> tuple[float, float]:
+def _of_panel(panel: Panel) -> tuple[float, float]:
     """∫ dt ∫ f dp/dt s Δg dx of a part on which something comes to stick, and its error."""
-    panel = part.panel
     values = [_by_pressure(*one) for one in zip(panel.equations, panel.rates, strict=True)]
     return _integral(np.append(0.0, 2.0 * panel.span.length * TAU[1:] * np.array(values)))
 
@@ -223,7 +209,7 @@ class Way(ZonesBetween):
                 return between, doubt
         if share not in self.values:
             now = self.known[share]
-            self.values[share] = _by_pressure(now, rates_of(now, self.step))
+            self.values[share] = _by_pressure(now, now.rates(self.step.rates, self.step.friction))
         return self.values[share], 0.0
 
     def _between(self, share: float) -> tuple[float, float, tuple[float, float]]:
@@ -255,33 +241,21 @@ def _cuts(way: Way, shares: list[float]) -> list[float]:
                 and first.zones.signs != last.zones.signs
                 and ends[0][j] * ends[1][j] < 0.0
             ):
-                found.append(_root(_Coordinate(way, j), way, sooner, later))
+                found.append(_root(partial(_coordinate, way, j), way, sooner, later))
             inside = (way.before.marks - a) * (b - way.before.marks) > near**2
             for mark in way.before.marks[inside]:
-                found.append(_root(_Beyond(j, float(mark)), way, sooner, later))
+                found.append(_root(partial(_beyond, j, float(mark)), way, sooner, later))
     return found
 
 
-@dataclass(frozen=True)
-class _Coordinate:
+def _coordinate(way: Way, j: int, now: Equations) -> float:
     """Coordinate j of the zones."""
-
-    way: Way
-    j: int
-
-    def __call__(self, now: Equations) -> float:
-        return float(self.way.coordinates(now)[self.j])
+    return float(way.coordinates(now)[j])
 
 
-@dataclass(frozen=True)
-class _Beyond:
+def _beyond(j: int, mark: float, now: Equations) -> float:
     """How far end j is beyond a mark."""
-
-    j: int
-    mark: float
-
-    def __call__(self, now: Equations) -> float:
-        return float(_places(now)[self.j] - self.mark)
+    return float(_places(now)[j] - mark)
 
 
 def _places(now: Equations) -> Array:

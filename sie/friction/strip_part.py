@@ -8,26 +8,27 @@ its end.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field, replace
-from functools import cached_property, lru_cache
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
 
 from sie.errors import ContactError
 
-from .admissible import built
 from .cells import zones_on_cells
-from .leap import past_leap
+from .finite_step import Part
 from .loading import LoadStep
 from .onset import ROUNDED, End, Motion, Onset, resting_place, set_out
 from .rates import Rates
-from .state import Ends, State, overlaps
+from .state import EXCEEDED, TURNS, State, overlaps, refuse_inadmissible
 from .strips import MOMENTS, TAU, Panel, Span, StripEquations, solved_panel
 
 Array = NDArray[np.float64]
 
+LEAPS = 4.0 ** np.arange(-10, -3)  # of a part: so much longer it is after a leap
+JUST_BEYOND = 1e-3  # of a leap: so far an end is beyond it, at a guess
 SHORTER = 1.0 / 3.0  # of a part that is not solved
 SHORTEST = 1e-9  # of a step: a part
 FINE = np.linspace(0.02, 1.0, 197)  # shares of τ at which events are looked for
@@ -44,8 +45,6 @@ AGAIN = 12  # times a part is solved to end at its event
 SEEN = 1e-3  # of the contact: an end that moves less is not seen on cells
 SENSELESS = 1e-2  # the same, of a part of which nothing is believed
 UNRESOLVED = 1e-6  # of the largest coefficient of D: the last two
-TURNS = -1e-7  # of the largest rate of slip
-EXCEEDED = 1e-8  # of the largest f p: by so much |q| may exceed f p
 
 
 @dataclass(frozen=True)
@@ -62,49 +61,13 @@ class Event:
     opened: tuple[float, float] | None = None  # where slip begins in stick, and its direction
 
 
-@dataclass(frozen=True, eq=False)
-class StripPart:
-    """The state at the end of a part, its share of the step, and what ends do next.
-
-    equations   those that the state solves
-    """
-
-    panel: Panel
-    equations: StripEquations
-    state: State
-    until: float
-    known: Mapping[float, End] = field(default_factory=dict)
-    opened: tuple[float, float] | None = None  # place and direction of slip that begins in stick
-    solved: bool = True  # whether no longer part was tried in vain
-
-    @property
-    def before(self) -> State:
-        """The state at the start."""
-        return self.panel.span.before
-
-    @property
-    def begun(self) -> float:
-        """The share of the step at the start."""
-        return self.panel.span.begun
-
-    @property
-    def stuck(self) -> Ends:
-        """What stuck all along."""
-        return overlaps(self.before.stick, self.state.stick)
-
-    @cached_property
-    def states(self) -> tuple[State, ...]:
-        """The states at its moments."""
-        return (*(built(found) for found in self.panel.equations[:-1]), self.state)
-
-
 def strip_part(
     state: State,
     step: LoadStep,
     begun: float,
     zones: Onset,
     longest: float = 1.0,
-) -> StripPart:
+) -> Part:
     """The part from a share of a step on, at most so long. Raises ContactError if none is found."""
     rest = 1.0 - begun
     length = min(rest, longest)
@@ -358,10 +321,56 @@ def _margin_at(now: StripEquations, x: float, sense: float) -> float:
     return float(np.interp(x, places[order], (limit - sense * q)[order]))
 
 
+# -- an end that leaps ---------------------------------------------------------------------------
+
+
+def past_leap(panel: Panel, place: float, sense: float, longest: float) -> Panel | None:
+    """A part a little longer than a solved one, at whose end an end has leapt to a place.
+
+    Where loads come back to what they were, q comes back to f p at nearly the same time from a mark
+    of the shear to an end. Slip begins at the mark, and soon nothing sticks between it and the end.
+
+    place, sense   where slip begins in stick at the end of the solved part, and its direction
+    longest        the length that the part has at most
+
+    None where that is not admissible, as of slip that begins for the first time.
+    """
+    span, guess = panel.span, panel.places.copy()
+    for j in span.which(Motion.RECEDES):
+        inward = -1.0 if j % 2 else 1.0
+        if span.onset.ends[j].sense == sense and (place - guess[-1, j]) * inward > 0.0:
+            guess[-1, j] = place + JUST_BEYOND * (place - guess[-1, j])
+    if (guess == panel.places).all():
+        return None
+    lengths = span.length * (1.0 + LEAPS)
+    if lengths[-1] > longest:
+        lengths = np.append(lengths[lengths < longest], longest)
+    for length in lengths.tolist():
+        try:
+            found = solved_panel(replace(span, length=length), guess)
+            if _has_leapt(found, place):
+                state = found.equations[-1].state
+                refuse_inadmissible(span.before, state, overlaps(span.before.stick, state.stick))
+                return found
+        except ContactError:
+            continue
+    return None
+
+
+def _has_leapt(found: Panel, place: float) -> bool:
+    """Whether an end has passed a place, and slip goes on in its direction."""
+    stick, peak = found.equations[-1].zones.stick, found.span.contacts[-1].peak
+    return (
+        not any(a < place < b for a, b in stick)
+        and np.abs(found.series[:, -2:]).max() / peak <= UNRESOLVED
+        and found.rates[-1].turning >= TURNS
+    )
+
+
 # -- the end of a part ---------------------------------------------------------------------------
 
 
-def _ended(panel: Panel, event: Event | None, until: float) -> StripPart:
+def _ended(panel: Panel, event: Event | None, until: float) -> Part:
     """The state at the end of a part, with the end of the event at its place."""
     span, ends = panel.span, panel.places[-1].copy()
     known = {}
@@ -381,4 +390,4 @@ def _ended(panel: Panel, event: Event | None, until: float) -> StripPart:
     what_next = {float(ends[j]): replace(end, place=float(ends[j])) for j, end in known.items()}
     opened = event.opened if event is not None else None
     equations = last.equations[-1]
-    return StripPart(panel, equations, built(equations), until, what_next, opened)
+    return Part(equations, equations.state, span.begun, until, panel, what_next, opened)

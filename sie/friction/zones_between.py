@@ -19,11 +19,9 @@ from sie.errors import ContactError
 
 from .cells import zones_on_cells
 from .equations import Equations, Zones
-from .finite_step import newton
+from .finite_step import Part, newton
 from .loading import LoadStep
 from .onset import onset
-from .part import Part
-from .rates import Rates
 from .state import Contact, Ends, Slips, State
 
 Array = NDArray[np.float64]
@@ -81,7 +79,7 @@ class ZonesBetween:
         """The equations from a guess, if they are solved and nothing in it sticks or turns."""
         try:
             found = newton(self.before, after, guess)
-            rates = rates_of(found, self.step)
+            rates = found.rates(self.step.rates, self.step.friction)
         except ContactError:
             return None
         margins = rates.signed_K[np.isfinite(rates.signed_K)]
@@ -116,18 +114,6 @@ class ZonesBetween:
             found += value * np.prod([(share - other) / (k - other) for other in others])
         like = next(self.known[k] for k in shares if k in self.known)
         return _zones_at(found, like, self.step.at(share), self.retreating)
-
-
-def rates_of(now: Equations, step: LoadStep) -> Rates:
-    """The rates of solved equations at the rates of loads of a step."""
-    return Rates.solved(
-        now.after.patches,
-        now.zones.stick,
-        now.slip,
-        step.rates,
-        friction=step.friction,
-        period=now.after.period,
-    )
 
 
 def smooth_coordinates(stick: Ends, slip: Slips, edges: Array) -> Array:

@@ -2,7 +2,6 @@
 
     false_position      a sign change between two places, by false position and bisection
     false_positions     the same in many brackets at once, in arrays
-    increasing_root     of an increasing function on (0, limit), by secants from a guess
     logarithmic_root    of a function that is nearly a power, by Newton's method in logarithms
     Bracket             keeps the steps of another method between the bounds that are known
 
@@ -97,45 +96,6 @@ def false_positions(function: Callable[[Array], Array], lo: Array, hi: Array) ->
 # -- from a guess ----------------------------------------------------------------------------------
 
 MAX_STEPS = 200
-FIRST_STEP = 16.0
-# of the limit: at a sharp edge, where p is infinite, a zone of slip may not open at all
-SHORTEST = 1e-120
-SETTLED = 8.0 * EPS
-
-
-def increasing_root(function: Callable[[float], float], guess: float, limit: float) -> float:
-    """u in (0, limit) where an increasing function changes sign, by secants in a bracket."""
-    low, high = 0.0, limit
-    u, step = min(guess, 0.5 * limit), np.inf
-    before: tuple[float, float] | None = None
-    for _ in range(MAX_STEPS):
-        step_done(0)
-        f = function(u)
-        if f == 0.0 or (f > 0.0 and u <= SHORTEST * limit):
-            return u
-        low, high = (u, high) if f < 0.0 else (low, u)
-        new = (
-            u - f * (u - before[0]) / (f - before[1])
-            if before is not None and f != before[1]
-            else -1.0
-        )
-        if not low < new < high:
-            new = 0.5 * (low + high)
-            if f < 0.0 and high == limit:
-                new = min(u * FIRST_STEP, 0.5 * (u + limit))
-            elif low == 0.0:
-                new = u / FIRST_STEP
-        before = (u, f)
-        if (
-            abs(new - u) <= EPS * u
-            or high - low <= 2.0 * EPS * high
-            or (abs(new - u) <= SETTLED * u and abs(new - u) >= 0.5 * abs(step))
-        ):
-            return new
-        step, u = new - u, new
-    return u
-
-
 # The logarithmic search ends at this relative error of the value, after one more step.
 ROUGH = 1e-2
 # This step is not worth another evaluation: Newton's next one from u reaches rounding.

@@ -176,49 +176,20 @@ class PatchSlip(Slip):
     @cached_property
     def shift(self) -> float:
         """∫ slip dμ, μ the pressure of a flat punch on all patches under a unit load."""
-        return self.against(1.0, 0.0)
-
-    @cached_property
-    def integrals(self) -> WorkOnPatches:
-        """The work of f p on the slip, and of what other loads add to f p."""
-        return WorkOnPatches(self)
-
-    def against(self, load: float, strain: float) -> float:
-        """∫ slip dμ, μ the pressure of a flat punch on all patches under a load, with a tilt.
-
-        `strain` is E*/2 times the tilt.
-        """
         rule = slip_rule(self.full, self.stick, self.period)
         points, weight, slip = rule.points, rule.weight, self.slip(rule.x)
         if isinstance(self.full, FullContact):
-            return load * float(weight @ slip) / self.period
+            return float(weight @ slip) / self.period
         o = self.full.found.operator
         P = o.patches
         _, k, _ = self.full.pressure.placed(points.x)
         T, _ = o.root(k, points)
         rho = edge_ratio(P, np.arange(P.number))[k]
         apart = P.chord.apart(points.anchor[:, None] - P.edges, points.offset[:, None])
-        changes = loaded(self.full.found.state, load)
-        changes[-1] = strain
+        changes = loaded(self.full.found.state, 1.0)
         punch = edge_charges(o, moment=False).of(changes)[:-1, 0]
         D = -(punch * rho / apart).sum(axis=1)
         return float((weight * np.abs(T) * D / np.pi) @ slip)
-
-
-class WorkOnPatches:
-    """Integrals of slip over all patches, as `IntegralsOfSlip` over the zones of one."""
-
-    def __init__(self, state: PatchSlip) -> None:
-        self.state = state
-
-    @property
-    def work(self) -> float:
-        """∫f p |slip| dx."""
-        return self.state.energy
-
-    def work_of(self, dP: float, strain: float) -> float:
-        """f ∫|slip| dp dx for a change of P, and of E*/2 times the tilt."""
-        return self.state.sign * self.state.friction * self.state.against(dP, strain)
 
 
 def refuse_stretch(period: float) -> None:

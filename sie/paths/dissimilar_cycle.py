@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from sie import arguments
 from sie.errors import ContactError
-from sie.friction.load_history.load_steps import TurningPoint, points_of_loads, steady_points
+from sie.friction.load_steps import TurningPoint, points_of_loads, steady_points
 from sie.problem.load_path import Path, loads_at, refuse_without_paths
 from sie.problem.request import ECONOMY
 from sie.problem.scene import Scene

@@ -10,7 +10,7 @@ point to the next all loads change in proportion to time. What is exact, and cov
     dissimilar bodies                  P that grows alone, then Q and σ at constant P
 
 `path_contacts` has the contacts under the loads of the path, `friction.memory` the layers,
-`friction.course` the parts of a step, and `load_history.path_slip` the state at one point.
+`friction.course` the parts of a step, and `friction.path_slip` the state at one point.
 
 Everything else raises ContactError, which names the step and the reason. `History.plan` says which
 steps are followed part by part, and why. A path may begin unloaded, at (0, 0, 0).
@@ -18,6 +18,7 @@ steps are followed part by part, and why. A path may begin unloaded, at (0, 0, 0
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Collection, Sequence
 from contextlib import suppress
 from dataclasses import replace
@@ -32,23 +33,22 @@ from sie.certificate.shear_check import certificate_of_parts
 from sie.contact.known_contact import Normal
 from sie.errors import ContactError
 from sie.friction.course import course
-from sie.friction.load_history.load_steps import (
+from sie.friction.load_steps import (
     Followable,
     TurningPoint,
     named,
     points_of_loads,
+    sheared_all_over,
     turning_points,
 )
-from sie.friction.load_history.path_slip import (
+from sie.friction.loading import Loads, LoadStep
+from sie.friction.path_slip import (
     CourseSlip,
     PathSlip,
     state_of,
     step_energy,
     step_shift,
-    touched,
 )
-from sie.friction.loading import LoadStep
-from sie.friction.loads import Loads
 from sie.friction.slip_state import Slip
 from sie.friction.state import State
 from sie.patches.answer import SeveralPatches
@@ -69,6 +69,7 @@ Array = NDArray[np.float64]
 
 UNSEEN = 1e-9  # of f P: a smaller step of P is not followed part by part ...
 UNTOLD = 1e-11  # ... and a smaller one at constant P
+SLIDES, STICKS = 1e-10, 1e-9  # of f P, that Q is below it: what is refused, and what is not
 
 
 def follow(
@@ -245,13 +246,24 @@ class History(PathContacts, Sequence[Solution]):
         """The turning point after a step, followed part by part."""
         first = before.loads.touching(loads)
         self._refuse_unseen(first, loads)
-        start = state_of(self, before) if first is before.loads else touched(self, first)
+        if first is before.loads:
+            start = state_of(self, before)
+        else:  # the bodies have just come into contact
+            start = sheared_all_over(self, first, first.Q)
         return self.followed(start, first, loads)
 
     def followed(self, start: State, first: Loads, loads: Loads) -> TurningPoint:
         """The turning point after a step from a state, part by part."""
         if first.sigma != loads.sigma:
             refuse_stretch(self.period)
+        f, limit = self.scene.friction, self.scene.friction * loads.P
+        slips = abs(loads.Q - first.Q) > f * (loads.P - first.P) * (1.0 + SLIDES)
+        if slips and abs(loads.Q) > (1.0 - SLIDES) * limit:
+            Q = math.copysign((1.0 - STICKS) * limit, loads.Q)
+            raise ContactError(
+                "|Q| comes to f P in a step in which P, the tilt or the proportion of Q and σ "
+                f"changes: no stick zone is left to follow; end it at Q = {Q:.12g}"
+            )
         for at in (first, loads):
             found = self.plain(*at.normal)
             if any(found.sharp):

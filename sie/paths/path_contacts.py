@@ -7,27 +7,22 @@ other loads: those of the path itself, those of the layers in its memory, and th
 from __future__ import annotations
 
 import math
+from bisect import bisect_left, insort
 from collections.abc import Collection
 from dataclasses import replace
 from functools import cached_property
 from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
-
 from sie.errors import LoadError
-from sie.friction.load_history.known_zones import KnownZones
-from sie.friction.loads import Loads
+from sie.friction.loading import Loads
+from sie.friction.partial_slip import OneSignedSlip
 from sie.friction.slip_state import Slip
-from sie.friction.states import OneSignedSlip
 from sie.numerics.interval import EPS, Interval
 from sie.patches.answer import SeveralPatches
 from sie.patches.full import FullContact
 from sie.problem.load_path import Path, unsheared
 from sie.problem.scene import Scene
 from sie.solution import Solution
-
-FEW = 8  # breaks of a profile: of more, a trace, each one is faint
 
 # P, and what is added to the scene's tilt or moment.
 Under = tuple[float, float]
@@ -50,7 +45,7 @@ class PathContacts:
         self._first = path.first_contact
         self._plain: dict[Under, Solution] = {}
         self._first_loadings: dict[tuple[Under, complex], Slip] = {}
-        self._known: dict[Under, KnownZones] = {}
+        self._known: dict[Under, _KnownZones] = {}
         self._in_patches: dict[tuple[float, float], SeveralPatches | FullContact] = {}
 
     def solution(self, scene: Scene) -> Solution:
@@ -107,12 +102,6 @@ class PathContacts:
             return (pressure.interval,), pressure
         return found.patches, found.in_patches.pressure
 
-    @cached_property
-    def corners(self) -> NDArray[np.float64]:
-        """Where the pressure is not smooth: the breaks of a profile of few pieces."""
-        breaks = np.array(self.scene.profile.pieces.break_points)
-        return breaks if len(breaks) <= FEW else breaks[:0]
-
     def sheared_by(self, loads: Loads) -> tuple[float, float]:
         """Q and τ of loads."""
         return loads.Q, loads.sigma * self._tau
@@ -135,7 +124,7 @@ class PathContacts:
         key = (normal, depth)
         if key not in self._first_loadings:
             if normal not in self._known:
-                self._known[normal] = KnownZones()
+                self._known[normal] = _KnownZones()
             near = self._known[normal]
             guess = None if depth.imag else near.guess(depth.real)
             found = self._loaded(self.plain(*normal), depth, turned, guess)
@@ -169,3 +158,30 @@ class PathContacts:
     def in_one_patch(self) -> bool:
         """Whether the contact is one patch under every load of the path, by a slope that rises."""
         return self.plain(self.largest, self._first[1]).convex
+
+
+class _KnownZones:
+    """Stick zones under one P, by depth: a cubic through the nearest four estimates the next."""
+
+    def __init__(self) -> None:
+        self._depths: list[float] = []
+        self._zones: dict[float, Interval] = {}
+
+    def add(self, depth: float, zone: Interval) -> None:
+        if depth not in self._zones:
+            insort(self._depths, depth)
+            self._zones[depth] = zone
+
+    def guess(self, depth: float) -> Interval | None:
+        first = max(min(bisect_left(self._depths, depth) - 2, len(self._depths) - 4), 0)
+        near = self._depths[first : first + 4]
+        if not near:
+            return None
+        base, moved = self._zones[near[0]], [0.0, 0.0]
+        for d in near:
+            zone = self._zones[d]
+            weight = math.prod((depth - other) / (d - other) for other in near if other != d)
+            moved[0] += weight * (zone.x1 - base.x1 + (zone.tail1 - base.tail1))
+            moved[1] += weight * (zone.x2 - base.x2 + (zone.tail2 - base.tail2))
+        found = base.moved(*moved)
+        return found if found.x1 < found.x2 else None

@@ -4,7 +4,7 @@ In a state that repeats, a point that slips one way on the way to A slips back o
 Where it slips, q_A - q_B = s f (p_A + p_B); in the permanent stick zone the strain of q_A - q_B is
 that of the bulk stresses. Neither the means of Q and σ, nor what is locked in, nor the way to the
 steady state matter. At constant P and tilt q_A - q_B is twice the first loading by half of the
-change; otherwise each way is followed from q = ± f p all over (`load_history.load_steps`).
+change; otherwise each way is followed from q = ± f p all over (`friction.load_steps`).
 """
 
 from __future__ import annotations
@@ -17,9 +17,9 @@ from typing import Any, overload
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from sie.friction.load_history.load_steps import TurningPoint
-from sie.friction.load_history.path_slip import CourseSlip, step_slip
-from sie.friction.loads import Loads
+from sie.friction.load_steps import TurningPoint
+from sie.friction.loading import Loads
+from sie.friction.path_slip import CourseSlip, step_slip
 from sie.friction.slip_state import Slip
 from sie.numerics.zones import within
 from sie.solution import Solution
@@ -66,10 +66,10 @@ class SteadyCycle(Sequence["SteadyState"]):
     def _reduced(self) -> Slip | None:
         """The first loading of A to the depth of slip, at constant P and tilt."""
         point = self.history.turning_points[0]
-        top = point.memory.top
-        if top is None:
+        if not point.memory.layers:
             return None
-        return self.history.first_loading(point.loads.normal, top.thickness, point.turned)
+        depth = point.memory.layers[0][0]
+        return self.history.first_loading(point.loads.normal, depth, point.turned)
 
     @property
     def stick(self) -> tuple[tuple[float, float], ...]:
@@ -147,9 +147,8 @@ class SteadyCycle(Sequence["SteadyState"]):
     def shear_change(self) -> Density:
         """q_A - q_B, a `Density` in units of stress."""
         A, B = self._ends
-        top, reduced = A.memory.top, self._reduced
-        if top is not None and reduced is not None:
-            return superposed((2.0 * top.k, reduced.shear))
+        if self._reduced is not None:
+            return superposed((2.0 * A.memory.layers[0][1], self._reduced.shear))
         if B.parts:
             assert B.step is not None
             s = -B.state.slip[0][2]

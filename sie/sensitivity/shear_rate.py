@@ -14,7 +14,7 @@ from dataclasses import replace
 from typing import Any, NamedTuple
 
 from sie.errors import ContactError
-from sie.friction.states import OneSignedSlip
+from sie.friction.partial_slip import OneSignedSlip
 from sie.patches.friction import PatchSlip
 from sie.traction.base import Density
 from sie.traction.combination import superposed
@@ -61,7 +61,6 @@ def shear_rate(solution: Any, change: Change, contact: ContactRate) -> ShearRate
     density: Any
     if isinstance(state, OneSignedSlip):
         found, density = state.found, state.corrective
-        found = replace(found, edges=replace(found.edges, contact=density.contact))
     elif isinstance(state, PatchSlip):
         found, density = state.corrective, state.corrective.pressure
     else:

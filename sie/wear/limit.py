@@ -29,7 +29,7 @@ from numpy.typing import ArrayLike, NDArray
 from sie import arguments
 from sie.contact.gap import gap
 from sie.errors import ContactError
-from sie.friction.states import OneSignedSlip
+from sie.friction.partial_slip import OneSignedSlip
 from sie.numerics.graded_rule import on_panels
 from sie.problem.scene import Scene
 from sie.profiles.base import Profile

@@ -1,6 +1,7 @@
 """Partial slip under a bulk stress beside P and Q."""
 
 import math
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -115,7 +116,7 @@ def test_bulk_stress_alone_gives_two_signed_slip(sign):
     assert float(solution.shear(x)) == pytest.approx(
         -sign * F * float(solution.pressure(x)), rel=1e-14
     )
-    assert float(solution.shear(-x)) == -float(solution.shear(x))
+    assert float(solution.shear(-x)) == pytest.approx(-float(solution.shear(x)), rel=1e-14)
     assert solution.check().ok
 
 
@@ -136,10 +137,10 @@ def test_the_stress_under_two_signed_slip_is_continuous_to_the_surface():
         )
 
 
-@pytest.mark.parametrize("strain", [2.0, 5.0, 12.0, 20.0])
+@pytest.mark.parametrize("strain", [2.0, 5.0, 9.0, 12.9])
 def test_a_large_bulk_stress_leaves_a_narrow_stick_zone_of_hertz(strain):
     """∫_ρ^b p/sqrt(t² - ρ²) dt = π τ/(2 f) is f p0 [K(k) - E(k)] = π τ/2, k² = 1 - ρ²/b²: both
-    halves alike; ρ falls below 1e-13 b.
+    halves alike; ρ falls below 1e-8 b, and is known to the rounding of its ends.
     """
     b = math.sqrt(4.0 * P / (math.pi * E))
     p0 = 2.0 * P / (math.pi * b)
@@ -152,9 +153,9 @@ def test_a_large_bulk_stress_leaves_a_narrow_stick_zone_of_hertz(strain):
             -1.57 * strain,
         )
         c = mp.exp(u)
-    stick = solution.tangential.found.stick
-    assert abs(stick.r / (b * c) - 1) < 1e-12
-    assert abs(stick.m) < 1e-15 * b
+    ((lo, hi),) = solution.stick
+    assert abs(0.5 * (hi - lo) - b * c) < 1e-13 * b
+    assert abs(0.5 * (hi + lo)) < 1e-13 * b
     assert solution.check().ok
 
 
@@ -175,77 +176,49 @@ def test_bulk_stress_alone_holds_the_mirror_image_of_a_tilted_punch_by_the_mirro
     assert here.check().ok
 
 
-@pytest.mark.slow(but=1)
-@pytest.mark.parametrize(("fraction", "strain"), [(0.0, 100.0), (0.5, 1e4), (-0.7, 300.0)])
-def test_a_bulk_stress_that_leaves_a_point_of_stick(fraction, strain):
-    """q = ± f p on either side of c, where they balance Q, and slip(x) = 1/(π G) ∫q ln|(x - t)/(c -
-    t)| dt - τ (x - c)/G, G = E*/2.
-    """
-    b = math.sqrt(4.0 * P / (math.pi * E))
-    solution = sheared(
-        sie.Parabola(1.0), fraction, bulk_stress=8.0 * strain * F * P / (math.pi * b)
-    )
-    ((lo, hi),) = solution.stick
-    b, tau, s = (
-        mp.sqrt(4 * mp.mpf(P) / (mp.pi * E)),
-        mp.mpf(solution.scene.bulk_stress) / 4,
-        fraction * mp.mpf(P),
-    )
-
-    def p(t):
-        return E / mp.mpf(2) * mp.sqrt(abs(b * b - t * t))
-
-    def beyond(c):  # the load to the right of c
-        t = c / b
-        return E * b * b / 4 * (mp.acos(t) - t * mp.sqrt(1 - t * t))
-
-    c = mp.findroot(lambda c: P - 2 * beyond(c) - s, lo)
-    assert lo == hi and abs(lo - c) < 1e-15 * b
-    for x in (solution.edges[0], 0.5 * solution.edges[1], solution.edges[1]):
-        X = mp.mpf(x)
-        stops = sorted({-b, c, min(max(X, -b), b), b})
-        pull = mp.quad(
-            lambda t, X=X: F * p(t) * (1 if t < c else -1) * mp.log(abs((X - t) / (t - c))), stops
-        )
-        assert (
-            abs(float(solution.slip(x)) / (2 / (mp.pi * E) * pull - 2 * tau / E * (X - c)) - 1)
-            < 1e-13
-        )
-    x = np.array([c - 0.1 * b, c + 0.1 * b], dtype=float)
-    assert (solution.shear(x) == F * solution.pressure(x) * [1.0, -1.0]).all()
-    assert solution.check().ok
+@pytest.mark.parametrize(("fraction", "strain"), [(0.0, 100.0), (0.5, 1e4), (-0.999, 9.0)])
+def test_a_bulk_stress_that_leaves_hardly_a_point_of_stick_is_refused_with_one_that_is_solved(
+    fraction, strain
+):
+    stress = 8.0 * strain * F * P / (math.pi * math.sqrt(4.0 * P / (math.pi * E)))
+    scene = sheared(sie.Parabola(1.0), fraction, bulk_stress=stress).scene
+    with pytest.raises(sie.ContactError, match="too narrow for doubles") as caught:
+        _ = sie.solve(scene).stick
+    part = float(re.search(r"at most (\S+) times", str(caught.value))[1])
+    assert sie.solve(replace(scene, bulk_stress=part * stress)).check().ok
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize(
-    "profile", [sie.RoundedFlat(0.5, 1.0), sie.Flat(1.0), sie.Wedge(0.3)], ids=repr
+    ("profile", "rounded"),
+    [(sie.Flat(1.0), sie.RoundedFlat(1.0, 0.5)), (sie.Wedge(0.3), sie.Parabola(2.0))],
+    ids=["flat", "wedge"],
 )
-@pytest.mark.parametrize("fraction", [0.0, 0.3, -0.99])
-def test_every_bulk_stress_is_solved(profile, fraction):
-    """However large: the law holds, and Q is carried."""
-    for strain in (2.0, -10.0, 40.0, -1e3, 1e8):
+def test_opposite_slip_is_refused_next_to_an_infinite_pressure_and_solved_where_that_is_rounded(
+    profile, rounded
+):
+    with pytest.raises(sie.ContactError, match=r"infinite pressure at x = .* round"):
+        _ = sheared(profile, 0.3, bulk_stress=4.0 * P).stick
+    assert sheared(rounded, 0.3, bulk_stress=4.0 * P).check().ok
+
+
+@pytest.mark.slow(but=3)
+@pytest.mark.parametrize(
+    "profile",
+    [
+        sie.RoundedFlat(0.5, 1.0),
+        sie.Power(4.2, 0.2),
+        sie.Parabola(1.0).tilted(0.1),
+        sie.Polynomial((0.0, 0.0, 0.5, 0.1, 0.125)),
+    ],
+    ids=repr,
+)
+@pytest.mark.parametrize("fraction", [0.0, 0.3, -0.9])
+def test_every_bulk_stress_that_leaves_a_stick_zone_is_solved(profile, fraction):
+    """The law holds, and Q is carried."""
+    for strain in (2.0, -5.0, 8.0):
         solution = sheared(profile, fraction, bulk_stress=strain * P)
         assert solution.check().shear.ok, solution.check().shear
         assert 0.0 < solution.energy_lost < math.inf
-
-
-@pytest.mark.parametrize("strain", [-0.771, -0.77, -0.769, 0.77])
-def test_a_stick_zone_that_ends_next_to_the_tip_of_a_wedge_carries_the_load(strain):
-    """Newton's method for a narrow zone goes to and fro across the tip, where p is infinite, and
-    must not be believed.
-    """
-    f = 0.3
-    scene = sie.Scene(profile=sie.Wedge(0.5), modulus=1.0, normal_load=0.4, friction=f)
-    sigma = 4.0 * strain * f * 0.4 / sie.solve(scene).half_width
-    solution = sie.solve(scene).with_(tangential_load=-0.62 * f * 0.4, bulk_stress=sigma)
-    assert abs(solution.stick[0][0 if strain < 0.0 else 1]) < 0.01 * solution.half_width
-    assert solution.check().shear.ok, solution.check().shear
-
-
-def test_a_stick_zone_between_two_doubles_is_solved_for_a_slope_given_by_a_function():
-    solution = sheared(sie.Power(4.2, 0.2), 1.0 - 1e-9, bulk_stress=-1e3 * P)
-    assert solution.tangential.kind == "two signs"
-    assert solution.check().shear.ok, solution.check().shear
 
 
 @pytest.mark.parametrize("fraction", [1e-7, 3e-5, 1e-3, 9e-3])
@@ -290,7 +263,8 @@ def test_every_shear_obeys_its_law(scene, loads, f, bulk):
     on points that no solver used.
     """
     Q, width = loads[0] * f * scene.normal_load, sie.solve(scene).half_width
-    sigma = 4.0 * loads[1] * f * scene.normal_load / width if bulk else 0.0
+    # slip in opposite directions would be refused at corners
+    sigma = 8.0 * loads[1] * abs(Q) / (math.pi * width) if bulk else 0.0
     solution = sie.solve(
         sie.Scene(**fields(scene), friction=f, tangential_load=Q, bulk_stress=sigma)
     )
@@ -304,8 +278,8 @@ def test_every_shear_obeys_its_law(scene, loads, f, bulk):
 @given(strategies.scenes(), PAIRS, st.floats(0.05, 1.5))
 def test_the_mirror_image_of_a_contact_shears_the_other_way(scene, loads, f):
     """Under Q -> -Q, σ -> σ, h(x) -> h(-x): q(x) -> -q(-x). Under Q -> -Q, σ -> -σ: q -> -q."""
-    width = sie.solve(scene).half_width
-    Q, sigma = loads[0] * f * scene.normal_load, loads[1] * f * scene.normal_load / width
+    width, Q = sie.solve(scene).half_width, loads[0] * f * scene.normal_load
+    sigma = 4.0 * loads[1] * abs(Q) / (math.pi * width)
     one = sie.solve(sie.Scene(**fields(scene), friction=f, tangential_load=Q, bulk_stress=sigma))
     mirrored = fields(scene) | {"profile": scene.profile.mirrored(), "tilt": -scene.tilt}
     other = sie.solve(sie.Scene(**mirrored, friction=f, tangential_load=-Q, bulk_stress=sigma))

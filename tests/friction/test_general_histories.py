@@ -2,6 +2,7 @@
 contacts, steady cycles, and an incremental solution on a mesh.
 """
 
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -107,6 +108,19 @@ def test_a_path_that_cannot_be_is_refused_with_its_step_before_any_work(points, 
     monkeypatch.setattr(edges, "edge_integrals", worked)
     with pytest.raises((ValueError, sie.ContactError), match=said):
         sie.follow(HERTZ, sie.Path(points))
+
+
+@pytest.mark.parametrize("below", [0.0, 1e-15, 5e-11])
+@pytest.mark.parametrize(("P", "sigma"), [(0.8 * P0, 0.0), (1.3 * P0, 0.0), (P0, 0.1 * S)])
+def test_a_step_to_sliding_is_refused_whatever_the_rounding_with_one_that_is_solved(
+    P, sigma, below
+):
+    first, Q = (P0, 0.3 * f * P0, 0.0), (1.0 - below) * f * P
+    with pytest.raises(sie.ContactError, match=r"step 1 .*comes to f P") as caught:
+        sie.follow(HERTZ, sie.Path([first, (P, Q, sigma)]))
+    if below == 0.0:
+        nearly = float(re.search(r"Q = (\S+)$", str(caught.value))[1])
+        assert sie.follow(HERTZ, sie.Path([first, (P, nearly, sigma)]))[1].check().ok
 
 
 @pytest.mark.parametrize(

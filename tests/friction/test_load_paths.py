@@ -13,8 +13,6 @@ from path_cases import FP, HERTZ, LOPSIDED, PUNCH, E, F, P, at_constant_load, fi
 
 import sie
 from sie.friction.memory import LoadMemory
-from sie.friction.slip_state import edge_frames
-from sie.friction.slip_zones import slip_zone
 
 # -- constant P ------------------------------------------------------------------------------------
 
@@ -108,19 +106,6 @@ def test_the_shear_of_many_turning_points_takes_the_pressure_of_the_contact_once
     x = np.linspace(*history[-1].edges, 41)
     one_by_one = sum(weight * loading.shear(x) for weight, loading in history[-1].tangential._terms)
     assert shear(x) == pytest.approx(one_by_one, abs=1e-14)
-
-
-@pytest.mark.parametrize("length", [1e-12, 1e-3, 0.3])
-def test_the_pull_of_a_slip_zone_beyond_its_length_is_its_sum(length):
-    solved = sie.solve(sie.Scene(**fields(PUNCH)))
-    zone_ = slip_zone(
-        edge_frames(solved.slope_density, solved.normal.slope(PUNCH.profile))[1], length
-    )
-    distance = length * np.array([0.0, 1e-8, 0.3, 0.999, 1.0, 1.001, 3.0, 1e4])
-    weight = zone_.force / np.sqrt(zone_.from_stick * (zone_.from_stick + 0.8))
-    assert zone_.pull(distance, 0.4) == pytest.approx(
-        (weight / (distance[:, None] + zone_.from_stick)).sum(axis=1), rel=1e-13
-    )
 
 
 def test_no_point_of_a_path_is_solved_before_it_is_read():

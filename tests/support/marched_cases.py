@@ -7,7 +7,7 @@ import numpy as np
 from history_cases import P0, F, Points, S
 
 import sie
-from sie.friction.load_history.load_steps import loads_of, turning_points
+from sie.friction.load_steps import loads_of, turning_points
 from sie.paths.history import History
 from sie.problem.request import ECONOMY
 

@@ -3,50 +3,33 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from functools import cached_property
 from itertools import pairwise
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from sie.errors import ContactError
-from sie.friction.coupled.traction import smooth_between
-from sie.friction.loading import contact_under
-from sie.friction.loads import Loads
-from sie.friction.part_answers import drag, slip
-from sie.friction.slip_state import Slip
-from sie.friction.state import SAME, State, between, intervals
-from sie.friction.step_energy import work
 from sie.numerics import chebyshev
-from sie.numerics.graded_panels import Pieces, Rule
+from sie.numerics.graded_panels import Pieces
 from sie.numerics.interval import Interval
-from sie.numerics.zones import within
+from sie.numerics.zones import left_over, within
 from sie.traction.base import Density
 from sie.traction.combination import ZERO, superposed
 
-from .load_steps import Followable, TurningPoint, sheared_all_over
+from .gained_slip import drag, slip
+from .load_steps import Followable, TurningPoint
+from .loading import Loads, contact_under
+from .slip_state import Slip
+from .state import SAME, State, intervals
+from .state_slip import StateSlip
+from .step_energy import work
 
 Array = NDArray[np.float64]
 
 NODES, EARLY = 24, 6  # of a step: nodes in a root of its share
-
-
-class Followed(Followable, Protocol):
-    """A path that was followed, and its contacts.
-
-    turning_points   the layers after each step
-    period           of the profile
-    plain            the solution under P and a tilt, without shear
-    shift_of_step    the shift that slip adds in one step
-    """
-
-    turning_points: tuple[TurningPoint, ...]
-
-    @property
-    def period(self) -> float: ...
-    def plain(self, P: float, turn: float) -> Any: ...
-    def shift_of_step(self, index: int) -> float: ...
 
 
 class PathSlip(Slip):
@@ -58,7 +41,7 @@ class PathSlip(Slip):
     kind = "after a path"
 
     def __init__(
-        self, history: Followed, index: int = 0, state: TurningPoint | None = None
+        self, history: Followable, index: int = 0, state: TurningPoint | None = None
     ) -> None:
         self.history, self.index = history, index
         self.state = history.turning_points[index] if state is None else state
@@ -85,8 +68,8 @@ class PathSlip(Slip):
     @property
     def _now(self) -> Slip | None:
         """The first loading whose depth is that of the last step's slip."""
-        top = self.state.memory.top
-        return self._loading(top.thickness) if self.state.slipped and top else None
+        layers = self.state.memory.layers
+        return self._loading(layers[0][0]) if self.state.slipped and layers else None
 
     @property
     def stick(self) -> tuple[tuple[float, float], ...]:  # type: ignore[override]
@@ -114,6 +97,10 @@ class PathSlip(Slip):
     @property
     def condition(self) -> float:  # type: ignore[override]
         return max((loading.condition for _, loading in self._terms), default=1.0)
+
+    @property
+    def promised(self) -> float:  # type: ignore[override]
+        return sum(abs(weight) * loading.promised for weight, loading in self._terms)
 
     @cached_property
     def shear(self) -> Density:
@@ -160,47 +147,19 @@ class PathSlip(Slip):
         return sum(self.history.shift_of_step(index) for index in range(self.index + 1))
 
 
-class CourseSlip(PathSlip):
+class CourseSlip(StateSlip, PathSlip):
     """Stick, slip and shear at a point of a path, the step to which was followed part by part."""
 
     @property
     def kind(self) -> str:  # type: ignore[override]
         return f"followed part by part, as {self.state.why}"
 
-    @cached_property
-    def shear(self) -> Density:
-        state = self.state.state
-        contact = state.contact
-        room = SAME * contact.width
-
-        def of_patch(x1: float, x2: float) -> Density:
-            zone, marks = Interval(x1, x2), state.marks
-            inside = marks[(marks > x1 + room) & (marks < x2 - room)]
-            rule = Rule.graded(intervals([(x1, x2)], inside, room))
-            load = float(rule.weight @ state.shear.on(rule))
-            return smooth_between(zone, state.shear, inside.tolist(), load)
-
-        found = [of_patch(*patch) for patch in contact.patches]
-        return found[0] if len(found) == 1 else superposed(*((1.0, q) for q in found))
-
     @property
-    def stick(self) -> tuple[tuple[float, float], ...]:  # type: ignore[override]
-        return self.state.state.stick
-
-    @property
-    def slipped(self) -> tuple[tuple[float, float, float], ...]:
-        return self.state.state.slip
-
-    @property
-    def levels(self) -> tuple[float, ...]:
-        return tuple(self.state.state.marks.tolist())
-
-    @property
-    def contacts(self) -> tuple[()]:
-        return ()
+    def locked(self) -> State:
+        return self.state.state
 
 
-def state_of(history: Followed, point: TurningPoint) -> State:
+def state_of(history: Followable, point: TurningPoint) -> State:
     """What a step from a turning point starts from."""
     if point.parts:
         return point.state
@@ -212,62 +171,53 @@ def state_of(history: Followed, point: TurningPoint) -> State:
     marks = np.unique(np.concatenate((slip.levels, contact.limit.marks)))
     q = Pieces.fitted(intervals(contact.patches, marks, room), lambda rule: shear(rule.x))
     stick = tuple((lo, hi) for lo, hi in slip.stick if hi > lo)
-    zones = between(contact.patches, stick)
+    zones = left_over(contact.patches, stick)
     signs = np.sign(q(np.array([0.5 * (lo + hi) for lo, hi in zones])))
     slips = tuple((*zone, float(s)) for zone, s in zip(zones, signs, strict=True))
     return State(contact, stick, slips, q)
 
 
-def touched(history: Followed, loads: Loads) -> State:
-    """The same where the bodies have just come into contact: q is in proportion to p."""
-    return sheared_all_over(history, loads, loads.Q)
-
-
 # -- what a step adds ------------------------------------------------------------------------------
 
 
-def step_energy(history: Followed, index: int) -> float:
+def _overwritten(history: Followable, point: TurningPoint) -> Iterator[tuple[float, Slip]]:
+    """The first loadings whose sum, each times a factor, is what slip adds in a step by layers."""
+    for layer in point.slipped:
+        for depth, factor in ((layer.lower, layer.jump), (layer.upper, -layer.jump)):
+            if depth:
+                yield factor, history.first_loading(point.loads.normal, depth, point.turned)
+
+
+def step_energy(history: Followable, index: int) -> float:
     """The energy that friction dissipates in one step."""
     state = history.turning_points[index]
     if state.step is not None:
         with np.errstate(all="ignore"):  # what that leaves is not accurate, and refused
             return sum(work(part, state.step) for part in state.parts)
-
-    def until(depth: complex) -> float:
-        loading = history.first_loading(state.loads.normal, depth, state.turned)
-        return loading.integrals.work if depth and loading.integrals else 0.0
-
-    return sum(o.jump * (until(o.lower) - until(o.upper)) for o in state.slipped)
+    return sum(factor * loading.energy for factor, loading in _overwritten(history, state))
 
 
-def step_slip(history: Followed, index: int, x: Array) -> Array:
+def step_slip(history: Followable, index: int, x: Array) -> Array:
     """The slip in one step; where x came into contact in it, since then."""
     state, out = history.turning_points[index], np.zeros(x.shape)
     for part in state.parts:
         assert state.step is not None
         out += slip(part, state.step, x)
-    for o in state.slipped:
-        for depth, way in ((o.lower, state.sign), (o.upper, -state.sign)):
-            if depth:
-                loading = history.first_loading(state.loads.normal, depth, state.turned)
-                out += way * o.jump * loading.slip(x)
+    for factor, loading in _overwritten(history, state):
+        out += state.sign * factor * loading.slip(x)
     return out
 
 
-def step_shift(history: Followed, index: int) -> float:
+def step_shift(history: Followable, index: int) -> float:
     """The shift that slip adds in one step."""
     state = history.turning_points[index]
     if state.step is not None:
         return _shift_of_parts(history, state)
-
-    def until(depth: complex) -> float:
-        loading = history.first_loading(state.loads.normal, depth, state.turned)
-        return loading.shift if depth else 0.0
-
-    return sum(state.sign * o.jump * (until(o.lower) - until(o.upper)) for o in state.slipped)
+    parts = _overwritten(history, state)
+    return state.sign * sum(factor * loading.shift for factor, loading in parts)
 
 
-def _shift_of_parts(history: Followed, point: TurningPoint) -> float:
+def _shift_of_parts(history: Followable, point: TurningPoint) -> float:
     """The shift that slip adds in a step: all of it, less that without slip.
 
     A contact [M - R, M + R] that does not slip shifts by -2 ln R/(π E*) dQ + 2/E* M dτ.

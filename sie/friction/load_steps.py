@@ -10,23 +10,22 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from functools import partial
-from typing import Protocol, TypeVar
+from typing import Any, Protocol, TypeVar
 
 from sie.errors import ContactError
-from sie.friction.loading import Contacts, LoadStep, contact_under
-from sie.friction.loads import Loads
-from sie.friction.memory import LoadMemory, SlippedLayer, in_proportion, simple
-from sie.friction.onset import Motion, onset
-from sie.friction.part import Part
-from sie.friction.slip_state import Slip
-from sie.friction.state import State
-from sie.friction.strip_part import StripPart
 from sie.numerics.graded_panels import Pieces
 from sie.numerics.interval import EPS, Interval
 from sie.problem.coverage import refuse_sliding
 from sie.problem.load_path import Path
 from sie.problem.scene import Scene
 from sie.progress_bar import counted
+
+from .finite_step import Part
+from .loading import Contacts, Loads, LoadStep, contact_under
+from .memory import LoadMemory, SlippedLayer, in_proportion, simple
+from .onset import Motion, onset
+from .slip_state import Slip
+from .state import State
 
 Result = TypeVar("Result")
 
@@ -58,7 +57,7 @@ class TurningPoint:
     sign: float = 1.0
     slipped: tuple[SlippedLayer, ...] = ()
     turned: bool = False
-    parts: tuple[Part | StripPart, ...] = ()
+    parts: tuple[Part, ...] = ()
     step: LoadStep | None = None
     why: str = ""
 
@@ -78,7 +77,14 @@ class Followable(Contacts, Protocol):
     first_loading   the state of a contact that was never sheared before S rose to a depth
     in_parts        the turning point after a step that no layers answer
     followed        the same from any state
+    plain           the solution under P and a tilt, without shear
+    shift_of_step   the shift that slip adds in one step
     """
+
+    turning_points: tuple[TurningPoint, ...]
+
+    @property
+    def period(self) -> float: ...
 
     def shear(self, loads: Loads) -> complex: ...
     @property
@@ -89,6 +95,8 @@ class Followable(Contacts, Protocol):
     def first_loading(self, normal: tuple[float, float], depth: complex, turned: bool) -> Slip: ...
     def in_parts(self, before: TurningPoint, loads: Loads) -> TurningPoint: ...
     def followed(self, start: State, first: Loads, loads: Loads) -> TurningPoint: ...
+    def plain(self, P: float, turn: float) -> Any: ...
+    def shift_of_step(self, index: int) -> float: ...
 
 
 def turning_points(scene: Scene, path: Path, contacts: Followable) -> tuple[TurningPoint, ...]:
@@ -148,12 +156,12 @@ def stepped(contacts: Followable, before: TurningPoint, loads: Loads) -> Turning
     pull = simple(shear - memory.total)
     if abs(pull) <= ROUNDED * max(abs(shear), abs(memory.total)):
         pull = 0.0
-    if not pull and (same or memory.top is None):
+    if not pull and (same or not memory.layers):
         return replace(before, loads=loads, slipped=())
     why = "P or the tilt changes"
     if same:
         why = "Q and bulk stress change in another proportion"
-        if memory.top is None or in_proportion(pull, memory.top.depth):
+        if not memory.layers or in_proportion(pull, memory.depth):
             point = layered(contacts, before, loads, pull)
             if point:
                 return point
