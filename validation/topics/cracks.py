@@ -3,8 +3,7 @@
 K of an edge crack under powers of the depth has an exact solution by Wiener and Hopf's method,
 computed here in 30 digits; handbooks print five of its values. The slip zone of Cattaneo tends to
 that of the edge's asymptote; the wear limit of a cylinder and its rolling are known in closed form.
-The
-eigenvalues of the modes of wear on a fixed width are compared with Galin's equation, solved in
+The eigenvalues of the modes of wear on a fixed width are compared with Galin's equation, solved in
 cosines of the angle, in which ln(1/|x - t|) is a diagonal series.
 """
 
