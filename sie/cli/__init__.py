@@ -149,7 +149,7 @@ def _more(solution: Solution, file: SceneFile) -> dict[str, Any]:
 
         out["cycle"] = cycle_of(solution, file)
     if "crack" in file.want:
-        from sie.io.crack_answer import crack_answer
+        from sie.io.crack_table import crack_answer
 
         out["crack"] = crack_answer(solution, file)
     return out
