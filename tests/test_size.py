@@ -14,7 +14,7 @@ LINES = {
     "": 3030,
     "benchmark_set": 10,
     "cracks": 790,
-    "wear": 480,
+    "wear": 470,
     "cauchy": 2170,
     "certificate": 1570,
     "cli": 980,
