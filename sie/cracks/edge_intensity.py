@@ -85,7 +85,7 @@ def edge_intensity(
     edge = contact.x1 if on_left else contact.x2
     apart = [abs(x - edge) for x in pressure.breaks if abs(x - edge) > 0.0]
     s, near = scaled_pressure(NEAR * max(min(apart), LEAST / NEAR[0] * np.spacing(abs(edge))))
-    K_N = float(sum(near * _at_zero(s)))
+    K_N = float(np.polyfit(s / s[0], near, 2)[-1])  # the parabola through them at 0
     s, other = scaled_pressure(np.geomspace(NEAR[0], 2.0, SCANNED)[:-1] * r)
     off = np.abs(K_N / np.where(other > 0.0, other, math.inf) - 1.0)
     if K_T:
@@ -99,21 +99,10 @@ def edge_intensity(
     return EdgeIntensity(K_N, K_T, slips, (one, ten), sharp)
 
 
-def _at_zero(s: Array) -> Array:
-    """The weights of values at three distances in the value at 0 of the parabola through them."""
-    a, b, c = s
-    return np.array(
-        [b * c / ((a - b) * (a - c)), a * c / ((b - a) * (b - c)), a * b / ((c - a) * (c - b))]
-    )
-
-
 def _reach(s: Array, off: Array, part: float) -> float:
     """The distance at which the asymptote is off by a part first, between two of those scanned."""
-    beyond = off > part
-    if not beyond.any():
-        return float(s[-1])
-    k = int(np.argmax(beyond))
-    if k == 0:
-        return float(s[0])
-    share = (part - off[k - 1]) / (off[k] - off[k - 1])
-    return float(s[k - 1] + share * (s[k] - s[k - 1]))
+    beyond = np.flatnonzero(off > part)
+    if not beyond.size or beyond[0] == 0:
+        return float(s[-1 if not beyond.size else 0])
+    around = slice(beyond[0] - 1, beyond[0] + 1)
+    return float(np.interp(part, off[around], s[around]))

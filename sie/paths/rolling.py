@@ -23,7 +23,7 @@ from sie import arguments
 from sie.contact.edge_integrals import EdgeIntegrals, edge_integrals
 from sie.errors import ContactError
 from sie.numerics.interval import EPS, Interval
-from sie.numerics.root_finding import increasing_root
+from sie.numerics.root_finding import false_position
 from sie.problem.scene import Scene
 from sie.profiles.resolution import refined
 from sie.solution import Solution, solve
@@ -106,8 +106,11 @@ def rolling(scene: Scene, leading: str = "right") -> Rolling:
         lo, hi = (contact.x2 - 2.0 * r, contact.x2) if right else (contact.x1, contact.x1 + 2.0 * r)
         return edge_integrals(slope, Interval(lo, hi), keep_zero=True)
 
-    G, guess = 0.5 * scene.Estar, contact.r * math.sqrt(max(load / solution.normal_load, EPS))
-    r = increasing_root(lambda r: G * r * integrals(r).I1 - load, guess, contact.r)
+    def lacking(r: float) -> float:
+        return 0.5 * scene.Estar * r * integrals(r).I1 - load
+
+    ends = -load, lacking(contact.r)
+    r = false_position(lacking, 0.0, contact.r, ends, lambda lo, hi, _: hi - lo <= 4.0 * EPS * hi)
     turned = -integrals(r).I0 / math.pi
     E, tilt = scene.Estar, solution.tilt + turned
     under = solve(Scene(profile=scene.profile, modulus=E, normal_load=load, tilt=tilt))

@@ -59,8 +59,8 @@ def gradient(solution: Any, quantity: str) -> dict[str, Any]:
     known_quantity(quantity)
     found: dict[str, Any] = {}
     refused: ContactError | None = None
-    names = [*parameters(solution.scene, heights=False)]
-    for name in names + [HEIGHTS] * isinstance(solution.scene.profile, Sampled):
+    trace = isinstance(solution.scene.profile, Sampled)
+    for name in (*parameters(solution.scene, heights=False), *((HEIGHTS,) if trace else ())):
         try:
             found[name] = by_name(solution, quantity, name)
         except ContactError as error:  # of one number; the others have derivatives

@@ -39,13 +39,7 @@ MOST = 20  # eigenvalues that are given: of these all digits shown are right
 
 @dataclass(frozen=True)
 class WearModes:
-    """The modes of wear on a fixed width; `wear_modes` makes it.
-
-    Parameters
-    ----------
-    half_width : float
-        a, length.
-    """
+    """The modes of wear on the fixed width 2a; `wear_modes` makes it."""
 
     half_width: float
 

@@ -2,8 +2,8 @@
 
 K of an edge crack under powers of the depth has an exact solution by Wiener and Hopf's method,
 computed here in 30 digits; handbooks print five of its values. The slip zone of Cattaneo tends to
-that of the edge's asymptote, and the wear limit of a cylinder is known in closed form. The
-eigenvalues of the modes of wear on a fixed width are compared with Galin's equation, solved in
+that of the edge's asymptote; the wear limit of a cylinder and its rolling are known in closed form.
+The eigenvalues of the modes of wear on a fixed width are compared with Galin's equation, solved in
 cosines of the angle, in which ln(1/|x - t|) is a diagonal series.
 """
 
@@ -105,6 +105,10 @@ def _wear() -> Iterator[Record]:
         by="Dmitriev et al. 2016; closed form", named="under 1e-9 more tangential load",
         high=1e-11,
     )  # fmt: skip
+    yield checked(
+        creep, 1.0, 1.0 + 1e-9, what="creep of a rolling cylinder: relative error",
+        by="Carter 1926", named="under 1e-9 more tangential load", high=1e-12,
+    )  # fmt: skip
     found = sie.wear_modes().eigenvalues
     yield checked(
         lambda mu: apart(mu, galin()), found[:5], found[1:6],
@@ -128,6 +132,12 @@ def worn(factor: float) -> float:
         )  # fmt: skip
         errors += [relative(float(v), true) for v, true in zip(values, exact, strict=True)]
     return largest(errors)
+
+
+def creep(factor: float) -> float:
+    rolls = sie.rolling(replace(PAD, tangential_load=factor * PAD.tangential_load))
+    b = rolls.solution.half_width
+    return relative(rolls.creep, PAD.friction * b * (1.0 - math.sqrt(0.5)))
 
 
 def galin() -> list[Any]:
