@@ -20,7 +20,7 @@ LINES = {
     "cli": 980,
     "contact": 2520,
     "examples": 10,
-    "friction": 10860,
+    "friction": 10840,
     "inverse": 320,
     "io": 5580,
     "live": 1170,
