@@ -232,6 +232,14 @@ def test_energy_does_not_depend_on_how_a_load_is_divided():
     assert ends(parts[2]) == pytest.approx(ends(whole[1]), abs=1e-10)
 
 
+def test_energy_is_known_where_two_ends_pass_kinks_of_the_profile():
+    before, after = (solved(PROFILES["kinked"], 0.2, 0.3, part) for part in (0.0, 0.6))
+    x = np.linspace(*after.edges, 2001)[1:-1]
+    slip = np.abs(after.slip(x) - before.slip(x))
+    work = 0.3 * float(after.pressure(x) @ slip) * (x[1] - x[0])
+    assert after.energy_lost - before.energy_lost == pytest.approx(work, rel=0.02)
+
+
 @pytest.mark.slow
 def test_energy_of_a_step_in_which_stick_passes_earlier_ends_is_that_of_its_parts():
     whole, parts = followed(0.5, -0.5), followed(0.5, 0.1, -0.2, -0.4, -0.5)

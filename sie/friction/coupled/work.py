@@ -139,7 +139,7 @@ class Way:
         found = passing(self.question, (part, zones), self.marks, end, mark) if zones else None
         if found is None or not 0.0 < found[0] < 1.0:
             raise _unknown()
-        insort(self.known, (found[0], zones_of(found[1])))
+        self._keep(*found)
         return found[0]
 
     def near(self, part: float) -> Zones | None:
@@ -195,9 +195,12 @@ class Way:
             if found is None or (found.base or found.before) is not self.base:
                 return None
             state = found.state
+        self._keep(part, state)
+        return state
+
+    def _keep(self, part: float, state: State) -> None:
         if all(abs(part - other) > CLOSE * part for other, _ in self.known):
             insort(self.known, (part, zones_of(state)))
-        return state
 
     def _settled(self, part: float, start: Zones | None) -> State | None:
         return settled(self.question(part), start, self.marks, ROUGHLY) if start else None
