@@ -264,7 +264,7 @@ def test_every_shear_obeys_its_law(scene, loads, f, bulk):
     """
     Q, width = loads[0] * f * scene.normal_load, sie.solve(scene).half_width
     # slip in opposite directions would be refused at corners
-    sigma = 8.0 * loads[1] * abs(Q) / (math.pi * width) if bulk else 0.0
+    sigma = 3.99 * loads[1] * abs(Q) / (math.pi * width) if bulk else 0.0
     solution = sie.solve(
         sie.Scene(**fields(scene), friction=f, tangential_load=Q, bulk_stress=sigma)
     )
@@ -279,7 +279,7 @@ def test_every_shear_obeys_its_law(scene, loads, f, bulk):
 def test_the_mirror_image_of_a_contact_shears_the_other_way(scene, loads, f):
     """Under Q -> -Q, σ -> σ, h(x) -> h(-x): q(x) -> -q(-x). Under Q -> -Q, σ -> -σ: q -> -q."""
     width, Q = sie.solve(scene).half_width, loads[0] * f * scene.normal_load
-    sigma = 4.0 * loads[1] * abs(Q) / (math.pi * width)
+    sigma = 3.99 * loads[1] * abs(Q) / (math.pi * width)
     one = sie.solve(sie.Scene(**fields(scene), friction=f, tangential_load=Q, bulk_stress=sigma))
     mirrored = fields(scene) | {"profile": scene.profile.mirrored(), "tilt": -scene.tilt}
     other = sie.solve(sie.Scene(**mirrored, friction=f, tangential_load=-Q, bulk_stress=sigma))
