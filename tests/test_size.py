@@ -22,7 +22,7 @@ LINES = {
     "examples": 10,
     "friction": 9600,
     "inverse": 320,
-    "io": 4670,
+    "io": 4650,
     "live": 1140,
     "many": 740,
     "numerics": 2160,

@@ -202,10 +202,6 @@ def read(path: str | pathlib.Path) -> SceneFile:
     path = pathlib.Path(name)
     try:
         files.named(name)
-        if path.is_fifo():
-            raise ValueError(
-                f"{path} is a pipe: give a file, or send the scene to standard input and give -"
-            )
         data = files.content(path, MOST_BYTES)
     except ValueError as problem:
         raise SceneFileError(str(problem)) from None

@@ -225,16 +225,8 @@ ELSEWHERE = {
     "plus": "terms are not nested, write one [[profile.plus]] after the other",
     "of": 'it belongs to kind "row"',
     "period": "it belongs in [profile], and repeats the whole of it",
+    **dict.fromkeys(("file", "filename", "csv"), "a file is named by path"),
     "checked": "units are labels, and nothing is converted: leave it out",
-}
-# Keys that users write for others.
-SYNONYMS = {
-    **dict.fromkeys(("file", "filename", "csv"), "path"),
-    **dict.fromkeys(("mu", "cof"), "friction"),
-    **dict.fromkeys(("force", "load"), "normal_load"),
-    **dict.fromkeys(("e", "youngs_modulus"), "young"),
-    **dict.fromkeys(("nu", "poisson_ratio"), "poisson"),
-    "profile": "kind",
 }
 
 
@@ -245,15 +237,10 @@ def remedy(key: str, known: Iterable[str], here: str) -> str:
     belongs to another kind of profile.
     """
     known, of_profile = tuple(known), here.startswith(("[profile]", "[[profile"))
-    meant = SYNONYMS.get(key.lower(), "")
-    of_trace, kind = meant == "path" and "smoothing" in known, of_profile and meant == "kind"
-    if meant in known or of_trace or kind:
-        return f'did you mean "{meant}"?'
-    if here != f"[{key}]":
-        key = meant if meant and key not in TOP else key
-        if here and key in ELSEWHERE:
+    if here not in ("", f"[{key}]"):
+        if key in ELSEWHERE:
             return ELSEWHERE[key]
-        if here and key in TOP:
+        if key in TOP:
             return f"it is a table of its own, write the header [{key}] and its keys below it"
     if here == f"[{key}]" or nearest(key, known):
         return suggestion(key, known)

@@ -6,7 +6,6 @@ import sys
 
 import numpy as np
 import pytest
-from command import run
 from command_scenes import KINDS, example
 
 import sie
@@ -160,17 +159,6 @@ def test_an_example_is_listed_with_a_line_and_printed_as_it_is(kind, capsys):
 
 
 # -- as a program ----------------------------------------------------------------------------------
-
-
-def test_the_program_solves_a_scene_and_refuses_one(scene):
-    good = run("solve", scene, "--want", "edges", "check")
-    assert (good.returncode, good.stderr) == (0, "") and "\ncertified to " in good.stdout
-    bad = run("solve", "none.toml")
-    assert (
-        (bad.returncode, bad.stdout) == (2, "")
-        and bad.stderr.count("\n") == 1
-        and "Traceback" not in bad.stderr
-    )
 
 
 def test_a_scene_may_come_from_standard_input(monkeypatch, capsys):
