@@ -19,7 +19,7 @@ from .base import Profile, of_any_x
 from .slope import Slope
 from .splines import Spline, cross_validated, explains, interpolating_spline, smoothing_spline
 from .trace_files import Column, read_trace
-from .trace_units import Reading, Side, as_gap, factors, side_of, stated
+from .trace_units import Reading, Side, as_gap, factors, scale_of, side_of, stated
 from .trace_values import Mended, Smoothing, checked, scaled, smoothing_of
 
 Array = NDArray[np.float64]
@@ -178,9 +178,10 @@ class Sampled(SplineProfile):
         Sampled(x=<201 points from -2 to 2 in pad.csv>, h=<from 0 to 0.01>)
         """
         x, h, in_head = read_trace(path, columns, skip, keep_missing=mend)
-        known, file, side = stated(units), Path(path).name, side_of(heights, scale)
+        known, file, given = stated(units), Path(path).name, scale_of(scale)
+        side = side_of(heights, given)
         known = known if any(known) else in_head
-        x, h = scaled(x, h, factors(file, known, length, scale))
+        x, h = scaled(x, h, factors(file, known, length, given))
         made = cls(x, as_gap(h) if heights == "surface" else h, smoothing, mend)
         converted, factor = length if any(known) else "", "" if scale is None else repr(scale)
         return made._noted(made.mended, Reading(file, known, converted, factor, side))

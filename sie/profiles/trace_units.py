@@ -19,6 +19,7 @@ from sie import arguments
 Array = NDArray[np.float64]
 Side = Literal["gap", "surface"]
 SIDES = ("gap", "surface")
+Scale = tuple[float, float] | None
 CLOSE = 1e-9  # of a factor: a given scale is that of the units, to rounding
 
 METRES = {
@@ -113,12 +114,28 @@ def stated(units: Any) -> tuple[str, str]:
     return unit_named(both[0]), unit_named(both[1])
 
 
-def side_of(heights: Any, scale: Any) -> Side | Literal[""]:
+def scale_of(scale: Any) -> Scale:
+    """The given factors of x and h, or None. ValueError for factors that make no trace."""
+    if scale is None:
+        return None
+    pair = tuple(scale) if isinstance(scale, (tuple, list)) else (scale, scale)
+    if len(pair) != 2:
+        raise ValueError(
+            f"scale = {scale!r} is not a factor or a pair: give one for x and one for h"
+        )
+    x, h = (arguments.finite("scale", f) for f in pair)
+    if x <= 0.0 or h == 0.0:
+        raise ValueError(
+            f"scale = {scale!r}: the factor of x must be positive and that of h not zero"
+        )
+    return x, h
+
+
+def side_of(heights: Any, scale: Scale) -> Side | Literal[""]:
     """The side that heights or the sign of a scale states. ValueError where they contradict."""
     if heights and not arguments.among(heights, SIDES):
         raise ValueError(f'heights = {heights!r} is not known: give "gap" or "surface"')
-    factor = scale[1] if isinstance(scale, (tuple, list)) and len(scale) == 2 else scale
-    turned = isinstance(factor, (int, float)) and factor < 0.0
+    turned = scale is not None and scale[1] < 0.0
     if turned and heights:
         raise ValueError(
             f"scale = {scale!r} turns the heights over, beside heights = {heights!r}: give "
@@ -128,45 +145,37 @@ def side_of(heights: Any, scale: Any) -> Side | Literal[""]:
     return side
 
 
-def factors(file: str, units: tuple[str, str], length: str, scale: Any) -> Any:
-    """The scale that the units ask for, or the given one where it is the same.
+def factors(file: str, units: tuple[str, str], length: str, scale: Scale) -> tuple[float, float]:
+    """The factors that the units ask for, or the given ones where they are the same.
 
     ValueError where a unit is unknown or lacks, or where the scale contradicts the units.
     """
     x, h = units
-    if not x and not h:
-        return 1.0 if scale is None else scale
     head = f"{file} has x in {x or 'no stated unit'} and h in {h or 'no stated unit'}"
+    known = unit_named(length)
     if scale is not None:
-        if x and h:
-            _refuse_contradiction(head, units, length, scale)
+        if x and h:  # with no length their ratio is known
+            ratios = [_ratio(u, length) for u in units] if known else [1.0, _ratio(h, x)]
+            wanted = ratios if known else [scale[0] * f for f in ratios]
+            given = [abs(f) for f in scale]
+            if any(abs(f - w) > CLOSE * w for f, w in zip(given, wanted, strict=True)):
+                raise ValueError(
+                    f"{head}, which scale = ({given[0]:g}, {given[1]:g}) contradicts: leave scale "
+                    f"out, or give ({wanted[0]:g}, {wanted[1]:g}), or units = ... if the head is "
+                    "wrong"
+                )
         return scale
+    if not x and not h:
+        return 1.0, 1.0
     if not (x and h):
         raise ValueError(f'{head}: state both, as units = ("{x or h}", "{x or h}")')
     length = length or ("mm" if x == h == "mm" else "")  # as scene files have it
     if not unit_named(length):
-        wanted = f"length = {length!r} is no unit" if length else "the scene's unit is not stated"
+        wanting = f"length = {length!r} is no unit" if length else "the scene's unit is not stated"
         raise ValueError(
-            f'{head}, and {wanted}: give length = "mm" or another, the unit to convert them to'
+            f'{head}, and {wanting}: give length = "mm" or another, the unit to convert them to'
         )
-    return tuple(_ratio(unit, length) for unit in units)
-
-
-def _refuse_contradiction(head: str, units: tuple[str, str], length: str, scale: Any) -> None:
-    """ValueError unless the factors are those of the units, or with no length their ratio."""
-    pair = scale if isinstance(scale, (tuple, list)) else (scale, scale)
-    if len(pair) != 2:
-        return  # which `scaled` refuses
-    given = [abs(arguments.finite("scale", f)) for f in pair]
-    if unit_named(length):
-        wanted = [_ratio(unit, length) for unit in units]
-    else:
-        wanted = [given[0], given[0] * _ratio(units[1], units[0])]
-    if any(abs(f - w) > CLOSE * w for f, w in zip(given, wanted, strict=True)):
-        raise ValueError(
-            f"{head}, which scale = ({given[0]:g}, {given[1]:g}) contradicts: leave scale out, or "
-            f"give ({wanted[0]:g}, {wanted[1]:g}), or units = ... if the head is wrong"
-        )
+    return _ratio(x, length), _ratio(h, length)
 
 
 def _ratio(unit: str, length: str) -> float:

@@ -133,22 +133,12 @@ def smoothing_of(smoothing: Any, points: Array) -> Smoothing:
     return lam
 
 
-def scaled(x: Array, h: Array, scale: Any) -> tuple[Array, Array]:
-    """x and h times their factors, or both times one. ValueError for factors that make no trace."""
-    factors = tuple(scale) if isinstance(scale, (tuple, list)) else (scale, scale)
-    if len(factors) != 2:
-        raise ValueError(
-            f"scale = {scale!r} is not a factor or a pair: give one for x and one for h"
-        )
-    factors = tuple(arguments.finite("scale", f) for f in factors)
-    if factors[0] <= 0.0 or factors[1] == 0.0:
-        raise ValueError(
-            f"scale = {scale!r}: the factor of x must be positive and that of h not zero"
-        )
+def scaled(x: Array, h: Array, factors: tuple[float, float]) -> tuple[Array, Array]:
+    """x and h times their factors. ValueError where a product is no double."""
     with np.errstate(over="ignore"):
         products = factors[0] * x, factors[1] * h
     if (np.isinf(products) & np.isfinite((x, h))).any():
         raise ValueError(
-            f"scale = {scale!r} takes the trace beyond the range of doubles: {arguments.REMEDY}"
+            f"scale = {factors!r} takes the trace beyond the range of doubles: {arguments.REMEDY}"
         )
     return products
