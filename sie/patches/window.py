@@ -112,8 +112,8 @@ def whole_window(problem: Problem) -> tuple[float, float]:
         H = outward(away)
         low = np.flatnonzero(may_touch(away, H, NARROWEST * (last - first), problem.given.load))
         falling = np.flatnonzero((H[:-1] <= 0.0) | falls(H))
-        last = away[falling[falling <= low.max(initial=0)]]
-        reach = max(abs(end - middle), BEYOND * float(last.max(initial=0.0)))
+        farther = away[falling[falling <= low.max(initial=0)]]
+        reach = max(abs(end - middle), BEYOND * float(farther.max(initial=0.0)))
         ends.append(min(max(middle + side * reach, lo), hi) if np.isinf(limit) else limit)
     return ends[0], ends[1]
 
