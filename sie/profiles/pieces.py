@@ -237,9 +237,10 @@ class Pieces(Slope):
         What is narrower than the pieces that resolved it shows there.
         """
         inside = x[(x >= self.breaks[0]) & (x <= self.breaks[-1])]
+        k = self.locate(inside)  # at a cut in a jump the mean of both sides is no value of it
         with np.errstate(all="ignore"):
-            H, found = slope(inside), self(inside)
-            size = np.abs(self.series).sum(axis=1)[self.locate(inside)]
+            H, found = slope(inside), self.value(k, inside, 0.0)
+            size = np.abs(self.series).sum(axis=1)[k]
         return np.asarray(inside[np.abs(H - found) > MISSED * np.maximum(size, np.abs(H))])
 
     def horizon(self, tilt: float, c: Array) -> float:
