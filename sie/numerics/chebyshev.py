@@ -123,13 +123,21 @@ def antiderivative(c: Array) -> Array:
     return out
 
 
-def quotient(c: Array, s: Any, t: Any) -> Any:
-    """(Σ c_n T_n(t) - Σ c_n T_n(s)) / (t - s), however near s and t are; c (n,), or columns."""
-    value, before, b, b_next = 0.0 * t, 0.0, 0.0 * s, 0.0
-    for a in c[:0:-1]:
-        value, before = 2.0 * t * value - before + 2.0 * b, value
+def quotient(c: Array, s: Array, t: Array) -> Array:
+    """(Σ c_n T_n(t) - Σ c_n T_n(s)) / (t - s) for arrays s and t, however near to each other."""
+    b, b_next = np.zeros_like(s), np.zeros_like(s)
+    value, before, spare = np.zeros_like(t), np.zeros_like(t), np.empty_like(t)
+    twice = 2.0 * t
+    for a in c[:0:-1].tolist():
+        np.multiply(twice, value, out=spare)
+        spare -= before
+        spare += 2.0 * b
+        value, before, spare = spare, value, before
         b, b_next = a + 2.0 * s * b - b_next, b
-    return t * value - before + b
+    value *= t
+    value -= before
+    value += b
+    return value
 
 
 def divided(c: Array, end: float) -> Array:

@@ -153,7 +153,7 @@ class Pieces(Slope):
             value = value * yt + c[k]
         if self.series.shape[1] > 1:
             st, sx = (((p[0] - self._centre[k]) + p[1]) / self._half[k] for p in (t, x))
-            slope = slope + chebyshev.quotient(self.series.T[:, k], sx, st) / self._half[k]
+            slope = slope + _divided_series(self.series.T, k, st, sx) / self._half[k]
         return slope
 
     @cached_property
@@ -244,9 +244,10 @@ class Pieces(Slope):
         What is narrower than the pieces that resolved it shows there.
         """
         inside = x[(x >= self.breaks[0]) & (x <= self.breaks[-1])]
+        k = self.locate(inside)  # at a cut in a jump the mean of both sides is no value of it
         with np.errstate(all="ignore"):
-            H, found = slope(inside), self(inside)
-            size = np.abs(self.series).sum(axis=1)[self.locate(inside)]
+            H, found = slope(inside), self.value(k, inside, 0.0)
+            size = np.abs(self.series).sum(axis=1)[k]
         return np.asarray(inside[np.abs(H - found) > MISSED * np.maximum(size, np.abs(H))])
 
     def horizon(self, tilt: float, c: Array) -> float:
@@ -391,3 +392,17 @@ def root_bound(c: Array) -> float:
     degree = int(np.flatnonzero(size)[-1]) if size.any() else 0
     powers = 1.0 / np.arange(degree, 0, -1)
     return 2.0 * float(((size[:degree] / size[degree]) ** powers).max(initial=0.0))
+
+
+def _divided_series(c: Array, k: Any, t: Any, x: Any) -> Any:
+    """Σ c_n T_n[t, x] by T_{n+1}[t, x] = 2t T_n[t, x] + 2T_n(x) - T_{n-1}[t, x]."""
+    before: Any = 0.0
+    now: Any = np.ones(np.broadcast(t, x).shape, dtype=np.result_type(t, x))
+    T_before: Any = 1.0
+    T_now: Any = x
+    total = c[1][k] * now
+    for row in c[2:]:
+        before, now = now, 2.0 * t * now + 2.0 * T_now - before
+        T_before, T_now = T_now, 2.0 * x * T_now - T_before
+        total = total + row[k] * now
+    return total
