@@ -26,7 +26,7 @@ LINES = {
     "live": 1170,
     "many": 950,
     "numerics": 2210,
-    "patches": 4930,
+    "patches": 4940,
     "paths": 1040,
     "plots": 1030,
     "problem": 950,
