@@ -26,7 +26,7 @@ LINES = {
     "live": 1140,
     "many": 740,
     "numerics": 2170,
-    "patches": 4900,
+    "patches": 4910,
     "paths": 1190,
     "plots": 960,
     "problem": 890,

@@ -112,7 +112,7 @@ def composite_rule(
         large = large[(large > edges[1]) & (large < edges[-2])]
         x2, x1 = position(contact, edges[[1, -2]]).tolist()
         ends, patch[:NODES], patch[-NODES:] = (x1, x2), -1, -1
-    on = PatchRule(Points(x, np.zeros(len(x))), patch, np.zeros(0, dtype=int), weight)
+    on = PatchRule(Points(np.zeros(1), x), patch, np.zeros(0, dtype=int), weight)
     return Rule(on, Patches.of((ends,), Chord()), angle, position(contact, large))
 
 

@@ -107,7 +107,7 @@ class Chord:
         """1/(x - t) of steps x - t; per period (π/λ) cot(π(x - t)/λ), the sum over all. 0 at 0."""
         zero = step == 0.0
         if not self.periodic:
-            return 1.0 / np.where(zero, np.inf, step)
+            return 1.0 / (np.where(zero, np.inf, step) if zero.any() else step)
         angle = (np.pi / self.period) * np.where(zero, 0.5 * self.period, step)
         return np.where(zero, 0.0, (np.pi / self.period) / np.tan(angle))
 

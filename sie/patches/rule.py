@@ -5,6 +5,7 @@ The certificates integrate values of tractions by it.
 
 from __future__ import annotations
 
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -150,6 +151,12 @@ def principal_value(
         distance = chord.difference(
             x.anchor[some, None] - rule.points.anchor, x.offset[some, None] - rule.points.offset
         )
-        taken_out = np.where(rule.patch == own[some, None], values[some, None], 0.0)
-        total[some] += ((f - taken_out) * chord.kernel(distance)) @ rule.weight
+        kernel = chord.kernel(distance)
+        first = some.start + np.flatnonzero(np.diff(own[some], prepend=-1))
+        for lo, hi in pairwise([*first.tolist(), some.start + len(kernel)]):
+            there = rule.patch == own[lo]
+            taken_out = values[lo:hi, None] * (1.0 if there.all() else there)
+            left = kernel[lo - some.start : hi - some.start]
+            left *= f - taken_out
+            total[lo:hi] += left @ rule.weight
     return np.asarray(total / np.pi)
