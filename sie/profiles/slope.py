@@ -201,7 +201,8 @@ class Slope:
     def steps(self) -> Array:
         """By how much H jumps up at the inner breaks, (K - 1,); 0 where that is rounding.
 
-        Functions are seen one ulp beside a break, where a power law may seem to jump.
+        Functions are seen one ulp beside a break, where a power law may seem to jump, and compared
+        with what they are farther from it.
         """
         k, x = np.arange(len(self.origins) - 1), self.breaks[1:-1]
         ulp = np.spacing(np.abs(x)) if self.functions else 0.0
@@ -209,7 +210,11 @@ class Slope:
             below, above = self.value(k, x, -ulp), self.value(k + 1, x, ulp)
             size = np.maximum(self.terms(k, x), self.terms(k + 1, x))
             if self.functions or self.series.shape[1]:
-                least = SEEN_JUMP * np.maximum(size, np.maximum(np.abs(below), np.abs(above)))
+                gap = np.diff(self.breaks)
+                off = 0.5 * np.minimum(gap[:-1], gap[1:])
+                off = np.where(np.isfinite(off), off, ulp)
+                sides = below, above, self.value(k, x, -off), self.value(k + 1, x, off)
+                least = SEEN_JUMP * np.max((size, *np.abs(sides)), axis=0)
             else:  # a break is rounded too
                 steep = np.maximum(*(self.derivative.terms(j, x) for j in (k, k + 1)))
                 least = JUMP * (size + np.abs(x) * steep)
