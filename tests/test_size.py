@@ -32,7 +32,7 @@ LINES = {
     "problem": 950,
     "profiles": 5570,
     "sensitivity": 1350,
-    "stress": 2490,
+    "stress": 2320,
     "sweeps": 990,
     "traction": 2660,
 }
