@@ -114,6 +114,17 @@ class Onset:
         ends[k:k] = opened
         return replace(self, zones=tuple(zip(ends[::2], ends[1::2], strict=True)))
 
+    @property
+    def opened(self) -> int | None:
+        """The first of two ends between which slip begins; None if it does not."""
+        places = [end.place for end in self.ends]
+        return next((k for k in range(1, len(places) - 2, 2) if places[k] == places[k + 1]), None)
+
+    def without(self, k: int) -> Onset:
+        """The same without ends k and k + 1."""
+        ends = [*self.ends[:k], *self.ends[k + 2 :]]
+        return replace(self, zones=tuple(zip(ends[::2], ends[1::2], strict=True)))
+
     def moved(self, j: int, end: End) -> Onset:
         """The same with another end j."""
         ends = [*self.ends[:j], end, *self.ends[j + 1 :]]
@@ -136,9 +147,7 @@ class Onset:
         outer, step = self.outer(j), 1 if j % 2 else -1
         if any(outer in patch for patch in self.patches):
             return self.moved(j, End(outer, 0.0))
-        first = min(j, j + step)
-        ends = [*self.ends[:first], *self.ends[first + 2 :]]
-        return replace(self, zones=tuple(zip(ends[::2], ends[1::2], strict=True)))
+        return self.without(min(j, j + step))
 
 
 def onset(

@@ -24,7 +24,7 @@ class Part:
     until: float
     known: Mapping[float, End] = field(default_factory=dict)
     opened: tuple[float, float] | None = None
-    solved: bool = True
+    longest: float = 1.0
 
     @property
     def stuck(self) -> Ends:
