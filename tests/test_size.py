@@ -20,7 +20,7 @@ LINES = {
     "cli": 790,
     "contact": 2420,
     "examples": 10,
-    "friction": 9600,
+    "friction": 9730,
     "inverse": 320,
     "io": 4650,
     "live": 1140,
@@ -32,7 +32,7 @@ LINES = {
     "problem": 890,
     "profiles": 5250,
     "sensitivity": 1300,
-    "stress": 2490,
+    "stress": 2320,
     "sweeps": 720,
     "traction": 2500,
 }

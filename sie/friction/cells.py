@@ -26,6 +26,7 @@ FEWEST = 64  # on a patch
 MOST = 120  # changes of the set
 BEYOND, OPPOSING = 1e-12, 1e-12  # of f p, and of the slip: less is rounding
 LIMIT = 2e-3  # of f p: q so close to it may have reached it
+THIN = 1e-3  # of the contact: slip inside stick, and the reverse, that is not believed at first
 NARROW = 1e-9  # of the contact: no cell is narrower
 
 
@@ -42,8 +43,9 @@ def zones_on_cells(before: State, after: Contact) -> tuple[Zones, ...]:
         patch[(x > lo) & (x < hi)] = k + 1
     share = np.abs(new) / np.maximum(after.limit(x), 1e-300)
     found = []
-    for few in (3, 1):
-        plain = _plain(at, new, share, patch, few)
+    size = np.diff(edges, axis=1)[:, 0] / after.width
+    for few, thin in ((3, THIN), (1, 0.0)):
+        plain = _plain(at, new, share, patch, (few, thin, size))
         zones = _zones(edges, plain, patch, new, (before, after))
         if zones.stick and zones not in found:
             found.append(zones)
@@ -52,18 +54,24 @@ def zones_on_cells(before: State, after: Contact) -> tuple[Zones, ...]:
     return tuple(found)
 
 
-def _plain(at: Array, new: Array, share: Array, patch: Ints, few: int) -> Array:
-    """Cells without short runs of slip inside stick, and of stick at f p inside slip."""
-    out = at.copy()
+def _plain(
+    at: Array, new: Array, share: Array, patch: Ints, short: tuple[int, float, Array]
+) -> Array:
+    """Cells without short runs of slip inside stick, and of stick at f p inside slip.
+
+    short: the cells of such a run at most, its width, and the widths of all cells
+    """
+    out, (few, thin, size) = at.copy(), short
     cuts = np.flatnonzero((np.diff(at) != 0.0) | (np.diff(patch) != 0)) + 1
     runs = np.split(np.arange(len(at)), cuts)
     for last, run, following in zip(runs, runs[1:], runs[2:], strict=False):
         k, j, m = last[-1], run[0], following[0]
-        if not patch[k] == patch[j] == patch[m] or at[k] != at[m]:
+        if not patch[k] == patch[j] == patch[m]:
             continue
         slides = few > 1 and at[j] == 0.0 and bool((new[run] * at[k] > 0.0).all())
-        if len(run) <= few or (slides and share[run].min() >= 1.0 - LIMIT):
-            out[run] = at[k]
+        slides = slides and share[run].min() >= 1.0 - LIMIT
+        if size[run].sum() < thin or (at[k] == at[m] and (len(run) <= few or slides)):
+            out[run] = out[k]
     return out
 
 

@@ -8,7 +8,7 @@ alone. An end that recedes no longer, and slip that turns, end a part.
 from __future__ import annotations
 
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -34,8 +34,7 @@ EARLIER = (0.2, 0.02, 2e-3, 1e-4)  # of the first one, where that fails
 SEEN = 1e-2  # of the contact: ends that move less are not seen well on cells
 STOPS = -1e-7  # of the largest K: an end that recedes so little goes on
 MOST_PARTS, SHORT, MOST_SHORT = 30, 1e-4, 5  # of a step; of them so short ones of it
-MOST_MOMENTS = 250  # of a step at which states are asked for: some 20 seconds
-LONGER = 5.0  # times the last part, where a longer one was not solved
+MOST_MOMENTS = 400  # of a step at which states are asked for: some 20 seconds
 FINE = 1e-2  # of a part: so well it is known where it ends, if by no event
 STILL, STOPPED = 1e-13, 1e-8  # of the largest K
 
@@ -66,16 +65,22 @@ def _next_part(state: State, step: LoadStep, begun: float, last: Part | None) ->
     if opened:
         zones = zones.split(*opened)
     grows = any(end.motion is Motion.GROWS for end in zones.ends)
-    longest = 1.0 if last is None or last.solved else LONGER * (last.until - last.begun)
     problems, first = [], begun == 0.0 and not grows
     for finite in (first, not first):
         try:
             if finite:
                 return _without_what_slipped(finite_part(state, step, begun), zones)
             if zones.sticks_anew:
-                return strip_part(state, step, begun, zones, longest)
+                return strip_part(state, step, begun, zones, last)
         except ContactError as problem:
             problems.append(str(problem))
+    for j, end in enumerate(zones.ends):  # slip that begins at an edge may be left behind by it
+        if end.motion is Motion.RECEDES and end.place in np.ravel(state.contact.patches):
+            follows = zones.moved(j, replace(end, motion=Motion.ADVANCES))
+            try:
+                return strip_part(state, step, begun, follows, last)
+            except ContactError as problem:
+                problems.append(str(problem))
     raise _lost(begun, "; ".join(problems))
 
 
@@ -219,10 +224,15 @@ def _tested(state: State, step: LoadStep, begun: float, shares: Array) -> list[V
     last = _continued(
         state, step, float(shares[-1]), _as_they_set_out(state, step, float(shares[-1] - begun))
     )
-    if last.why == ADVANCES:
-        first = _continued(state, step, float(shares[0]), last.solution.zones)
-        if first.why == ADVANCES:
-            return [first]
+    if last.why:
+        for share in shares[[0, len(shares) // 2]].tolist():
+            early = _continued(state, step, share, last.equations.zones if last.equations else None)
+            if not early.why:
+                break
+            if early.why == last.why == ADVANCES:
+                return [early]
+        else:
+            return [early]
     found = [last]
     for share in shares[-2::-1]:
         equations = found[-1].equations

@@ -54,7 +54,7 @@ class Part:
     panel          the moments of a part on which something came to stick; None: a finite step
     known          what ends of stick zones do next, by their places, where an event decided it
     opened         place and direction of slip that begins in stick
-    solved         whether no longer part was tried in vain
+    longest        the next part may be so long, of the step
     """
 
     equations: Equations
@@ -64,7 +64,7 @@ class Part:
     panel: Panel | None = None
     known: Mapping[float, End] = field(default_factory=dict)
     opened: tuple[float, float] | None = None
-    solved: bool = True
+    longest: float = 1.0
 
     @property
     def before(self) -> State:

@@ -116,6 +116,16 @@ class Onset:
         opened = [End(place, sense), End(place, sense)]
         return self.of_ends([*self.ends[:k], *opened, *self.ends[k:]])
 
+    @property
+    def opened(self) -> int | None:
+        """The first of two ends between which slip begins; None if it does not."""
+        places = [end.place for end in self.ends]
+        return next((k for k in range(1, len(places) - 2, 2) if places[k] == places[k + 1]), None)
+
+    def without(self, k: int) -> Onset:
+        """The same without ends k and k + 1."""
+        return self.of_ends([*self.ends[:k], *self.ends[k + 2 :]])
+
     def moved(self, j: int, end: End) -> Onset:
         """The same with another end j."""
         return self.of_ends([*self.ends[:j], end, *self.ends[j + 1 :]])
@@ -137,8 +147,7 @@ class Onset:
         outer, step = self.outer(j), 1 if j % 2 else -1
         if any(outer in patch for patch in self.patches):
             return self.moved(j, End(outer, 0.0))
-        first = min(j, j + step)
-        return self.of_ends([*self.ends[:first], *self.ends[first + 2 :]])
+        return self.without(min(j, j + step))
 
 
 def onset(

@@ -9,6 +9,7 @@ its end.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
@@ -16,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie.errors import ContactError
+from sie.numerics.zones import left_over
 
 from .cells import zones_on_cells
 from .finite_step import Part
@@ -40,8 +42,13 @@ AT_THE_END = 1e-9  # of a part: an event so close to its end is there
 SOON = 1e-5  # of a step: in a part so short an advancing end meets nothing
 SMALL = 1e-2  # of the room: an end advances so far, at a guess
 AGAIN_SINCE = 0.7  # of τ: before it an event at the end of a part is not looked for again
+NO_ROOM = 1e-6  # of the contact: so little room is none where an end comes near an edge in steps
+APPROACH = 0.8  # of what is left to an event that a part cannot end at
+LONGER = 5.0  # times a part, where a longer one was not solved: the next
 LEAP = 10.0  # times as far as the event is seen: so far the length of a part is corrected
 AGAIN = 12  # times a part is solved to end at its event
+OPENS = 0.3  # of τ: before it slip that begins inside stick is too short for its K
+TWICE = 2.0  # times the length of an excess: slip that relieves it
 SEEN = 1e-3  # of the contact: an end that moves less is not seen on cells
 SENSELESS = 1e-2  # the same, of a part of which nothing is believed
 UNRESOLVED = 1e-6  # of the largest coefficient of D: the last two
@@ -60,53 +67,74 @@ class Event:
     place: float | None = None
     opened: tuple[float, float] | None = None  # where slip begins in stick, and its direction
 
+    @property
+    def arrives(self) -> bool:
+        """Whether an advancing end meets an edge or another stick zone."""
+        return self.place is not None and bool(np.isnan(self.place))
+
+    def ahead(self, length: float) -> float:
+        """From the end of a part to an arrival; inf to another event."""
+        return length * (self.share**2 - 1.0) if self.arrives else np.inf
+
 
 def strip_part(
-    state: State,
-    step: LoadStep,
-    begun: float,
-    zones: Onset,
-    longest: float = 1.0,
+    state: State, step: LoadStep, begun: float, zones: Onset, last: Part | None = None
 ) -> Part:
-    """The part from a share of a step on, at most so long. Raises ContactError if none is found."""
-    rest = 1.0 - begun
-    length = min(rest, longest)
-    failed, guess = 2.0, None
+    """The part from a share of a step on. Raises ContactError if none is found.
+
+    last: the part before, which says how long this one may be, and by which ends are guessed first
+    """
+    rest, most = 1.0 - begun, last.longest if last else 1.0
+    length, failed, guess = min(rest, most), 2.0, None
     aims: list[tuple[float, float, object]] = []
     event: Event | None = None
     shorter: Panel | None = None  # one that is solved, before an event that was seen ahead of it
+    ahead = np.inf  # from its end to that event
     for _ in range(AGAIN):
         span = Span(state, step, zones, begun, length)
-        try:
-            panel = solved_panel(span, _guess(span) if guess is None else guess)
-            if panel.unresolved > SENSELESS:
-                raise ContactError("what sticks anew is not resolved")
-            event = first_event(panel, event, beyond=length < failed)
-            if event is None or event.share > NEARLY:  # else what is doubtful may come after it
-                refuse_doubtful(panel)
-        except ContactError:
-            if shorter is not None:
-                return replace(_ended(shorter, None, begun + shorter.span.length), solved=False)
-            failed, guess, event = length, None, None
-            length *= SHORTER
+        panel, event, good = _tried(span, guess, last, (event, length < failed))
+        if not good and shorter is not None:
+            longest = min(APPROACH * ahead, LONGER * shorter.span.length)
+            return _ended(shorter, None, longest)
+        if panel is None or not good:
+            failed, length = length, SHORTER * length
+            guess = None if panel is None else _places(panel, SHORTER**0.5)
             if length < SHORTEST:
-                raise
+                break
             continue
-        if event is not None and event.share > 1.0 and length >= min(rest, longest):
-            event = None  # it comes after the step
+        if event is not None and event.share > 1.0 and length >= min(rest, most):
+            ahead = event.ahead(length)  # it comes after the part
+            event = replace(event, share=1.0) if _is_there(panel, event) else None
         if event is None or abs(event.share - 1.0) < AT_THE_END:
-            break
-        shorter = panel if event.share > 1.0 else shorter
+            leapt = past_leap(panel, *event.opened, rest) if event and event.opened else None
+            usual = 1.0 if failed > 1.0 else LONGER * length
+            near = event is None and np.isfinite(ahead)
+            longest = APPROACH * ahead if near else usual
+            return _ended(panel, event, longest) if leapt is None else _ended(leapt, None)
+        if event.share > 1.0:
+            shorter, ahead = panel, event.ahead(length)
         aims.append((length, length * event.share**2, (event.j, event.place)))
-        last, length = length, min(_aimed(aims), rest)
-        guess = _places(panel, (length / last) ** 0.5)
-    else:
-        raise ContactError("what sticks anew is not found in a part however short")
-    if event is not None and event.opened is not None:
-        leapt = past_leap(panel, *event.opened, rest)
-        if leapt is not None:
-            return _ended(leapt, None, begun + leapt.span.length)
-    return replace(_ended(panel, event, begun + length), solved=failed > 1.0)
+        before, length = length, min(_aimed(aims), rest)
+        guess = _places(panel, (length / before) ** 0.5)
+    raise ContactError("what sticks anew is not found in a part however short")
+
+
+def _tried(
+    span: Span, guess: Array | None, last: Part | None, sought: tuple[Event | None, bool]
+) -> tuple[Panel | None, Event | None, bool]:
+    """A part of a length, its first event, and whether it is good up to that or to its end."""
+    panel = None
+    try:
+        panel = _solved(span, guess, last.panel if last else None)
+        if panel.unresolved > SENSELESS:
+            return panel, None, False
+        event = first_event(panel, *sought)
+    except ContactError:
+        return panel, None, False
+    if event is not None and event.share <= NEARLY:  # what is doubtful may come after it
+        return panel, event, True
+    doubtful = panel.unresolved > UNRESOLVED or min(r.turning for r in panel.rates) < TURNS
+    return panel, None if doubtful else event, not doubtful
 
 
 def _aimed(aims: list[tuple[float, float, object]]) -> float:
@@ -124,15 +152,54 @@ def _aimed(aims: list[tuple[float, float, object]]) -> float:
     return seen
 
 
-def refuse_doubtful(panel: Panel) -> None:
-    """Raise ContactError where D is not resolved, or slip opposes its direction at a moment."""
-    if panel.unresolved > UNRESOLVED:
-        raise ContactError("what sticks anew is not resolved")
-    if min(rates.turning for rates in panel.rates) < TURNS:
-        raise ContactError("slip turns where something sticks anew")
-
-
 # -- guesses and interpolation -------------------------------------------------------------------
+
+
+def _solved(span: Span, guess: Array | None, earlier: Panel | None) -> Panel:
+    """The part from a guess; without one by the speeds that ends have had, then by cells."""
+    if guess is not None:
+        return solved_panel(span, guess)
+    if earlier is not None:
+        with suppress(ContactError):
+            return solved_panel(span, _ahead(earlier, span))
+    opened = span.onset.opened
+    return solved_panel(span, _guess(span) if opened is None else _opened(span, opened))
+
+
+def _ahead(panel: Panel, span: Span) -> Array:
+    """The places of the ends at the end of a part, if they keep their speeds of the one before."""
+    before = panel.span
+    if before.motions != span.motions:
+        raise ContactError("other ends move than before")
+    series = _series(np.concatenate(([before.start], panel.places)))
+    slopes = np.asarray(np.polynomial.chebyshev.chebder(series), np.float64)
+    final = span.start + span.length / before.length * _at(slopes, 1.0)
+    if not (np.diff(span.with_edges(np.tile(final, (MOMENTS, 1)))[-1]) > 0.0).all():
+        raise ContactError("ends would meet")
+    return np.asarray(final, dtype=np.float64)
+
+
+def _opened(span: Span, k: int) -> Array:
+    """The places of the ends at the moments, where ends k and k + 1 begin inside a stick zone.
+
+    Where nothing slips there |q| exceeds f p, next to a mark in an excess m - κ |x - x0|. Slip with
+    both ends bounded then has the length 2 m/κ.
+    """
+    panel = solved_panel(whole := replace(span, onset=span.onset.without(k)), _guess(whole))
+    start, sense = span.start[k], span.onset.ends[k].sense
+    opening = np.full((MOMENTS, 2), start)
+    for i, now in enumerate(panel.equations):
+        x, q, limit = now.stuck_shear
+        order = np.argsort(x)
+        x, margin = x[order], (limit - sense * q)[order]
+        for side, outward in enumerate((-1.0, 1.0)):
+            inside = np.flatnonzero((outward * (x - start) > 0.0) & (margin > 0.0))
+            if inside.size:
+                j = inside[-1] if outward < 0.0 else inside[0]
+                share = margin[j] / (margin[j] - min(margin[j - int(outward)], 0.0))
+                edge = x[j] + share * (x[j - int(outward)] - x[j])
+                opening[i, side] = start + TWICE * (edge - start)
+    return np.concatenate((panel.places[:, :k], opening, panel.places[:, k:]), axis=1)
 
 
 def _guess(span: Span) -> Array:
@@ -205,7 +272,8 @@ def first_event(panel: Panel, last: Event | None, beyond: bool) -> Event | None:
     upto = BEYOND if beyond else 1.0
     found = [*_of_ends(panel, last, upto), *_of_edges(panel), *_arrivals(panel, upto)]
     sooner = min((event.share for event in found), default=np.inf)
-    found += _openings(panel, last.opened if last else None, sooner)
+    if panel.unresolved <= UNRESOLVED:
+        found += _openings(panel, last.opened if last else None, sooner)
     return min(found, key=lambda event: event.share, default=None)
 
 
@@ -232,11 +300,13 @@ def _of_ends(panel: Panel, last: Event | None, upto: float) -> Iterator[Event]:
     span, K = panel.span, np.array([r.K.ravel() for r in panel.rates])
     marks = np.unique(np.concatenate((span.before.marks, span.contacts[-1].limit.marks)))
     edges = np.array([c.patches for c in (span.before.contact, span.contacts[-1])]).ravel()
+    opened = span.onset.opened
     for j, end in enumerate(span.onset.ends):
         path = np.append(span.start[j], panel.places[:, j])
         series = _series(path)
         if end.motion is Motion.RECEDES:
-            share = _root(_series(end.sense * K[:, j]))
+            opens = opened is not None and j - opened in (0, 1)
+            share = _root(_series(end.sense * K[:, j]), since=OPENS if opens else 0.0)
             if share is not None:
                 yield Event(share, j, End(0.0, end.sense, Motion.ADVANCES))
         outward = 1.0 if j % 2 else -1.0
@@ -279,18 +349,29 @@ def _of_edges(panel: Panel) -> Iterator[Event]:
 def _arrivals(panel: Panel, upto: float) -> Iterator[Event]:
     """Advancing ends that meet an edge, or another stick zone."""
     span = panel.span
-    width = span.before.contact.width
     for j in span.which(Motion.ADVANCES):
-        outer = [
-            span.onset.placed(ends).on(c.patches).outer(j)
-            for ends, c in zip(panel.places, span.contacts, strict=True)
-        ]
-        first = span.onset.outer(j)
-        room = np.abs(np.append(first, outer) - np.append(span.start[j], panel.places[:, j]))
-        series = _series(room - ARRIVED * width)
-        share = _root(series, upto)
+        share = _root(_series(_room(panel, j) - ARRIVED * span.before.contact.width), upto)
         if share is not None:
-            yield Event(share, j, End(0.0, -span.onset.ends[j].sense), np.nan)
+            yield Event(share, j, place=np.nan)
+
+
+def _room(panel: Panel, j: int) -> Array:
+    """The room that is left to an advancing end, at the start and at the moments."""
+    span = panel.span
+    outer = [
+        span.onset.placed(ends).on(c.patches).outer(j)
+        for ends, c in zip(panel.places, span.contacts, strict=True)
+    ]
+    return np.abs(
+        np.append(span.onset.outer(j), outer) - np.append(span.start[j], panel.places[:, j])
+    )
+
+
+def _is_there(panel: Panel, event: Event) -> bool:
+    """Whether an event is an arrival for which next to no room is left."""
+    return event.arrives and bool(
+        _room(panel, event.j)[-1] <= NO_ROOM * panel.span.before.contact.width
+    )
 
 
 def _openings(panel: Panel, known: tuple[float, float] | None, sooner: float) -> Iterator[Event]:
@@ -302,6 +383,8 @@ def _openings(panel: Panel, known: tuple[float, float] | None, sooner: float) ->
     for i, now in enumerate(panel.equations if known is None else []):
         if TAU[i + 1] > sooner:
             return
+        if panel.span.onset.opened is not None and TAU[i + 1] < OPENS:
+            continue
         if now.excess * now.after.peak > EXCEEDED * peak:
             x, q, limit = now.stuck_shear
             k = int((np.abs(q) - limit).argmax())
@@ -370,7 +453,7 @@ def _has_leapt(found: Panel, place: float) -> bool:
 # -- the end of a part ---------------------------------------------------------------------------
 
 
-def _ended(panel: Panel, event: Event | None, until: float) -> Part:
+def _ended(panel: Panel, event: Event | None, longest: float = 1.0) -> Part:
     """The state at the end of a part, with the end of the event at its place."""
     span, ends = panel.span, panel.places[-1].copy()
     known = {}
@@ -390,4 +473,26 @@ def _ended(panel: Panel, event: Event | None, until: float) -> Part:
     what_next = {float(ends[j]): replace(end, place=float(ends[j])) for j, end in known.items()}
     opened = event.opened if event is not None else None
     equations = last.equations[-1]
-    return Part(equations, equations.state, span.begun, until, panel, what_next, opened)
+    state = equations.state
+    if event is not None and event.arrives:
+        state = _stuck_through(state, float(ends[event.j]))
+        what_next |= _growing(state, panel.rates[-1])
+    until = span.begun + span.length
+    return Part(equations, state, span.begun, until, panel, what_next, opened, longest)
+
+
+def _growing(state: State, rates: Rates) -> dict[float, End]:
+    """The stuck edges that grow: at an arrival |K| = f K_p to what room was left."""
+    stuck = np.array(state.stick).ravel()
+    edges = zip(np.array(state.contact.patches).ravel(), rates.Kp.ravel(), strict=True)
+    return {
+        float(e): End(float(e), 0.0, Motion.GROWS) for e, Kp in edges if Kp > 0.0 and e in stuck
+    }
+
+
+def _stuck_through(state: State, place: float) -> State:
+    """A state with the rest of the slip zone beside an end stuck, up to an edge or another zone."""
+    lo, hi, _ = min(state.slip, key=lambda zone: min(abs(zone[0] - place), abs(zone[1] - place)))
+    slip = tuple(zone for zone in state.slip if zone[:2] != (lo, hi))
+    stick = left_over(state.contact.patches, tuple(zone[:2] for zone in slip), state.contact.period)
+    return replace(state, stick=stick, slip=slip)

@@ -46,6 +46,7 @@ SETTLED, GOOD = 2e-14, 1e-10  # of the contact: the longest step of an end
 CLOSEST = 0.6  # of the distance to its neighbour: an end moves so far at most in a step
 NEAR = 1e-4  # of the contact: after so short a step the slopes of K are kept
 FAR, ABSURD = 0.1, 1e4  # steps of the contact, and D over f p, that show that it does not converge
+ROUNDED = 1e-4  # of f p: the smallest D of which so much is resolved
 DIFFERENCE = 1e-6  # of the distance to its neighbour: the step of a difference
 
 
@@ -325,11 +326,10 @@ class Panel:
 
     @cached_property
     def unresolved(self) -> float:
-        """The last two coefficients of D over the largest."""
-        sizes = np.abs(self.series)
-        largest = sizes.max(axis=1, initial=0.0)
-        tails = sizes[:, -2:].max(axis=1, initial=0.0)
-        return float(np.max(tails / np.where(largest > 0.0, largest, 1.0), initial=0.0))
+        """The last two coefficients of D over the largest, or over what of f p rounding moves."""
+        sizes, peak = np.abs(self.series), self.span.before.contact.peak
+        largest = np.maximum(sizes.max(axis=1, initial=0.0), ROUNDED * peak)
+        return float(np.max(sizes[:, -2:].max(axis=1, initial=0.0) / largest, initial=0.0))
 
 
 def _share(now: StripEquations, moves: Array) -> float:

@@ -29,7 +29,7 @@ from sie import arguments
 from sie.errors import ContactError
 from sie.progress_bar import reported, step_done
 
-from .critical_plane import NEARLY, Parameter, StressHistory, on_grid, worst_planes
+from .critical_plane import Parameter, StressHistory, on_grid, worst_planes
 from .surface_search import columns, largest
 
 Array = NDArray[np.float64]
@@ -139,14 +139,14 @@ def _worst_x(states: Sequence[Any], criterion: Criterion, y: float) -> float:
         count, size = rows.shape
         near = _history(states, rows.ravel(), y)
         scaled = StressHistory(near.s / unit, near.D / unit, near.zz / unit)
-        values = worst_planes(scaled, parameter, NEARLY).value.reshape(count, size)
+        values = worst_planes(scaled, parameter).value.reshape(count, size)
         k = values.argmax(axis=1)
         return k, values[np.arange(count), k]
 
     values = on_grid(h, parameter)
     best = values.max()
     high = np.flatnonzero(values >= best - TOO_SMALL * abs(best))
-    values[high] = worst_planes(h.at(high), parameter, NEARLY).value
+    values[high] = worst_planes(h.at(high), parameter).value
     return largest(x, values, best_of)[0]
 
 

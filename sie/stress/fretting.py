@@ -330,8 +330,9 @@ class Cycle:
 
         Notes
         -----
-        All planes are compared. The value is that of the worst one to 1e-5 at least, and nearly
-        always to rounding. In plane strain a fully reversed σ_xx = ±S gives S² (1 - ν²)/E.
+        All planes are compared, on a grid of 3 by 6 degrees that is refined around its highest
+        values: nearly always to rounding. In plane strain a fully reversed σ_xx = ±S gives
+        S² (1 - ν²)/E.
 
         References
         ----------
