@@ -1,17 +1,13 @@
-"""A part of a step on which something comes to stick, up to its first event.
+"""A part of a step on which something comes to stick, up to its first event (`events`).
 
-Events are roots over the part: an end recedes no longer (s K = 0), turns, or comes to a mark of the
-shear; a stuck edge begins to slip (|K| = f K_p); an advancing end meets an edge or another stick
-zone; slip begins inside a stick zone (|q| = f p). The part is solved again until the event is at
-its end.
+The part is solved again until the event is at its end. An end that meets an edge comes near it in
+parts, each of which leaves a fifth of the room.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from contextlib import suppress
-from dataclasses import dataclass, replace
-from functools import lru_cache
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,12 +16,13 @@ from sie.errors import ContactError
 from sie.numerics.zones import left_over
 
 from .cells import zones_on_cells
+from .events import UNRESOLVED, Event, at_share, first_event, in_time, is_there
 from .finite_step import Part
 from .loading import LoadStep
-from .onset import ROUNDED, End, Motion, Onset, resting_place, set_out
+from .onset import End, Motion, Onset, resting_place, set_out
 from .rates import Rates
-from .state import EXCEEDED, TURNS, State, overlaps, refuse_inadmissible
-from .strips import MOMENTS, TAU, Panel, Span, StripEquations, solved_panel
+from .state import TURNS, State, overlaps, refuse_inadmissible
+from .strips import MOMENTS, Panel, Span, solved_panel
 
 Array = NDArray[np.float64]
 
@@ -33,48 +30,18 @@ LEAPS = 4.0 ** np.arange(-10, -3)  # of a part: so much longer it is after a lea
 JUST_BEYOND = 1e-3  # of a leap: so far an end is beyond it, at a guess
 SHORTER = 1.0 / 3.0  # of a part that is not solved
 SHORTEST = 1e-9  # of a step: a part
-FINE = np.linspace(0.02, 1.0, 197)  # shares of τ at which events are looked for
-BEYOND = 1.75  # times τ: so far ahead an arrival is seen
-ARRIVED = 1e-7  # of the contact: room that is none
 NEARLY = 0.9999  # of τ: an event before it shortens the part
 ON_MARK = 3e-9  # of the contact: an end that recedes and is so close to a mark is on it
 AT_THE_END = 1e-9  # of a part: an event so close to its end is there
 SOON = 1e-5  # of a step: in a part so short an advancing end meets nothing
 SMALL = 1e-2  # of the room: an end advances so far, at a guess
-AGAIN_SINCE = 0.7  # of τ: before it an event at the end of a part is not looked for again
-NO_ROOM = 1e-6  # of the contact: so little room is none where an end comes near an edge in steps
 APPROACH = 0.8  # of what is left to an event that a part cannot end at
 LONGER = 5.0  # times a part, where a longer one was not solved: the next
 LEAP = 10.0  # times as far as the event is seen: so far the length of a part is corrected
 AGAIN = 12  # times a part is solved to end at its event
-OPENS = 0.3  # of τ: before it slip that begins inside stick is too short for its K
 TWICE = 2.0  # times the length of an excess: slip that relieves it
 SEEN = 1e-3  # of the contact: an end that moves less is not seen on cells
 SENSELESS = 1e-2  # the same, of a part of which nothing is believed
-UNRESOLVED = 1e-6  # of the largest coefficient of D: the last two
-
-
-@dataclass(frozen=True)
-class Event:
-    """What ends a part: the share of τ, end j of the stick zones, and what it does next.
-
-    place   where the end is then, if that is known: at a mark, an edge, another zone
-    """
-
-    share: float
-    j: int
-    then: End | None = None
-    place: float | None = None
-    opened: tuple[float, float] | None = None  # where slip begins in stick, and its direction
-
-    @property
-    def arrives(self) -> bool:
-        """Whether an advancing end meets an edge or another stick zone."""
-        return self.place is not None and bool(np.isnan(self.place))
-
-    def ahead(self, length: float) -> float:
-        """From the end of a part to an arrival; inf to another event."""
-        return length * (self.share**2 - 1.0) if self.arrives else np.inf
 
 
 def strip_part(
@@ -104,7 +71,7 @@ def strip_part(
             continue
         if event is not None and event.share > 1.0 and length >= min(rest, most):
             ahead = event.ahead(length)  # it comes after the part
-            event = replace(event, share=1.0) if _is_there(panel, event) else None
+            event = replace(event, share=1.0) if is_there(panel, event) else None
         if event is None or abs(event.share - 1.0) < AT_THE_END:
             leapt = past_leap(panel, *event.opened, rest) if event and event.opened else None
             usual = 1.0 if failed > 1.0 else LONGER * length
@@ -171,9 +138,9 @@ def _ahead(panel: Panel, span: Span) -> Array:
     before = panel.span
     if before.motions != span.motions:
         raise ContactError("other ends move than before")
-    series = _series(np.concatenate(([before.start], panel.places)))
+    series = in_time(np.concatenate(([before.start], panel.places)))
     slopes = np.asarray(np.polynomial.chebyshev.chebder(series), np.float64)
-    final = span.start + span.length / before.length * _at(slopes, 1.0)
+    final = span.start + span.length / before.length * at_share(slopes, 1.0)
     if not (np.diff(span.with_edges(np.tile(final, (MOMENTS, 1)))[-1]) > 0.0).all():
         raise ContactError("ends would meet")
     return np.asarray(final, dtype=np.float64)
@@ -238,170 +205,9 @@ def _receded(span: Span) -> Array:
     return final
 
 
-@lru_cache(maxsize=2)
-def _transform(first: int) -> Array:
-    """Coefficients in T_k(2τ - 1) from values at the moments, from `first` on."""
-    values = np.polynomial.chebyshev.chebvander(2.0 * TAU[first:] - 1.0, MOMENTS - first)
-    return np.asarray(np.linalg.inv(values), dtype=np.float64)
-
-
-def _series(values: Array) -> Array:
-    """The series of values at the moments, with the one at the start or without."""
-    return _transform(MOMENTS + 1 - len(values)) @ values
-
-
-def _at(series: Array, share: float | Array) -> Array:
-    value = np.polynomial.chebyshev.chebval(2.0 * np.asarray(share) - 1.0, series)
-    return np.asarray(value, dtype=np.float64)
-
-
 def _places(panel: Panel, share: float) -> Array:
     """The places of the ends at a share of τ."""
-    return _at(_series(np.concatenate(([panel.span.start], panel.places))), share)
-
-
-# -- events --------------------------------------------------------------------------------------
-
-
-def first_event(panel: Panel, last: Event | None, beyond: bool) -> Event | None:
-    """The first event of a part.
-
-    last     that by which the part was shortened
-    beyond   an arrival a little later counts too
-    """
-    upto = BEYOND if beyond else 1.0
-    found = [*_of_ends(panel, last, upto), *_of_edges(panel), *_arrivals(panel, upto)]
-    sooner = min((event.share for event in found), default=np.inf)
-    if panel.unresolved <= UNRESOLVED:
-        found += _openings(panel, last.opened if last else None, sooner)
-    return min(found, key=lambda event: event.share, default=None)
-
-
-def _root(series: Array, upto: float = 1.0, since: float = 0.0) -> float | None:
-    """The first τ at which a series falls below zero, a little beyond 1 too."""
-    shares = np.append(FINE, np.arange(1.0005, max(upto, 1.002), 5e-4))
-    shares = shares[shares >= since]
-    values = _at(series, shares)
-    negative = np.flatnonzero(values < 0.0)
-    if not negative.size:
-        return None
-    k = negative[0]
-    if k == 0:
-        return float(shares[0])
-    lo, hi = shares[k - 1], shares[k]
-    for _ in range(60):
-        middle = 0.5 * (lo + hi)
-        lo, hi = (lo, middle) if _at(series, middle) < 0.0 else (middle, hi)
-    return float(0.5 * (lo + hi))
-
-
-def _of_ends(panel: Panel, last: Event | None, upto: float) -> Iterator[Event]:
-    """Ends that stop, turn, or come to a mark; to that sought, later too."""
-    span, K = panel.span, np.array([r.K.ravel() for r in panel.rates])
-    marks = np.unique(np.concatenate((span.before.marks, span.contacts[-1].limit.marks)))
-    edges = np.array([c.patches for c in (span.before.contact, span.contacts[-1])]).ravel()
-    opened = span.onset.opened
-    for j, end in enumerate(span.onset.ends):
-        path = np.append(span.start[j], panel.places[:, j])
-        series = _series(path)
-        if end.motion is Motion.RECEDES:
-            opens = opened is not None and j - opened in (0, 1)
-            share = _root(_series(end.sense * K[:, j]), since=OPENS if opens else 0.0)
-            if share is not None:
-                yield Event(share, j, End(0.0, end.sense, Motion.ADVANCES))
-        outward = 1.0 if j % 2 else -1.0
-        if end.motion is Motion.ADVANCES:
-            speed = np.asarray(np.polynomial.chebyshev.chebder(outward * series), np.float64)
-            share = _root(speed)
-            if share is not None:
-                yield Event(share, j, End(0.0, end.sense, Motion.RECEDES))
-        way = np.sign(path[-1] - path[0])
-        near = 1e-9 * span.before.contact.width
-        sought = marks == (last.place if last is not None and last.j == j else np.nan)
-        passed = way * (path[-1] - marks) > -(upto**2 - 0.998) * abs(path[-1] - path[0])
-        for mark in marks[(way * (marks - path[0]) > near) & (passed | sought)]:
-            if (
-                np.abs(edges - mark).min() < near
-                and mark not in span.contacts[-1].limit.marks[1:-1]
-            ):
-                continue
-            shifted = -way * series
-            shifted[0] += way * mark
-            share = _root(shifted, BEYOND if last is not None and last.place == mark else upto)
-            if share is not None:
-                then = end.motion if end.motion is Motion.ADVANCES else None
-                yield Event(share, j, End(0.0, end.sense, then) if then else None, float(mark))
-
-
-def _of_edges(panel: Panel) -> Iterator[Event]:
-    """Stuck edges that begin to slip."""
-    old = np.array(panel.span.onset.patches).ravel()
-    for j in panel.span.which(Motion.GROWS):
-        k = int(np.abs(old - panel.span.start[j]).argmin())
-        K = np.array([r.K.ravel()[j] for r in panel.rates])
-        Kp = np.array([(1.0 + ROUNDED) * r.friction * r.Kp.ravel()[k] for r in panel.rates])
-        for sense in (1.0, -1.0):
-            share = _root(_series(Kp - sense * K))
-            if share is not None:
-                yield Event(share, j, End(0.0, sense))
-
-
-def _arrivals(panel: Panel, upto: float) -> Iterator[Event]:
-    """Advancing ends that meet an edge, or another stick zone."""
-    span = panel.span
-    for j in span.which(Motion.ADVANCES):
-        share = _root(_series(_room(panel, j) - ARRIVED * span.before.contact.width), upto)
-        if share is not None:
-            yield Event(share, j, place=np.nan)
-
-
-def _room(panel: Panel, j: int) -> Array:
-    """The room that is left to an advancing end, at the start and at the moments."""
-    span = panel.span
-    outer = [
-        span.onset.placed(ends).on(c.patches).outer(j)
-        for ends, c in zip(panel.places, span.contacts, strict=True)
-    ]
-    return np.abs(
-        np.append(span.onset.outer(j), outer) - np.append(span.start[j], panel.places[:, j])
-    )
-
-
-def _is_there(panel: Panel, event: Event) -> bool:
-    """Whether an event is an arrival for which next to no room is left."""
-    return event.arrives and bool(
-        _room(panel, event.j)[-1] <= NO_ROOM * panel.span.before.contact.width
-    )
-
-
-def _openings(panel: Panel, known: tuple[float, float] | None, sooner: float) -> Iterator[Event]:
-    """Slip that begins inside a stick zone, before a share of τ at which another event is.
-
-    known: the place, and the direction of slip, if a longer part told them
-    """
-    peak, since = panel.span.before.contact.peak, AGAIN_SINCE
-    for i, now in enumerate(panel.equations if known is None else []):
-        if TAU[i + 1] > sooner:
-            return
-        if panel.span.onset.opened is not None and TAU[i + 1] < OPENS:
-            continue
-        if now.excess * now.after.peak > EXCEEDED * peak:
-            x, q, limit = now.stuck_shear
-            k = int((np.abs(q) - limit).argmax())
-            known, since = (float(x[k]), float(np.sign(q[k]))), float(TAU[i])
-            break
-    if known is not None:
-        margins = [_margin_at(now, *known) for now in panel.equations]
-        share = _root(_series(np.array(margins)), since=since)
-        if share is not None:
-            yield Event(share, -1, opened=known)
-
-
-def _margin_at(now: StripEquations, x: float, sense: float) -> float:
-    """The margin f p - s q at a place in stick, by interpolation between a few."""
-    places, q, limit = now.stuck_shear
-    order = np.argsort(places)
-    return float(np.interp(x, places[order], (limit - sense * q)[order]))
+    return at_share(in_time(np.concatenate(([panel.span.start], panel.places))), share)
 
 
 # -- an end that leaps ---------------------------------------------------------------------------
