@@ -229,18 +229,21 @@ def test_numpy_is_all_that_is_loaded(statement):
     assert not modules_after(statement) & heavy
 
 
-UNNEEDED = {"cauchy", "friction", "live", "patches", "paths", "plots", "sweeps"}
+UNNEEDED = {"cauchy", "friction", "live", "paths", "plots", "sweeps"}
+OF_CERTIFICATES = {"", ".measure", ".panels", ".rule", ".sums"}  # of patches: their sums
 
 
 @pytest.mark.slow
 def test_a_contact_without_friction_imports_what_it_needs(tmp_path):
     """Of the command too: no friction, no patches, no report that it does not write."""
     loaded = {m for m in modules_after("import sie") if m.startswith("sie.")}
-    assert not {parts(m) for m in loaded} & {*UNNEEDED, "certificate", "io"}
+    assert not {parts(m) for m in loaded} & {*UNNEEDED, "certificate", "io", "patches"}
     scene = tmp_path / "scene.toml"
     scene.write_text(scene_file.example("rounded-flat"))
     loaded = modules_after(f"from sie.cli import main; main(['solve', {str(scene)!r}, '--quiet'])")
     assert not {parts(m) for m in loaded if m.startswith("sie.")} & UNNEEDED
+    of_patches = {m for m in loaded if m.startswith("sie.patches")}
+    assert of_patches <= {f"sie.patches{name}" for name in OF_CERTIFICATES}
     assert "sie.io.export" not in loaded and "sie.io.mesh_result" not in loaded
 
 

@@ -35,6 +35,7 @@ from sie.profiles.base import Profile
 from sie.profiles.fitting import Gap
 from sie.profiles.pieces import of_profile
 from sie.profiles.placed_traces import PlacedTrace, traces_in
+from sie.profiles.row import Periodic
 from sie.profiles.sampled import Sampled
 from sie.profiles.splines import noise_level
 from sie.profiles.trace_values import Mended
@@ -196,10 +197,11 @@ def _errors(
     lo, hi = np.clip(ends, x[0], x[-1]).tolist()
     noise = noise_level(x, reference.heights, reference.lam, (lo, hi))
     draws = np.random.default_rng(0).normal(scale=noise, size=(DRAWS, len(x)))
-    return [
-        placed.with_heights(placed.trace.points, known, 0.0, period),
-        *(placed.with_heights(x, draw, reference.lam, period) for draw in draws),
+    found = [
+        placed.with_heights(placed.trace.points, known, 0.0),
+        *(placed.with_heights(x, draw, reference.lam) for draw in draws),
     ]
+    return found if period == np.inf else [Periodic(one, period) for one in found]
 
 
 def _implied(errors: list[Profile], scene: Scene, several: SeveralPatches) -> dict[str, Any]:

@@ -69,19 +69,12 @@ class PlacedTrace(NamedTuple):
         heights: Array = spline.height(np.clip(self.trace.points, *spline.domain))
         return self.trace.heights - heights
 
-    def with_heights(
-        self, points: Array, heights: Array, smoothing: float, period: float
-    ) -> Profile:
+    def with_heights(self, points: Array, heights: Array, smoothing: float) -> Profile:
         """Other heights at points of the trace, where the trace stands in the profile."""
         other = Sampled(points, heights, smoothing)
         mirrored = self.direction < 0.0
         turned = other.mirrored() if mirrored else other
-        moved = turned.shifted(self.origin if mirrored else -self.origin)
-        if period == np.inf:
-            return moved
-        from .row import Periodic  # noqa: PLC0415 -- a higher layer
-
-        return Periodic(moved, period)
+        return turned.shifted(self.origin if mirrored else -self.origin)
 
     # -- repeated ----------------------------------------------------------------------------------
 

@@ -20,7 +20,6 @@ from sie.numerics.gauss_jacobi import with_weight
 from sie.numerics.interval import Interval
 from sie.profiles.slope import Slope
 
-from .answer import View
 from .fields import Fields
 from .flat import FlatPunch
 from .frozen import Frozen, Gradient
@@ -28,6 +27,7 @@ from .pieces import FINE, Pieces
 from .search import state_of
 from .state import HalfSlope, Question
 from .step import Loaded
+from .view import View
 
 Array = NDArray[np.float64]
 

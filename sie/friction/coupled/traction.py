@@ -139,7 +139,9 @@ def _summed(rule: Rule, from_lo: Complex, from_hi: Complex) -> Complexes:
         (from_lo.real[:, None] - rule.from_lo, rule.from_hi - from_hi.real[:, None]), axis=1
     )
     depth = from_lo.imag[:, None]
-    inverse = 1.0 / (x * x + depth * depth)
+    size = np.maximum(np.abs(x).max(axis=1, keepdims=True), depth)  # whose square may overflow
+    x, depth = x / size, depth / size
+    inverse = 1.0 / ((x * x + depth * depth) * size)
     x *= inverse
     y = depth * inverse
     m = rule.mass
