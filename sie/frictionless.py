@@ -20,16 +20,16 @@ from .contact.pressure import pressure
 from .contact.window import window_of
 from .errors import ContactError
 from .problem.request import ECONOMY
-from .problem.scene import Scene
 from .profiles.lowest_points import lowest_points
 from .profiles.placed_traces import explained, smoothing_remedy
 from .profiles.row import asks_for_patches
-from .profiles.slope import Slope
-from .traction.of_slope import SlopeDensity
 
 if TYPE_CHECKING:  # patches are imported where one patch is no answer
     from .patches.answer import SeveralPatches
     from .patches.full import FullContact
+    from .problem.scene import Scene
+    from .profiles.slope import Slope
+    from .traction.of_slope import SlopeDensity
 
 # of a patch: the pressure on more of them is more exact as that of several patches
 MOST_PANELS = 128

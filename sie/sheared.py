@@ -17,11 +17,9 @@ from .contact.normal import contact_under
 from .contact.pressure import pressure
 from .errors import InequalityError
 from .frictionless import Frictionless
-from .numerics.interval import Interval
 from .problem.coverage import held_moment
 from .problem.request import sheared
 from .problem.scene import Scene
-from .traction.base import Density
 from .traction.combination import ZERO, scaled
 from .traction.of_slope import SlopeDensity
 
@@ -33,10 +31,12 @@ if TYPE_CHECKING:  # what a stage needs is imported when it is computed
     from .friction.coupled.traction import OnPieces
     from .friction.full_stick import Component
     from .friction.slip_state import Slip, Step
+    from .numerics.interval import Interval
     from .patches.answer import SeveralPatches
     from .patches.friction import PatchesUnder
     from .patches.full import FullContact
     from .patches.result import PatchCertificate
+    from .traction.base import Density
 
 FIELDS = frozenset(f.name for f in fields(Scene))
 # The fields and properties of a scene that each stage depends on.

@@ -20,7 +20,6 @@ from .derivative_answers import DerivativeAnswers
 from .errors import ContactError
 from .problem.coverage import refuse_uncovered
 from .problem.request import ECONOMY
-from .problem.scene import Scene
 from .profiles.placed_traces import traces_in
 from .sheared import changed_scene, kept_stages
 from .stress_answers import StressAnswers
@@ -31,6 +30,7 @@ if TYPE_CHECKING:  # what a stage needs is imported when it is computed
     from .certificate.trace_noise import TraceReport
     from .patches.result import PatchCertificate
     from .paths.history import History
+    from .problem.scene import Scene
 
 Array = NDArray[np.float64]
 
@@ -225,10 +225,9 @@ class Solution(StressAnswers, DerivativeAnswers):
     def coupling_notes(self) -> tuple[str, ...]:
         """A sentence on what is neglected where β, or β q, is left out, or ()."""
         if self.scene.neglects_beta:
-            from .friction.coupled.goodman import departure
-            from .friction.coupled.normal import coupled_contact
+            from .friction.coupled.normal import departure
 
-            return (departure(self.scene, self.tol, coupled_contact),)
+            return (departure(self.scene, self.tol),)
         beta = self.scene.neglected_beta
         if not beta:
             return ()

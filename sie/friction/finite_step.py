@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,9 +19,11 @@ from sie.numerics.graded_panels import Pieces
 from sie.numerics.zones import left_over
 
 from .equations import Equations, Zones
-from .onset import End
 from .state import SAME, Contact, Ends, State, intervals, overlaps, refuse_inadmissible
-from .strips import Panel
+
+if TYPE_CHECKING:
+    from .onset import End
+    from .strips import Panel
 
 Array = NDArray[np.float64]
 STEPS = 40  # of Newton's method

@@ -11,6 +11,7 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.polynomial.chebyshev import chebval, chebvander
@@ -20,11 +21,13 @@ from sie.errors import ContactError
 from sie.numerics.graded_panels import OF_SERIES, Pieces, Rule
 
 from .equations import Equations, Gap
-from .finite_step import Part
-from .loading import LoadStep
 from .state import SAME, intervals, united
 from .strips import TAU, StripEquations
 from .zones_between import ZonesBetween
+
+if TYPE_CHECKING:
+    from .finite_step import Part
+    from .loading import LoadStep
 
 Array = NDArray[np.float64]
 

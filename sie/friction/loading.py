@@ -4,17 +4,19 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any, NamedTuple, Protocol
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from sie.numerics.graded_panels import Pieces
-from sie.problem.scene import Scene
-from sie.traction.base import Density
 
 from .rates import LoadRates
 from .state import SAME, Contact, Ends, intervals
+
+if TYPE_CHECKING:
+    from sie.problem.scene import Scene
+    from sie.traction.base import Density
 
 Array = NDArray[np.float64]
 

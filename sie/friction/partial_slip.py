@@ -36,26 +36,28 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from sie.contact.gap import gap
-from sie.contact.known_contact import Normal
 from sie.errors import ContactError
 from sie.numerics.graded_rule import graded, on_panels
 from sie.numerics.interval import EPS, Interval, two_sum
 from sie.problem.coverage import refuse_sliding, remaining
 from sie.profiles.lowest_points import lowest_points, raised
 from sie.profiles.resolution import refined
-from sie.profiles.slope import Slope
-from sie.traction.base import Density
 from sie.traction.combination import superposed
-from sie.traction.of_slope import SlopeDensity
 
 from .slip_state import NoSlip, Slip, Step
 from .state_slip import two_signed
+
+if TYPE_CHECKING:
+    from sie.contact.known_contact import Normal
+    from sie.profiles.slope import Slope
+    from sie.traction.base import Density
+    from sie.traction.of_slope import SlopeDensity
 
 Array = NDArray[np.float64]
 

@@ -16,6 +16,7 @@ import math
 from abc import abstractmethod
 from dataclasses import dataclass
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,7 +26,6 @@ from sie.friction.coupled.traction import smooth_between
 from sie.numerics.graded_panels import Pieces, Rule
 from sie.numerics.interval import Interval
 from sie.numerics.root_finding import false_position
-from sie.traction.base import Density
 from sie.traction.combination import superposed
 
 from .cells import zones_on_cells
@@ -35,6 +35,9 @@ from .gained_slip import GainedSlip, drag
 from .loading import limit_on
 from .slip_state import Slip, Step
 from .state import SAME, Contact, State, intervals, refuse_inadmissible
+
+if TYPE_CHECKING:
+    from sie.traction.base import Density
 
 Array = NDArray[np.float64]
 

@@ -23,19 +23,23 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from sie.errors import ContactError
 from sie.numerics import chebyshev
-from sie.numerics.graded_panels import Rule
 
 from .equations import Equations, Zones
-from .loading import LoadStep
 from .onset import Motion, Onset
-from .rates import Rates
-from .state import Contact, State
+
+if TYPE_CHECKING:
+    from sie.numerics.graded_panels import Rule
+
+    from .loading import LoadStep
+    from .rates import Rates
+    from .state import Contact, State
 
 Array = NDArray[np.float64]
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Self
+from typing import TYPE_CHECKING, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,9 +20,11 @@ from sie.errors import ContactError
 from .cells import zones_on_cells
 from .equations import Equations, Zones
 from .finite_step import Part, newton
-from .loading import LoadStep
 from .onset import onset
-from .state import Contact, Ends, Slips, State
+
+if TYPE_CHECKING:
+    from .loading import LoadStep
+    from .state import Contact, Ends, Slips, State
 
 Array = NDArray[np.float64]
 

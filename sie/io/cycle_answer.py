@@ -17,18 +17,19 @@ from sie.arguments import named_rows
 from sie.cracks.stress_intensity import stress_intensity
 from sie.errors import ContactError
 from sie.paths.history import History, follow
-from sie.problem.load_path import Path
 from sie.problem.material import Elastic
 from sie.progress_bar import reported
 from sie.stress.fretting import Cycle
-from sie.stress.half_plane import Tractions
 from sie.stress.surface_search import ROUNDS, by_value, columns, largest
 
-from .scene_file import Fatigue, SceneFile, Units
 from .scene_keys import EDGES
 
 if TYPE_CHECKING:
+    from sie.problem.load_path import Path
     from sie.solution import Solution
+    from sie.stress.half_plane import Tractions
+
+    from .scene_file import Fatigue, SceneFile, Units
 
 Array = NDArray[np.float64]
 

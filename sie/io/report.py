@@ -15,11 +15,12 @@ from sie.problem.request import energy_costs
 
 from .answers import energy_of, notes_of, readings_of, slipping, wanted
 from .sample_points import SAME_PEAK, ceiling, full, peak, reach
-from .scene_file import SceneFile, Units
 
 if TYPE_CHECKING:
     from sie.paths.history import History
     from sie.solution import Solution
+
+    from .scene_file import SceneFile, Units
 
 NONE: Mapping[str, Any] = {}
 SAME_PLACE = 1e-7  # of the half-width: rounding of p leaves a smooth peak uncertain by as much

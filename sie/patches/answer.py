@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,10 +14,7 @@ from sie import arguments
 from sie.contact.known_contact import Edges, refuse_narrow
 from sie.errors import ContactError, LoadError
 from sie.numerics.interval import Interval
-from sie.problem.scene import Scene
-from sie.profiles.base import Profile
 from sie.profiles.row import Periodic
-from sie.profiles.slope import Slope
 
 from .certificate import certificate
 from .density import PatchPressure
@@ -24,9 +22,15 @@ from .full import FullContact, full_contact
 from .gap import gap, gap_volume
 from .of_scene import Problem, problem_of
 from .operator import Found, Operator
-from .result import PatchCertificate
 from .solver import contact
 from .unknown import unseen
+
+if TYPE_CHECKING:
+    from sie.problem.scene import Scene
+    from sie.profiles.base import Profile
+    from sie.profiles.slope import Slope
+
+    from .result import PatchCertificate
 
 Array = NDArray[np.float64]
 

@@ -19,7 +19,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,10 +27,12 @@ from numpy.typing import NDArray
 from sie.numerics import chebyshev
 from sie.numerics.chord import Points
 from sie.numerics.tree import Level, Tree
-from sie.profiles.pieces import Pieces
 
 from .panels import Patches, PatchPanels, patch_panels
 from .sums import Groups, far_sums, multiply, parts
+
+if TYPE_CHECKING:
+    from sie.profiles.pieces import Pieces
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]

@@ -17,19 +17,22 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from sie.numerics.chord import Points
 from sie.numerics.tree import Level, Separation, Tree
-from sie.profiles.pieces import Pieces
 
 from .measure import Measure, Targets, close, integrals
 from .panels import GapPanels, gap_panels
-from .state import Findings, Given, State
 from .sums import Groups, add, far_sums, parts, ranges
+
+if TYPE_CHECKING:
+    from sie.profiles.pieces import Pieces
+
+    from .state import Findings, Given, State
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]

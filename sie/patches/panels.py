@@ -10,15 +10,17 @@ from __future__ import annotations
 
 from dataclasses import dataclass, fields
 from functools import cached_property
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from sie.numerics import chebyshev
 from sie.numerics.chord import Chord, Points
-from sie.numerics.zones import Zones
-from sie.profiles.pieces import Pieces
+
+if TYPE_CHECKING:
+    from sie.numerics.zones import Zones
+    from sie.profiles.pieces import Pieces
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]

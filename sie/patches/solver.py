@@ -9,14 +9,13 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from sie.errors import ContactError, LoadError, ResolutionError
-from sie.numerics.chord import Chord
 from sie.profiles.look import beside, narrow_parts
-from sie.profiles.pieces import Pieces
 from sie.progress_bar import reported
 
 from . import newton
@@ -29,6 +28,10 @@ from .repairs import after, apart, bounded, mended, one_period
 from .start import Grid, cells_of
 from .state import SAME, Event, Findings, Given, State, balances
 from .unknown import refuse_unknown_depths, refuse_unknown_ends, unsettled
+
+if TYPE_CHECKING:
+    from sie.numerics.chord import Chord
+    from sie.profiles.pieces import Pieces
 
 Array = NDArray[np.float64]
 

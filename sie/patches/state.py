@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from sie.profiles.pieces import Pieces
-
 from .panels import Patches
+
+if TYPE_CHECKING:
+    from sie.profiles.pieces import Pieces
 
 Array = NDArray[np.float64]
 

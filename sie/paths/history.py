@@ -23,14 +23,12 @@ from collections.abc import Callable, Collection, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from functools import cached_property, partial
-from typing import Any, overload
+from typing import TYPE_CHECKING, Any, overload
 
 import numpy as np
 from numpy.typing import NDArray
 
-from sie.certificate.result import ShearCertificate
 from sie.certificate.shear_check import certificate_of_parts
-from sie.contact.known_contact import Normal
 from sie.errors import ContactError
 from sie.friction.course import course
 from sie.friction.load_steps import (
@@ -49,21 +47,25 @@ from sie.friction.path_slip import (
     step_energy,
     step_shift,
 )
-from sie.friction.slip_state import Slip
-from sie.friction.state import State
-from sie.patches.answer import SeveralPatches
 from sie.patches.friction import refuse_stretch
 from sie.patches.full import FullContact
-from sie.patches.result import PatchCertificate
 from sie.planning import Plan, Step
 from sie.problem.load_path import Path, pressed_first, unsheared
 from sie.problem.request import ECONOMY
-from sie.problem.scene import Scene
 from sie.progress_bar import counted
 from sie.solution import Solution, solve
-from sie.traction.of_slope import SlopeDensity
 
 from .path_contacts import PathContacts
+
+if TYPE_CHECKING:
+    from sie.certificate.result import ShearCertificate
+    from sie.contact.known_contact import Normal
+    from sie.friction.slip_state import Slip
+    from sie.friction.state import State
+    from sie.patches.answer import SeveralPatches
+    from sie.patches.result import PatchCertificate
+    from sie.problem.scene import Scene
+    from sie.traction.of_slope import SlopeDensity
 
 Array = NDArray[np.float64]
 

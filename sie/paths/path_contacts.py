@@ -11,18 +11,20 @@ from bisect import bisect_left, insort
 from collections.abc import Collection
 from dataclasses import replace
 from functools import cached_property
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from sie.errors import LoadError
-from sie.friction.loading import Loads
 from sie.friction.partial_slip import OneSignedSlip
-from sie.friction.slip_state import Slip
 from sie.numerics.interval import EPS, Interval
-from sie.patches.answer import SeveralPatches
-from sie.patches.full import FullContact
 from sie.problem.load_path import Path, unsheared
-from sie.problem.scene import Scene
 from sie.solution import Solution
+
+if TYPE_CHECKING:
+    from sie.friction.loading import Loads
+    from sie.friction.slip_state import Slip
+    from sie.patches.answer import SeveralPatches
+    from sie.patches.full import FullContact
+    from sie.problem.scene import Scene
 
 # P, and what is added to the scene's tilt or moment.
 Under = tuple[float, float]

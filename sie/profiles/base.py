@@ -13,15 +13,16 @@ import math
 from abc import ABC, abstractmethod
 from collections.abc import Callable
 from functools import wraps
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from sie import arguments
 
-from .functions import PowerLaw
-from .slope import Slope
+if TYPE_CHECKING:
+    from .functions import PowerLaw
+    from .slope import Slope
 
 Array = NDArray[np.float64]
 Parity = Literal["even", "none"]

@@ -19,6 +19,7 @@ import math
 import zlib
 from collections.abc import Callable, Sequence
 from functools import lru_cache
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,7 +27,9 @@ from numpy.typing import NDArray
 from sie.numerics.interval import EPS, Interval
 
 from .resolution import NOISE, refuse_non_finite, rounding_noise
-from .slope import Slope
+
+if TYPE_CHECKING:
+    from .slope import Slope
 
 Array = NDArray[np.float64]
 Bool = NDArray[np.bool_]

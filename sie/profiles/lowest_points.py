@@ -7,6 +7,8 @@ starts there.
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -15,7 +17,9 @@ from sie.numerics import chebyshev
 from sie.numerics.root_finding import false_position
 
 from .pieces import root_bound, without_functions
-from .slope import Slope
+
+if TYPE_CHECKING:
+    from .slope import Slope
 
 Array = NDArray[np.float64]
 

@@ -12,7 +12,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import pairwise
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,10 +21,12 @@ from sie.inheritance import override
 from sie.numerics import chebyshev
 from sie.numerics.interval import EPS
 
-from .base import Profile
 from .look import across, narrow_parts
 from .resolution import TINY, refined
 from .slope import Index, Slope, chained
+
+if TYPE_CHECKING:
+    from .base import Profile
 
 Array = NDArray[np.float64]
 

@@ -20,19 +20,13 @@ Goodman (1962), J. Appl. Mech. 29, 515; docs/derivations/goodman.md.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from sie.contact.normal import normal_contact
-from sie.contact.pressure import pressure
-from sie.errors import ContactError
 from sie.numerics.elliptic import modulus_of_ratio
-from sie.problem.scene import Scene
 
 from .flat import NARROWEST_RATIO, FlatPunch, half_rule, squares
 from .pieces import Places
@@ -42,7 +36,6 @@ Array = NDArray[np.float64]
 
 # beyond it c = 4 exp(-π K'/2K) is lost even beside a double's smallest lengths; c² is a double
 WIDEST_RATIO = 200.0
-NEGLECTED = "note: β q is left out of the normal equation (Goodman's approximation)"
 
 
 @dataclass(frozen=True, eq=False)
@@ -157,32 +150,3 @@ def goodman_flat(beta: float, friction: float) -> GoodmanFlat:
     t, near, _ = half_rule()
     _, square = squares(modulus, t, near)
     return GoodmanFlat(beta, friction, bonded, modulus, 1.0 / (math.pi * np.sqrt(square)))
-
-
-def departure(scene: Scene, tol: float, coupled_contact: Callable[..., Any]) -> str:
-    """A sentence; with figures for the normal load on a symmetric convex profile.
-
-    `coupled_contact` finds the contact with both couplings.
-    """
-    if scene.slides:
-        return f"{NEGLECTED}: in full sliding the pressure is that without friction"
-    try:
-        if scene.tilt or scene.moment:
-            raise ContactError("not symmetric")
-        upright = replace(scene, coupling="full", tangential_load=0.0, moment=None)
-        _, state = coupled_contact(upright, lambda one: normal_contact(one, tol))
-        if math.isnan(state.axis):
-            raise ContactError("not symmetric")
-    except ContactError:
-        return f"{NEGLECTED}; how far the answer is from the coupled one is not known here"
-    k, c = goodman_flat(abs(scene.beta), scene.friction).c, state.flat.c
-    found = f"c/b = {k:.6g} instead of {c:.6g} ({_percent(k, c)})"
-    simple = normal_contact(scene, tol)
-    axis = np.array([state.axis])
-    p, coupled = float(pressure(simple, scene, tol)(axis)[0]), float(state.rows(axis)[0, 0])
-    peak = f" and p = {p:.6g} instead of {coupled:.6g} ({_percent(p, coupled)}) on the axis"
-    return f"{NEGLECTED}: under the normal load {found}{peak if math.isfinite(p + coupled) else ''}"
-
-
-def _percent(one: float, other: float) -> str:
-    return f"{100.0 * (one - other) / other:+.2g} %"

@@ -9,11 +9,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from sie.contact.known_contact import Edges, Normal
+from sie.contact.normal import normal_contact
+from sie.contact.pressure import pressure
 from sie.errors import ContactError
 from sie.numerics.interval import EPS, Interval
 from sie.numerics.root_finding import false_position
@@ -38,6 +41,7 @@ NARROWEST_STICK = 1e-9  # of the contact
 RESOLVED = 3e-12  # of P: what a state may miss
 STEEPEST = 1.5  # β f: exponents at the ends of slip zones are then 0.19 and 0.81
 LOOKS = 64  # places at which a slope is looked at
+NEGLECTED = "note: β q is left out of the normal equation (Goodman's approximation)"
 
 
 @reported("contact of dissimilar bodies")
@@ -174,3 +178,32 @@ def _without_friction(scene: Scene) -> Scene:
     """The scene whose contact bounds the search."""
     P, b = scene.normal_load, scene.half_width
     return Scene(profile=scene.profile, modulus=scene.Estar, normal_load=P, half_width=b)
+
+
+def departure(scene: Scene, tol: float) -> str:
+    """What Goodman's approximation changes, in a sentence.
+
+    It has figures for the normal load on a symmetric convex profile.
+    """
+    if scene.slides:
+        return f"{NEGLECTED}: in full sliding the pressure is that without friction"
+    try:
+        if scene.tilt or scene.moment:
+            raise ContactError("not symmetric")
+        upright = replace(scene, coupling="full", tangential_load=0.0, moment=None)
+        _, state = coupled_contact(upright, lambda one: normal_contact(one, tol))
+        if math.isnan(state.axis):
+            raise ContactError("not symmetric")
+    except ContactError:
+        return f"{NEGLECTED}; how far the answer is from the coupled one is not known here"
+    k, c = goodman_flat(abs(scene.beta), scene.friction).c, state.flat.c
+    found = f"c/b = {k:.6g} instead of {c:.6g} ({_percent(k, c)})"
+    simple = normal_contact(scene, tol)
+    axis = np.array([state.axis])
+    p, coupled = float(pressure(simple, scene, tol)(axis)[0]), float(state.rows(axis)[0, 0])
+    peak = f" and p = {p:.6g} instead of {coupled:.6g} ({_percent(p, coupled)}) on the axis"
+    return f"{NEGLECTED}: under the normal load {found}{peak if math.isfinite(p + coupled) else ''}"
+
+
+def _percent(one: float, other: float) -> str:
+    return f"{100.0 * (one - other) / other:+.2g} %"
