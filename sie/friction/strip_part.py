@@ -82,6 +82,8 @@ def strip_part(
             shorter, ahead = panel, event.ahead(length)
         aims.append((length, length * event.share**2, (event.j, event.place)))
         before, length = length, min(_aimed(aims), rest)
+        if shorter is not None and length >= NEARLY * failed:  # that was tried
+            return _ended(shorter, None, min(APPROACH * ahead, LONGER * shorter.span.length))
         guess = _places(panel, (length / before) ** 0.5)
     raise ContactError("what sticks anew is not found in a part however short")
 
