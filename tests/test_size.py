@@ -20,7 +20,7 @@ LINES = {
     "cli": 790,
     "contact": 2420,
     "examples": 10,
-    "friction": 9730,
+    "friction": 9770,
     "inverse": 320,
     "io": 4650,
     "live": 1140,
@@ -36,7 +36,7 @@ LINES = {
     "sweeps": 720,
     "traction": 2500,
 }
-FILES = 252
+FILES = 253
 
 
 def lines_of(folder):

@@ -26,6 +26,7 @@ Array = NDArray[np.float64]
 CLOSED = 1e-12  # of f P: loads that are the same
 TOLERATED = 1e-9  # of the largest f p, and of the largest slip: what the verdict forgives
 AWAY = 0.05  # of the stick zone: how far its ends go about, times the root of the part of f P
+BEYOND, MOST_OTHERS = 0.02, 4  # of the way from a mark to the edge; starts beyond marks
 HALVINGS = 2  # of a step whose end is not found at once
 
 
@@ -118,7 +119,9 @@ class Loaded:
         """States from which a step may be solved, and zones to start from."""
         if self.before is not None and self._farther(Q, strain) > 1.0:
             yield self.before, guess(self.before, Q, strain)
-        yield self, guess(self, Q, strain)
+        near = guess(self, Q, strain)
+        yield self, near
+        yield from ((self, other) for other in beyond_marks(near, self.marks))
 
     def _farther(self, Q: float, strain: float) -> float:
         """How far other loads are from where the loads turned, over how far these are."""
@@ -281,6 +284,22 @@ def guess(base: Loaded, Q: float, strain: float) -> Zones | None:
     if found is None:
         return nearly_sliding(base, Q, sliding) if sliding is not None else None
     return kept_within(found, base.zones, abs(dQ) / (base.friction * P))
+
+
+def beyond_marks(near: Zones | None, marks: tuple[float, ...]) -> Iterator[Zones]:
+    """Zones whose stick reaches beyond the next marks.
+
+    Between marks of loads that return, q is ± f p already: no end of stick is better than others.
+    """
+    if near is None or len(near.signs) != 3:
+        return
+    x1, e1, e2, x2 = near.ends.tolist()
+    lefts = [mark - BEYOND * (mark - x1) for mark in marks[::-1] if x1 < mark < e1]
+    rights = [mark + BEYOND * (x2 - mark) for mark in marks if e2 < mark < x2]
+    pairs = list(zip(lefts[-1:], rights[-1:], strict=False))
+    pairs += [(e1, right) for right in rights[::-1]] + [(left, e2) for left in lefts[::-1]]
+    for first, last in pairs[:MOST_OTHERS]:
+        yield zones_between(np.array([x1, first, last, x2]), near.signs)
 
 
 def nearly_sliding(base: Loaded, Q: float, sliding: State) -> Zones | None:
