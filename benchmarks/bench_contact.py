@@ -173,7 +173,7 @@ def test_shear_of_a_thousand_remembered_turning_points(benchmark):
 
 
 def test_stick_zones_over_those_without_a_guess(benchmark, monkeypatch):
-    """What a guess from known stick zones saves (`KnownZones`): `ratio` without it."""
+    """What a guess from known stick zones saves (`_KnownZones`): `ratio` without it."""
     k = np.arange(1_000)
     path = sie.Path([(0.3, Q) for Q in 0.14 * (1.0 - k / 1_000) * (-1.0) ** k])
     question = scene(PROFILES["rounded flat"], friction=0.5)
@@ -181,7 +181,7 @@ def test_stick_zones_over_those_without_a_guess(benchmark, monkeypatch):
 
     def without():
         with monkeypatch.context() as patch:
-            patch.setattr(sie.paths.path_contacts.KnownZones, "guess", lambda *_: None)
+            patch.setattr(sie.paths.path_contacts._KnownZones, "guess", lambda *_: None)
             run()
 
     benchmark.extra_info["ratio"] = compared(without, run)[1]

@@ -1,7 +1,7 @@
 """A mesh result beside the exact answer, all quantities of a file.
 
 With e = f_mesh - f at the points of the file, and integrals over x as sums with the lengths that
-belong to nodes or element faces (over points scattered in the body, with equal weights)
+reach half-way to the next points (over points scattered in the body, with equal weights)
 
     l1 = ∫|e| / ∫|f|,      l2 = (∫e² / ∫f²)^(1/2),      largest = max|e| / max|f|
     resultant = ∫f_mesh over that of f on the whole contact, less 1

@@ -259,6 +259,16 @@ def test_a_closed_loop_leaves_the_state_in_which_it_began():
     assert np.abs(ends(history[3]) - ends(history[1])).max() > 0.1
 
 
+@pytest.mark.parametrize("part", [0.5, 0.6, 0.667])
+def test_steel_on_titanium_goes_to_and_fro(part):
+    """Between marks of the way there, q is ± f p already: a stick zone may reach beyond them."""
+    pad = sie.Scene(
+        profile=sie.Parabola(50.0), body=TITANIUM, indenter=STEEL, normal_load=100.0, friction=0.3
+    )
+    loads = [(100.0, 30.0 * Q) for Q in (0.0, part, -part, part)]
+    assert sie.follow(pad, sie.Path(loads))[3].check().ok
+
+
 @pytest.mark.slow
 def test_the_steady_cycle_is_that_of_many_cycles():
     pressed = dissimilar(None, normal_load=P)

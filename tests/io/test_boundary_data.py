@@ -133,6 +133,12 @@ def test_what_has_no_answer_is_refused_before_any_work(asked, words):
         SOLVED["rounded flat"].boundary_data(**asked)
 
 
+def test_a_side_at_a_sharp_edge_has_infinite_tractions_there_but_finite_forces():
+    data = SOLVED["sharp edges"].boundary_data(box=(-1.0, 1.0, 0.0, 1.0), kind="traction")
+    assert not any(np.isnan(column).any() for column in data.values.values())
+    np.testing.assert_allclose(data.resultant, (0.0, -500.0, 0.0), atol=5.0)
+
+
 def test_a_rigid_body_has_displacements_and_no_tractions():
     scene = sie.Scene(profile=sie.Parabola(50.0), body=STEEL, indenter=sie.RIGID, normal_load=500.0)
     solution, box = sie.solve(scene), (-1.0, 1.0, -1.0, 0.0)

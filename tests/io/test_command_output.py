@@ -10,7 +10,7 @@ from command_scenes import KINDS, example, sentence
 
 import sie
 from sie.cli import main
-from sie.io import report, scene_file
+from sie.io import report, sample_points, scene_file
 
 
 def strict(text):
@@ -109,6 +109,24 @@ def test_json_and_csv_go_to_a_file_or_alone_to_standard_output(scene, tmp_path, 
     assert "wrote out.json" in capsys.readouterr().out
     main(["solve", scene, "--csv", "-"])
     assert capsys.readouterr().out.startswith("# Fretting pad")
+
+
+@pytest.mark.parametrize(
+    ("kind", "says"),
+    [("parabola", "# x and gap in mm, p in MPa,"),
+     ("partial-slip", "# x and gap and slip in mm, p and q in MPa,")],
+)  # fmt: skip
+def test_csv_names_the_unit_of_every_column(kind, says, tmp_path, capsys):
+    main(["solve", example(kind, tmp_path), "--csv", "-", "--points", "20"])
+    assert says in capsys.readouterr().out
+
+
+def test_csv_points_resolve_a_rounded_edge_of_a_thousandth_of_the_contact():
+    pad = sie.RoundedFlat(0.999, 20.0)
+    solution = sie.solve(sie.Scene(profile=pad, body=sie.Elastic(210e3, 0.3), half_width=1.0))
+    x = sample_points.inside(solution, 100)
+    assert ((x >= 0.999) & (x <= 1.0)).sum() >= 10
+    assert len(x) == pytest.approx(100, abs=10)
 
 
 # -- shear and load paths --------------------------------------------------------------------------

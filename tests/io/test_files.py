@@ -61,6 +61,7 @@ def refused(argv, capsys):
 TARGETS = {"scene.toml": "the scene file", "trace.csv": "a trace", "mesh.csv": "the mesh result"}
 LINKS = {
     "itself": lambda target: target,
+    "by another way": lambda target: f"../{Path.cwd().name}/{target}",
     "by a hard link": lambda target: os.link(target, "link.csv") or "link.csv",
     "by links to links": lambda target: (
         os.symlink(target, "a") or os.symlink("a", "link.csv") or "link.csv"

@@ -81,3 +81,24 @@ def test_a_solution_is_shown_by_its_picture_where_there_is_matplotlib(monkeypatc
 @pytest.mark.parametrize("found", [SHEARED.check(), sie.plan(PUNCH.scene)], ids=["check", "plan"])
 def test_a_certificate_and_a_plan_are_shown_as_their_tables(found):
     assert found._repr_html_() == f"<pre>{escape(str(found))}</pre>"
+
+
+CELLS = [
+    "import sie; from sie.io.scene_file import example, parse; from sie import progress_bar",
+    "file = parse(example('fretting-cycle')); sie.solve(file.scene)",
+    "sie.follow(file.scene, file.load_path).plot()",
+    "progress_bar.PATIENCE = 0.0; _ = sie.sweep(file.scene, {'normal_load': [500.0, 600.0]})",
+]
+
+
+@pytest.mark.slow
+def test_a_kernel_shows_the_pictures_and_the_bar():
+    nbclient, nbformat = pytest.importorskip("nbclient"), pytest.importorskip("nbformat")
+    pytest.importorskip("ipykernel")
+    pytest.importorskip("tqdm")
+    cells = [nbformat.v4.new_code_cell(cell) for cell in CELLS]
+    notebook = nbformat.v4.new_notebook(cells=cells)
+    nbclient.NotebookClient(notebook, timeout=120, kernel_name="python3").execute()
+    _, solution, path, swept = (cell.outputs for cell in notebook.cells)
+    assert "image/png" in solution[0].data and "image/png" in path[0].data
+    assert any("sweep" in str(output) for output in swept)

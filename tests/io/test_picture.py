@@ -114,6 +114,20 @@ def test_an_infinite_pressure_is_cut_and_marked_by_arrows(name, arrows):
     assert r"$p \to \infty$" in words(upper)
 
 
+def test_a_spike_is_cut_but_its_value_is_printed():
+    upper, _ = panels(solved("thin rim"))
+    largest, _ = plot.peak(solved("thin rim"))
+    assert upper.get_ylim()[1] < 0.5 * largest
+    assert f"$p_{{\\mathrm{{max}}}}$ = {largest:.3f} MPa" in words(upper)
+
+
+def test_units_that_are_not_mm_keep_their_name_behind_a_power_of_ten():
+    scene = sie.Scene(profile=sie.Parabola(1.0), body=sie.Elastic(210e9, 0.3), normal_load=1e4)
+    upper, lower = panels(sie.solve(scene), units=Units("m", "N/m", "Pa"))
+    assert upper.get_ylabel() == "$p$ ($10^{6}$ Pa)"
+    assert lower.get_xlabel() == "$x$ ($10^{-6}$ m)"
+
+
 # -- shear ----------------------------------------------------------------------------------------
 
 FRETTING = parse(example("fretting-cycle"))
@@ -193,6 +207,19 @@ def test_the_picture_of_a_contact_that_repeats_ends_within_one_period(load):
     factor, _ = style.scaled(solution.half_width, "mm")
     left, right = plot.picture(solution).axes[0].get_xlim()
     assert (right - left) / factor <= WAVE.period * (1.0 + 1e-12)
+
+
+WITH_WALLS = {
+    "flats": sie.Row([sie.Flat(1.0), sie.Flat(0.5).shifted(3.0)]),
+    "flats that repeat": sie.Periodic(sie.Flat(1.0), period=4.0),
+}
+
+
+@pytest.mark.parametrize("profile", WITH_WALLS.values(), ids=WITH_WALLS)
+def test_a_place_without_an_indenter_is_left_out_of_the_picture(profile):
+    _, lower = panels(sie.solve(sie.Scene(profile=profile, body=STEEL, normal_load=20.0)))
+    low, high = lower.get_ylim()
+    assert -np.inf < low < 0.0 < high < np.inf
 
 
 # -- stress ---------------------------------------------------------------------------------------

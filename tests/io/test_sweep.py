@@ -35,6 +35,17 @@ def test_every_point_equals_a_single_solution(executor):
     assert (found["normal_load"] == LOADS).all()
 
 
+def test_parameters_of_the_profile_and_quantities_of_patches_are_those_of_single_solutions():
+    found = plain(sie.sweep(SCENE, over={"profile.half_flat": [0.2, 0.4]}, want={"p0": peak}))
+    assert found["p0"][1] == peak(single(profile=sie.RoundedFlat(0.4, 1.0)))
+    row = sie.Row([sie.Parabola(1.0).shifted(3.0 * k).raised(0.01 * k) for k in range(3)])
+    scene, loads = sie.Scene(profile=row, modulus=1.0, normal_load=1.0), [1e-3, 0.5]
+    found = plain(sie.sweep(scene, {"normal_load": loads}, ["patches", "contact_length"]))
+    solutions = [sie.solve(replace(scene, normal_load=P)) for P in loads]
+    assert found["patches"].tolist() == [len(s.patches) for s in solutions]
+    assert found["contact_length"].tolist() == [s.contact_length for s in solutions]
+
+
 def a_punch(a, f):
     P = 0.1 + a
     return sie.Scene(
@@ -95,6 +106,19 @@ def test_the_normal_problem_is_solved_once_for_all_frictions(monkeypatch):
         want="half_width",
     )
     assert len(solved) == 2
+
+
+@pytest.mark.parametrize("odd", [lambda p: p[0], lambda p: p[None]], ids=["number", "matrix"])
+def test_a_value_of_another_rank_costs_itself_only(odd):
+    x = np.linspace(-0.1, 0.1, 3)
+    want = {
+        "p": lambda s: odd(s.pressure(x)) if s.normal_load == 0.2 else s.pressure(x),
+        "b": lambda s: s.half_width,
+    }
+    found = plain(sie.sweep(SCENE, over={"normal_load": LOADS}, want=want))
+    assert np.isnan(found["p"]).all(axis=1).tolist() == [False, True, False]
+    assert np.isfinite(found["b"]).all()
+    assert found["reason"][1].startswith("p has") and found["reason"][0] == ""
 
 
 @pytest.mark.parametrize("value", [[[1.0], [1.0, 2.0]], 1j, "wide", None])

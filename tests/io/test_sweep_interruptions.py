@@ -42,6 +42,20 @@ def test_an_interrupt_keeps_all_chunks_that_are_done():
     assert all(future.done() or future.cancelled() for future in pool.futures)
 
 
+def test_an_interrupt_within_a_chunk_keeps_its_first_points():
+    asked = []
+
+    def impatient(solution):
+        asked.append(solution)
+        if len(asked) == 3:
+            raise KeyboardInterrupt
+        return solution.half_width
+
+    with pytest.raises(sie.Interrupted) as caught:
+        sie.sweep(SCENE, FOUR_WIDTHS["over"], {"b": impatient}, chunk=4)
+    assert np.isfinite(plain(caught.value.result)["b"]).tolist() == [True, True, False, False]
+
+
 @pytest.fixture
 def heeded():
     """Ctrl-C is heeded: a job in the background inherits that it is ignored."""
@@ -84,6 +98,30 @@ def test_a_function_that_raises_costs_its_own_point_only(executor):
     )
     assert np.isnan(found["f"]).tolist() == [False, True, False]
     assert found["reason"][1].startswith("ZeroDivisionError")
+
+
+class Dying(Executor):
+    """Its second worker dies; it is shut down after so many tasks."""
+
+    def __init__(self, most):
+        self.taken, self.most = 0, most
+
+    def submit(self, function, /, *args, **kwargs):
+        if self.taken == self.most:
+            raise RuntimeError("cannot schedule new futures after shutdown")
+        self.taken, future = self.taken + 1, Future()
+        if self.taken == 2:
+            future.set_exception(RuntimeError("a worker died"))
+        else:
+            future.set_result(function(*args, **kwargs))
+        return future
+
+
+@pytest.mark.parametrize(("most", "lost"), [(4, [False, True, False, False]), (0, [True] * 4)])
+def test_an_executor_that_fails_costs_the_chunks_that_it_held(most, lost):
+    found = plain(sie.sweep(SCENE, **FOUR_WIDTHS, executor=Dying(most), chunk=1))
+    assert np.isnan(found["half_width"]).tolist() == lost
+    assert [reason.startswith("RuntimeError: ") for reason in found["reason"]] == lost
 
 
 def deadly(solution):

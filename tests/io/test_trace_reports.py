@@ -28,6 +28,15 @@ def reported(profile, **given):
 # -- the spline in use ----------------------------------------------------------------------------
 
 
+def test_the_misfit_of_a_repeated_trace_is_that_of_its_periodic_spline():
+    x = np.linspace(0.0, 1.0, 201)
+    h = 0.01 * np.cos(2.0 * np.pi * x)
+    profile = sie.Periodic(sie.Sampled(x, h, 1e-4), 1.0)
+    misfits = h - profile.height(x)
+    found = reported(profile, normal_load=0.005)
+    assert found.misfit == pytest.approx(np.sqrt(np.mean(misfits**2)), rel=1e-9)
+
+
 # -- the error of the pressure --------------------------------------------------------------------
 
 
@@ -96,6 +105,11 @@ def test_correlated_noise_is_reported_as_a_part_of_the_shape():
         assert not report.separated
         assert "correlated noise is taken for the shape" in str(report)
         assert reported(sie.Sampled(X, 0.5 * (X**2 + 1e-4 * white(seed)), "gcv")).separated
+
+
+@pytest.mark.parametrize("smoothing", [0.0, "gcv"])
+def test_a_trace_without_noise_is_distinguished_from_a_noisy_one(smoothing):
+    assert reported(sie.Sampled(X, 0.25 * np.cosh(2.0 * X), smoothing)).pressure_error <= 1e-3
 
 
 def test_a_profile_that_is_no_trace_has_no_report():
