@@ -161,3 +161,14 @@ def test_cracks_that_are_wanted_of_no_table_are_refused(tmp_path, capsys):
     path.write_text(scene_file.example("parabola"), encoding="utf-8")
     assert main(["solve", str(path), "--want", "crack"]) == 2
     assert "needs the table [crack]" in capsys.readouterr().err
+
+
+def test_cracks_at_an_edge_under_a_changing_load_are_certified():
+    scene = sie.Scene(
+        profile=sie.Parabola(7.5), modulus=1.0, poisson=0.3, normal_load=0.06, friction=0.5
+    )
+    path = sie.Path([(0.06, 0.0, 0.0), (0.06, 0.012, 0.002), (0.06, -0.01, -0.002)])
+    history = sie.follow(scene, path)
+    edge, b = history[0].edges[0], history[0].half_width
+    found = sie.Cycle(history[1:]).stress_intensity(edge, [0.01 * b, 0.1 * b])
+    assert found.check().ok
