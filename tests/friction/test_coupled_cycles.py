@@ -232,6 +232,7 @@ def test_energy_does_not_depend_on_how_a_load_is_divided():
     assert ends(parts[2]) == pytest.approx(ends(whole[1]), abs=1e-10)
 
 
+@pytest.mark.slow
 def test_energy_is_known_where_two_ends_pass_kinks_of_the_profile():
     before, after = (solved(PROFILES["kinked"], 0.2, 0.3, part) for part in (0.0, 0.6))
     x = np.linspace(*after.edges, 2001)[1:-1]
