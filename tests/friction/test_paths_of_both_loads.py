@@ -56,7 +56,6 @@ def test_energy_while_the_normal_load_changes_tends_to_that_at_constant_load():
 KINDS = {
     "punch": sie.RoundedFlat(0.5, 1.0),
     "wedge": sie.Wedge(0.3),
-    "power 1.5": sie.Power(1.5, 0.5),
     "power 2.5": sie.Power(2.5, 0.5),
     "tilted punch": sie.RoundedFlat(0.5, 1.0).tilted(0.02),
     "lopsided": sie.Polynomial((0.0, 0.05, 1.0, 0.4, 0.6)),

@@ -211,7 +211,7 @@ def interpolated(table: Array, place: Any, points: int = POINTS) -> Any:
     apart, total = place - first, np.zeros_like(place)
     values = np.zeros((len(table), len(place)), dtype=place.dtype)
     for j, weight in enumerate(_binomial(points).tolist()):
-        share = weight / np.where(apart == j, AT_NODE, apart - j)
+        share = weight / np.where(np.abs(apart - j) < AT_NODE, AT_NODE, apart - j)
         total += share
         values += share * table[:, first + j]
     return values / total
