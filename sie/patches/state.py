@@ -24,6 +24,7 @@ OUTWARD, INTO_GAP = 2.0, 0.4
 TO_CORNER = 0.9  # of the way to a concave corner
 INWARD, WIDTHS = 0.4, 4.0  # most that it moves in: half-widths, widths of its gap
 QUADRATIC = 1e-3  # of its patch or a narrower gap: such steps decrease quadratically
+ROUNDED = 1e-7  # of the same: shorter steps back are rounding, and no kink of h'
 GROWTH = 3.0  # of moves after one that went too far: slower after every such one, so that it ends
 TOGETHER = 4  # steps in a row: both edges of a patch or of a gap ask for more
 CLEAR = 10.0  # times what is allowed: such a step outwards counts twice
@@ -180,7 +181,7 @@ class Damping(NamedTuple):
             np.minimum(np.minimum(OUTWARD * r, INTO_GAP * gaps), TO_CORNER * room(P, corners)),
             np.minimum(INWARD * r, WIDTHS * gaps),
         )
-        least = np.maximum(0.5 * np.abs(self.moved), QUADRATIC * P.narrower)
+        least = np.maximum(0.5 * np.abs(self.moved), ROUNDED * P.narrower)
         back = (asked * self.moved < 0.0) & (np.abs(asked) > least)
         turns, last = self.turns + back, np.abs(self.moved)
         growth = 1.0 + GROWTH / (1.0 + turns**2)
