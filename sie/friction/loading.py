@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-FEW = 8  # breaks of a profile: of more, a trace, each one is faint
+FEW = 8  # breaks in contact: of more, of a trace, each one is faint
 FIRST = 1e-14  # of a step from nothing: after that the bodies touch
 
 
@@ -78,10 +78,11 @@ def contact_under(contacts: Contacts, loads: Loads) -> Contact:
     return Contact(patches, limit, *contacts.sheared_by(loads), contacts.scene.profile.period)
 
 
-def limit_on(scene: Scene, patches: Ends, pressure: Density) -> Pieces:
-    """f p, with marks at the breaks of a profile of few pieces."""
+def limit_on(scene: Scene, patches: Ends, pressure: Density, most: int = FEW) -> Pieces:
+    """f p, with marks at the breaks of the profile in contact, if there are no more than `most`."""
     breaks = np.array(scene.profile.pieces.break_points)
-    corners = breaks if len(breaks) <= FEW else breaks[:0]
+    breaks = breaks[(breaks > patches[0][0]) & (breaks < patches[-1][1])]
+    corners = breaks if len(breaks) <= most else breaks[:0]
     ends = intervals(patches, corners, SAME * (patches[-1][1] - patches[0][0]))
     return Pieces.fitted(ends, lambda rule: scene.friction * pressure(rule.x))
 

@@ -42,6 +42,7 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 MOST = 13.0  # of τ/(f p(c)): beyond, the stick zone is narrower than 1e-8 of the contact
+MARKED = 512  # breaks in contact that are marks: a state is solved once; of more each is below 1e-8
 WIDE = 0.75  # of the distance to the nearer edge: a stick zone at most, at a guess
 
 
@@ -139,7 +140,7 @@ def two_signed(step: Step) -> TwoSignedSlip:
     Raises ContactError at sharp edges, and where no zones are found.
     """
     patches = (step.pressure.interval,)
-    limit = limit_on(step.scene, patches, step.pressure)
+    limit = limit_on(step.scene, patches, step.pressure, MARKED)
     infinite = limit.marks[np.isinf(step.pressure(limit.marks))]
     if infinite.size:
         raise ContactError(

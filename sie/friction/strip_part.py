@@ -74,9 +74,8 @@ def strip_part(
             event = replace(event, share=1.0) if is_there(panel, event) else None
         if event is None or abs(event.share - 1.0) < AT_THE_END:
             leapt = past_leap(panel, *event.opened, rest) if event and event.opened else None
-            usual = 1.0 if failed > 1.0 else LONGER * length
-            near = event is None and np.isfinite(ahead)
-            longest = APPROACH * ahead if near else usual
+            longest = 1.0 if failed > 1.0 else LONGER * length
+            longest = longest if event else min(longest, APPROACH * ahead)
             return _ended(panel, event, longest) if leapt is None else _ended(leapt, None)
         if event.share > 1.0:
             shorter, ahead = panel, event.ahead(length)

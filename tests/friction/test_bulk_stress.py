@@ -301,3 +301,20 @@ def test_the_steepness_of_the_shear_at_a_kink_in_the_stick_zone_is_that_beside_i
     at, *beside = shear.cauchy_derivative(np.array([0.5, 0.5 - 1e-6, 0.5 + 1e-6])).imag
     assert np.isinf(sie.solve(scene).pressure.cauchy_derivative(0.5).imag)
     assert at == pytest.approx(np.mean(beside), rel=1e-3)
+
+
+@pytest.mark.parametrize("points", [60, 150])
+def test_opposite_slip_on_a_trace_is_certified(points):
+    x = np.linspace(-1.0, 1.0, points)
+    trace = sie.Sampled(x, 0.5 * x * x + 0.002 * np.cos(9.0 * x + 0.3))
+    scene = sie.Scene(
+        profile=trace,
+        modulus=1.0,
+        normal_load=0.03,
+        friction=0.4,
+        tangential_load=0.002,
+        bulk_stress=0.08,
+    )
+    solution = sie.solve(scene)
+    assert solution.tangential.kind == "two signs"
+    assert solution.check().ok
