@@ -25,7 +25,7 @@ LINES = {
     "io": 4650,
     "live": 1140,
     "many": 740,
-    "numerics": 2170,
+    "numerics": 2150,
     "patches": 4920,
     "paths": 1190,
     "plots": 960,

@@ -211,25 +211,3 @@ def gauss_legendre(n: int) -> tuple[Array, Array]:
     w = np.asarray((1 - x * x) / (n * before) ** 2, dtype=float)
     g.flags.writeable = w.flags.writeable = False
     return g, w
-
-
-@lru_cache(maxsize=64)
-def differentiation(n: int) -> tuple[Array, Array]:
-    """Matrices D, E with D f = f'(g) and E f = (f(0), f(1)) for values f at the nodes g.
-
-    g are the n Gauss-Legendre nodes.
-
-    Barycentric (Berrut & Trefethen 2004), exact for polynomials of degree n - 1.
-    """
-    g, w = gauss_legendre(n)
-    # Barycentric weights of Gauss-Legendre nodes.
-    weights = (-1.0) ** np.arange(n) * np.sqrt(g * (1.0 - g) * w)
-    gaps = g[:, None] - g[None, :]
-    np.fill_diagonal(gaps, 1.0)
-    d = weights[None, :] / weights[:, None] / gaps
-    np.fill_diagonal(d, 0.0)
-    np.fill_diagonal(d, -d.sum(axis=1))
-    e = weights / (np.array([[0.0], [1.0]]) - g)
-    e /= e.sum(axis=1, keepdims=True)
-    d.flags.writeable = e.flags.writeable = False
-    return d, e
