@@ -193,12 +193,20 @@ def test_a_bulk_stress_that_leaves_hardly_a_point_of_stick_is_refused_with_one_t
     [(sie.Flat(1.0), sie.RoundedFlat(1.0, 0.5)), (sie.Wedge(0.3), sie.Parabola(2.0))],
     ids=["flat", "wedge"],
 )
-def test_opposite_slip_is_refused_next_to_an_infinite_pressure_and_solved_where_that_is_rounded(
+def test_opposite_slip_at_an_infinite_pressure_is_refused_and_solved_where_that_is_rounded(
     profile, rounded
 ):
-    with pytest.raises(sie.ContactError, match=r"infinite pressure at x = .* round"):
-        _ = sheared(profile, 0.3, bulk_stress=4.0 * P).stick
+    with pytest.raises(sie.ContactError, match=r"infinite pressure slips, x = .* round"):
+        _ = sheared(profile, 0.5, bulk_stress=4.0 * P).stick
     assert sheared(rounded, 0.3, bulk_stress=4.0 * P).check().ok
+
+
+def test_the_tip_of_a_wedge_may_stick_between_opposite_slip():
+    solution = sheared(sie.Wedge(0.3), 0.05, bulk_stress=4.0 * P)
+    (lo, hi), check = solution.stick[0], solution.check()
+    assert lo < 0.0 < hi
+    assert check.ok
+    assert check.shear.error < 1e-9
 
 
 @pytest.mark.slow(but=3)
