@@ -1,8 +1,10 @@
 """The extremes of a path: zones that retreat, the least slip, large and small units."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
-from path_cases import FP, HERTZ, E, F, P, at_constant_load, fields
+from path_cases import FP, HERTZ, E, F, P, at_constant_load
 
 import sie
 from oracles.kalker import Mesh
@@ -14,7 +16,7 @@ from sie.io.scene_file import SceneFile
 def test_where_zones_retreat_the_path_matters_and_the_certificate_notes_it():
     """In one step the mesh finds the state given; in proportion, in many, another one."""
     Q, sigma = 0.6 * FP, 0.5
-    solution = sie.solve(sie.Scene(**fields(HERTZ), tangential_load=Q, bulk_stress=sigma))
+    solution = sie.solve(replace(HERTZ, tangential_load=Q, bulk_stress=sigma))
     assert not solution.tangential.advancing
     assert "retreat" in str(solution.check())
     mesh = Mesh(solution.edges, 200, E)
@@ -32,7 +34,7 @@ def test_where_zones_retreat_the_path_matters_and_the_certificate_notes_it():
 @pytest.mark.parametrize("sigma", [0.5, 0.0])
 def test_reports_without_a_certificate_note_zones_that_retreat(sigma):
     """The text and the JSON: where the shear matters, and not where only the pressure is wanted."""
-    solution = sie.solve(sie.Scene(**fields(HERTZ), tangential_load=0.6 * FP, bulk_stress=sigma))
+    solution = sie.solve(replace(HERTZ, tangential_load=0.6 * FP, bulk_stress=sigma))
 
     def reports(*want):
         file = SceneFile(solution.scene, want=want)

@@ -1,8 +1,10 @@
 """Load paths along which P and Q change together."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
-from path_cases import FP, HERTZ, PUNCH, E, F, P, at_constant_load, fields
+from path_cases import FP, HERTZ, PUNCH, E, F, P, at_constant_load
 
 import sie
 
@@ -20,7 +22,7 @@ def test_proportional_loading_below_friction_does_not_slip():
 def test_loading_above_friction_slips_like_a_smaller_normal_load():
     """dQ/dP > f: q = f (p - p̂), p̂ under P - Q/f, as if P had come first (Jäger 1998)."""
     together = sie.follow(HERTZ, sie.Path([(0.1, 0.0), (P, 0.75 * FP)]))[1]
-    after = sie.solve(sie.Scene(**fields(HERTZ), tangential_load=0.75 * FP))
+    after = sie.solve(replace(HERTZ, tangential_load=0.75 * FP))
     x = 0.99 * np.linspace(*after.edges, 21)
     assert together.stick[0] == pytest.approx(after.stick[0], rel=1e-14)
     assert together.shear(x) == pytest.approx(after.shear(x), abs=1e-14)
@@ -131,8 +133,7 @@ def test_normal_load_alone_comes_before_anything():
 def test_no_moment_on_a_symmetric_profile_is_no_tilt():
     path = sie.Path([(P, 0.05), (2 * P, 0.3), (P, 0.1)])
     balanced, upright = (
-        sie.follow(sie.Scene(**fields(HERTZ) | {"tilt": 0.0} | more), path)
-        for more in ({}, {"moment": 0.0})
+        sie.follow(replace(HERTZ, tilt=0.0, **more), path) for more in ({}, {"moment": 0.0})
     )
     for one, other in zip(balanced, upright, strict=True):
         assert one.stick == other.stick and one.energy_lost == other.energy_lost
