@@ -1,6 +1,4 @@
-"""The question and how it is solved: index and side conditions, nodes, sizes, conditioning,
-refusals.
-"""
+"""Cauchy equations: index, side conditions, sizes, conditioning."""
 
 import numpy as np
 import pytest
@@ -15,9 +13,6 @@ KINDS = [(SINGULAR, SINGULAR), (SINGULAR, BOUNDED), (BOUNDED, SINGULAR), (BOUNDE
 
 def index_of(pair):
     return 1 - pair.count(BOUNDED)
-
-
-# -- index and side conditions ---------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("a", [0.0, 0.4, -2.0, 0.3j, 0.2 - 0.5j])
@@ -78,9 +73,6 @@ def test_all_conditions_are_met(k):
     assert len(density.constants) == 1
 
 
-# -- nodes and weights -----------------------------------------------------------------------------
-
-
 @pytest.mark.parametrize(
     "ends",
     [
@@ -92,9 +84,6 @@ def test_all_conditions_are_met(k):
 def test_ends_may_be_words_pairs_or_arrays(ends):
     plain = sie.CauchyEquation([(-1, 1), (2, 3)], 1.0, ends="bounded", free=(1.0, lambda x: x))
     assert sie.CauchyEquation([(-1, 1), (2, 3)], 1.0, ends=ends, free=plain.free).ends == plain.ends
-
-
-# -- size, cost, conditioning ----------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("a", [0.0, 0.3, 0.2j])
@@ -170,9 +159,7 @@ def test_a_narrow_kernel_takes_as_many_nodes_as_its_width_asks_for(height):
 
 @pytest.mark.parametrize("a", [0.0, 0.2j])
 def test_a_kernel_that_is_rough_in_t_only_is_detected(a):
-    """The residual at the same nodes does not show it: k does not depend on x, so that any n solves
-    its own equation exactly.
-    """
+    """As k does not depend on x, any n solves its own equation exactly: no residual shows it."""
     equation = sie.CauchyEquation(
         (-1.0, 1.0), 1.0, a=a, k=lambda x, t: np.cos(30.0 * t + 1.0), total=1.0
     )

@@ -1,6 +1,4 @@
-"""What every solution of a Cauchy equation obeys, in the plane and under changes of its data.
-
-The reference (`oracles.manufactured`) is in 40 digits and uses no orthogonal polynomials."""
+"""What the solutions of Cauchy equations obey; references are in 40 digits."""
 
 import numpy as np
 import pytest
@@ -12,9 +10,6 @@ from strategies import between
 
 import sie
 from oracles.manufactured import Manufactured, exponents, mp
-
-# -- everywhere in the plane -----------------------------------------------------------------------
-
 
 PLACES = [complex(s, y) for s in (-1.0, -0.4, 0.9, 1.0) for y in (1e-12, -1e-6, 1e-2, 0.5)]
 
@@ -54,9 +49,7 @@ def test_the_potential_is_that_of_40_digits_near_and_far(a, ends):
     ],
 )
 def test_the_potential_next_to_gaps_of_every_kind_is_that_of_40_digits(ends, gap):
-    """Gaps between bounded ends, singular ones, one of each; the factor by which φ is multiplied
-    differs on both sides of an interval.
-    """
+    """Gaps between bounded ends, singular ones, one of each."""
     intervals = ((-1.0, 0.0), (gap, 1.5), (1.5 + 2 * gap, 2.5))
     manufactured = [
         Manufactured(*i, *exponents(0.0, 1.0, e), p)
@@ -91,9 +84,6 @@ def test_the_potential_jumps_by_the_density(problem, seed):
     assert (np.abs(density.hilbert(x) - principal) <= PROMISE * size).all()
     beside = np.array([x1 - 0.3, x2 + 0.1])
     assert (density.cauchy(beside, side=1) == density.cauchy(beside, side=-1)).all()
-
-
-# -- laws of the operator --------------------------------------------------------------------------
 
 
 def kernel(x, t):
@@ -149,9 +139,7 @@ def test_an_affine_map_of_the_lengths_changes_nothing_else(scale, intervals):
 
 @pytest.mark.parametrize("k", [None, kernel])
 def test_the_residual_is_small_at_points_that_were_not_used(k):
-    """The whole equation, from the density's own values and potential and a quadrature of the tests
-    for the kernel.
-    """
+    """By the density's own values and potential, and a quadrature of the tests for the kernel."""
     a, b = 0.4, -0.8
     density = sie.CauchyEquation(
         (-1.0, 2.0), np.cos, a=a, b=b, k=k, ends="bounded", free=(1.0,)
@@ -169,14 +157,9 @@ def test_the_residual_is_small_at_points_that_were_not_used(k):
     assert np.abs(left_over).max() <= PROMISE
 
 
-# -- contacts in closed form -----------------------------------------------------------------------
-
-
 @pytest.mark.parametrize(("incidence", "camber"), [(0.1, 0.0), (0.03, 0.2)])
 def test_the_thin_aerofoil_has_the_circulation_of_the_closed_form(incidence, camber):
-    """1/2π PV∫ γ/(x - t) dt = U (incidence + camber x), Kutta's condition at the trailing edge x =
-    1 (Glauert 1926); U = 1.
-    """
+    """1/2π PV∫ γ/(x - t) dt = incidence + camber x, γ(1) = 0 (Glauert 1926)."""
     sheet = sie.CauchyEquation(
         (-1.0, 1.0), lambda x: incidence + camber * x, b=-0.5, ends=("singular", "bounded")
     ).solve()

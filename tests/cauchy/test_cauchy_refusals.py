@@ -10,9 +10,6 @@ from cauchy_cases import smooth_kernel
 import sie
 from sie.cauchy import solver
 
-# -- refusals --------------------------------------------------------------------------------------
-
-
 ILL_POSED = [
     ({"interval": ((-1, 1), (0.5, 2))}, r"\(-1.0, 1.0\) and \(0.5, 2.0\) overlap.*give them apart"),
     ({"interval": ((-1, 1), (1, 2))}, r"touch: give them as one, \(-1, 2\)"),
@@ -110,14 +107,9 @@ def test_a_wrong_tolerance_or_size_is_refused(bad, said):
         sie.CauchyEquation((-1.0, 1.0), 1.0, total=0.0).solve(**bad)
 
 
-# -- questions without an answer -------------------------------------------------------------------
-
-
 @pytest.mark.parametrize("k", [None, lambda x, t: 0.0 * x * t])
 def test_an_inconsistent_right_hand_side_is_refused_and_measured(k):
-    """Both ends bounded: ∫ g / sqrt(1 - x²) dx must vanish; g = x + 1e-3 misses it by the constant
-    1e-3.
-    """
+    """∫ g/sqrt(1 - x²) dx must vanish; g = x + 1e-3 misses it by the constant 1e-3."""
     with pytest.raises(
         sie.ContactError, match=r"not consistent.*constant of 1\.0e-03 times g; free a constant"
     ) as caught:
@@ -198,9 +190,7 @@ def test_a_kink_of_g_is_named_before_many_sizes_are_tried(kernel, monkeypatch):
 
 
 def test_infinite_and_vanishing_ends_are_told_apart():
-    """φ = 1 / (π sqrt(1 - x²)) is infinite at its ends, 0 is 0, sqrt(1 - x²) is 0; and none of it
-    is nan.
-    """
+    """Of φ = 1/(π sqrt(1 - x²)), 0 and sqrt(1 - x²); none of it is nan."""
     x = np.array([-1.0, 1.0])
     punch = sie.CauchyEquation((-1.0, 1.0), 0.0, total=1.0).solve()
     assert (punch(x) == np.inf).all()

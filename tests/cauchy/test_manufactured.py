@@ -12,8 +12,6 @@ from manufactured_problems import KINDS, PROMISE, agrees, equation_of, inside, p
 import sie
 from oracles.manufactured import Manufactured, exact, exponents, mp, needed, right_hand_side
 
-# -- the references themselves ---------------------------------------------------------------------
-
 
 @pytest.mark.parametrize(("a", "ends"), [(0.3, KINDS[3]), (0.2 + 0.3j, KINDS[1]), (-0.4, KINDS[2])])
 def test_the_manufactured_integrals_agree_with_quadrature(a, ends):
@@ -34,9 +32,6 @@ def test_the_manufactured_integrals_agree_with_quadrature(a, ends):
         )
         # The error is that of tanh-sinh towards an end with an exponent of -0.6.
         assert abs(integral - closed) < mp.mpf(10) ** -14
-
-
-# -- manufactured solutions ------------------------------------------------------------------------
 
 
 @pytest.mark.slow

@@ -33,8 +33,6 @@ def bound(certificate, distance):
     return np.maximum(SHARE * (certificate.error + certificate.edges / np.sqrt(distance)), SLIGHT)
 
 
-# -- the promise ----------------------------------------------------------------------------------
-
 INF = mp.inf
 CASES = {
     "rounded flat": (
@@ -94,9 +92,7 @@ def test_the_error_by_the_edges_is_neither_zero_nor_far_too_large():
 
 
 def test_edges_far_from_x_0_are_known_better_than_to_an_ulp_of_x():
-    """In a contact a thousand half-widths from x = 0 doubles are 1e-13 r apart; what they miss is
-    kept.
-    """
+    """A thousand half-widths from x = 0 doubles are 1e-13 r apart; what they miss is kept."""
     profile = sie.Parabola(1.0).shifted(1000.3)
     found = solved(profile).check()
     assert found.edges < 0.1 * math.ulp(1000.3)
@@ -158,15 +154,11 @@ def test_a_contact_that_is_off_as_a_whole_shows_in_the_error_that_its_residual_i
 
 
 def test_a_rounded_edge_between_two_doubles_is_not_certified():
-    """The rounded edge of width 1e-50 lies between two doubles: rounding of x would explain any
-    defect.
-    """
+    """It is 1e-50 wide: rounding of x would explain any defect."""
     found = solved(sie.RoundedFlat(1.0, 1e-150), 1.0).check()
     assert not found.ok
     assert "NOT certified to 1e-13" in str(found)
 
-
-# -- functions ------------------------------------------------------------------------------------
 
 AT = 0.21337
 UNDECLARED = {
@@ -248,9 +240,7 @@ def test_a_slope_that_returns_a_list_of_the_right_shape_is_a_function_all_the_sa
 
 @pytest.mark.parametrize("corner", [0.0, -1e-30, -2.1426e-288, 5e-324])
 def test_equilibrium_at_a_corner_next_to_x_0_is_measured_to_rounding(corner):
-    """A node of the rule that rounding puts at x = 0 takes ln 1e-288 for the logarithm of its
-    distance from the corner: the error was 3e-13 of the load.
-    """
+    """A node that rounding puts at x = 0 takes ln 1e-288 for the logarithm of its distance."""
     profile = sie.Piecewise((-math.inf, corner, math.inf), ((-0.487, 0.2), (0.513, 0.2)))
     scene = sie.Scene(
         profile=profile, modulus=2.0, dundurs=-5e-6, friction=2.0, sliding=1, normal_load=1e-3
@@ -258,9 +248,6 @@ def test_equilibrium_at_a_corner_next_to_x_0_is_measured_to_rounding(corner):
     certificate = sie.solve(scene).check()
     assert certificate.force < 4e-15  # a few roundings of 1000 values; 4e-16 was measured
     assert certificate.moment < 4e-15
-
-
-# -- small strains --------------------------------------------------------------------------------
 
 
 def test_steep_slopes_carry_a_note_and_are_certified_all_the_same():
@@ -292,9 +279,6 @@ def test_next_to_a_sharp_edge_the_pressure_that_counts_is_a_thousandth_of_r_away
     assert bool(solution.notes) is noted
 
 
-# -- tolerances, and what is neglected -------------------------------------------------------------
-
-
 @pytest.mark.parametrize("exponent", [1.3, 2.5, 60.5])
 @pytest.mark.parametrize("size", [1e-6, 1e-9])
 def test_a_power_s_contact_that_is_too_wide_is_detected(exponent, size):
@@ -315,9 +299,7 @@ def test_a_power_s_contact_that_is_too_wide_is_detected(exponent, size):
 
 @pytest.mark.parametrize("tol", [1e-3, 1e-6, 1e-9])
 def test_a_function_resolved_to_a_coarse_tolerance_is_answered_to_it(tol):
-    """An error that a coarse resolution has everywhere is not taken for a feature that it
-    missed.
-    """
+    """The error of a coarse resolution is not taken for a feature that it missed."""
     wave = sie.FromFunction(
         lambda x: np.sin(2.0 * np.arctan(x)) / (1.0 + x * x), domain=(-2.0, 2.0), parity="even"
     )

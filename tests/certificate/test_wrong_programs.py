@@ -58,9 +58,6 @@ def right(scene):
     return sie.solve(scene).pressure
 
 
-# -- right programs -------------------------------------------------------------------------------
-
-
 @pytest.mark.parametrize("case", CASES, ids=str)
 def test_a_right_program_is_certified(case: Case):
     assert solved(case).check().ok
@@ -79,8 +76,6 @@ def test_another_right_program_is_certified():
     assert error < 1e-14
     assert found.ok
 
-
-# -- wrong formulas and errors of any shape --------------------------------------------------------
 
 # By a size e: of C/w the residual shows nothing, but equilibrium does; a wider contact carries the
 # load of the right one.
@@ -114,9 +109,6 @@ def test_a_panel_of_the_wrong_height_is_caught(size):
     assert_caught(SKEW, right(sie.Scene(profile=other, modulus=1.0, half_width=1.125)))
 
 
-# -- wrong Gauss-Chebyshev ------------------------------------------------------------------------
-
-
 ROUND = sie.Scene(profile=SINH, modulus=1.0, half_width=1.5)
 BUMPED = sie.Scene(profile=BUMP, modulus=1.0, half_width=0.75)
 
@@ -140,9 +132,6 @@ def test_too_few_nodes_are_caught():
 @pytest.mark.parametrize("size", SIZES)
 def test_nodes_off_by_a_share_of_their_spacing_are_caught(size):
     assert_caught(ROUND, gauss_chebyshev(ROUND, half=100 * size if size < 1e-3 else size))
-
-
-# -- lost digits ----------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("size", SIZES)
@@ -174,8 +163,6 @@ def test_the_closed_form_that_cancels_is_caught():
 
     assert_caught(scene, naive, share=0.1)
 
-
-# -- sharp edges ----------------------------------------------------------------------------------
 
 SHARP = {
     "both edges": sie.Scene(profile=sie.Flat(1.0), modulus=1.0, normal_load=1.0, moment=0.2),
@@ -211,9 +198,6 @@ def test_a_right_sharp_edge_is_certified_to_rounding(scene):
     assert found.abscissae < 1e-13
 
 
-# -- claims that lie ------------------------------------------------------------------------------
-
-
 @pytest.mark.parametrize("size", SIZES)
 def test_a_wrong_resultant_or_moment_is_caught(size):
     solution = sie.solve(SKEW)
@@ -237,8 +221,6 @@ def test_a_certificate_prints_its_verdict():
     assert "NOT" not in str(good)
     assert "NOT certified" in str(bad)
 
-
-# -- dissimilar bodies ----------------------------------------------------------------------------
 
 PAIR = {"modulus": 2.0, "dundurs": 0.3, "friction": 0.3, "normal_load": 1.0}
 DISSIMILAR = {

@@ -238,9 +238,6 @@ def test_a_height_beyond_doubles_is_refused_with_its_place(name, x):
         HEIGHTS[name](x)
 
 
-# -- what their docstrings say ---------------------------------------------------------------------
-
-
 def test_a_docstring_names_every_parameter_with_its_meaning():
     for name, function in PUBLIC.items():
         described = re.findall(r"^(\w+) : .+\n    [A-Z]", inspect.getdoc(function), re.MULTILINE)

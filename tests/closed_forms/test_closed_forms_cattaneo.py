@@ -1,6 +1,4 @@
-"""Partial slip of bodies alike: what sticks does not stretch, what slips slips forward, energy is
-that of the slip, digits are kept.
-"""
+"""Partial slip of similar bodies: strain in stick, slip, energy, digits."""
 
 import math
 
@@ -26,10 +24,6 @@ def exact_part(given: dict):
     return deep.mpf(given["tangential_load"]) / (
         deep.mpf(given["friction"]) * deep.mpf(given["normal_load"])
     )
-
-
-# --- the parabola
-# ------------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("part", PARTS)
@@ -82,10 +76,6 @@ def test_bulk_tension_stretches_the_stick_zone_by_a_quarter_of_it() -> None:
         strain, _ = principal_value(density, 0.1, (-1, *zone, 1))
         assert abs(strain - mp.mpf(sigma) / 4) < 1e-20
         assert abs(resultant(density, (-1, *zone, 1)) - mp.mpf(0.5 * 0.3 * 2.0)) < 1e-25
-
-
-# --- the rounded flat
-# ------------------------------------------------------------------------------------------
 
 
 def plain_load(a, s):
@@ -141,9 +131,7 @@ def test_shear_of_the_rounded_flat_is_the_difference_of_two_pressures_to_its_las
 
 @pytest.mark.parametrize("part", [0.4, 0.9])
 def test_slip_of_the_rounded_flat_follows_from_its_shear(part: float) -> None:
-    """s' = (2/E*) (potential of the shear) where they slip; the potentials are those of two normal
-    contacts.
-    """
+    """s' = (2/E*) (potential of the shear), of two normal contacts."""
     given = with_load(ROUNDED, part)
     shape = {"half_flat": 0.5, "radius": 2.0, "modulus": 3.0, "lib": short}
     rim = rounded_flat.rim(normal_load=0.3, **shape)
@@ -196,9 +184,6 @@ def test_energy_of_a_cycle_is_the_work_of_friction_on_the_slip(part: float) -> N
     assert cattaneo_rounded.dissipation(**given) == pytest.approx(work, rel=1e-9)
 
 
-# --- cycles
-# ------------------------------------------------------------------------------------------
-
 CYCLES = [(cattaneo, HERTZ, 0.6), (cattaneo_rounded, ROUNDED, 0.09)]
 
 
@@ -222,9 +207,6 @@ def test_cycles_close_and_reverse(module, given, friction: float) -> None:
             start, module.unloading_shear(x, **turned, tangential_load=least), **same
         )
 
-
-# --- what holds for all
-# ------------------------------------------------------------------------------------------
 
 SLID = {**HERTZ, "tangential_load": 0.35}
 PART = {**ROUNDED, "tangential_load": 0.05}

@@ -16,9 +16,7 @@ ROW = {"half_width": 0.6, "period": 2.0, "mean_pressure": 5.0}
 
 
 def test_two_flats_keep_their_difference_of_height() -> None:
-    """The integral of the potential between the flats, less that of the tilt, vanishes; the sign of
-    the tilt is that of -M.
-    """
+    """The integral between the flats of the potential less the tilt, whose sign is that of -M."""
     given = {**FLATS, "moment": -2.0}
     tilt = two_flats.tilt(**given, modulus=2, lib=mp)
     between = resultant(lambda t: two_flats.potential(t, **given, lib=mp).real - tilt, (-1, 1))
@@ -26,9 +24,7 @@ def test_two_flats_keep_their_difference_of_height() -> None:
 
 
 def test_the_opening_of_two_cracks_closes_at_both_tips() -> None:
-    """sigma (x² - C)/sqrt(...) is the opening's slope, C from ∫ over a crack = 0: its singular
-    parts are the factors.
-    """
+    """Its slope is sigma (x² - C)/sqrt(...), ∫ over a crack = 0; at the tips it is singular."""
     a, b = mp.mpf("0.7"), mp.mpf(2)
     weight = lambda t: 1 / mp.sqrt((t * t - a * a) * (b * b - t * t))  # noqa: E731
     safe = lambda t: weight(t) if a < t < b else mp.inf  # noqa: E731
@@ -64,10 +60,6 @@ def test_half_widths_of_wave_and_row_invert_the_mean_pressure(a: float) -> None:
     ) == pytest.approx(a, rel=1e-9)
     exact = wavy.mean_pressure(half_width=mp.mpf(a), **shape, lib=mp)
     assert abs(wavy.half_width(mean_pressure=exact, **shape, lib=mp) - a) < 1e-28
-
-
-# --- potentials
-# ------------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("z", [0.5, -2.2 - 0.4j, 1e6])
@@ -119,10 +111,6 @@ def test_far_from_the_surface_the_potential_of_a_row_is_its_mean_pressure(height
     )
 
 
-# --- limits
-# ------------------------------------------------------------------------------------------
-
-
 def test_partial_and_complete_contact_of_the_wave_meet() -> None:
     x, shape = np.linspace(-3, 3, 31), {"wavelength": 2.0, "amplitude": 0.3, "modulus": 5.0}
     whole = wavy.complete_pressure(x, mean_pressure=wavy.closing_pressure(**shape), **shape)
@@ -141,9 +129,6 @@ def test_cracks_far_from_others_and_with_thin_bridges() -> None:
         3 * math.sqrt(math.pi * 1e-9), rel=8 * EPS
     )
 
-
-# --- what holds for all
-# ------------------------------------------------------------------------------------------
 
 SHAPE = {"wavelength": 2.0, "amplitude": 0.3, "modulus": 5.0}
 

@@ -1,6 +1,4 @@
-"""Closed forms of one contact, of two patches and of rows are true to their integral equations and
-carry their loads, by quadrature in many digits.
-"""
+"""Closed forms fulfil their integral equations and carry their loads, in many digits."""
 
 from collections.abc import Callable
 from typing import Any, NamedTuple

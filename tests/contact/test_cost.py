@@ -1,6 +1,4 @@
-"""What an answer costs, in counts that no machine changes: searches for edges, resolutions of a
-function, transforms, factorisations.
-"""
+"""What an answer costs, in counts that no machine changes."""
 
 from contextlib import contextmanager
 from unittest.mock import patch
@@ -114,9 +112,6 @@ def test_pytest_finds_the_benchmarks_only_by_their_path(pytestconfig):
     for path in found:
         assert any(path.match(pattern) for pattern in patterns)
     assert "benchmarks" not in pytestconfig.getini("testpaths")
-
-
-# -- what grows in proportion, and no faster ---------------------------------------------------
 
 
 def places_for_a_certificate(turns):

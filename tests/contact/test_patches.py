@@ -1,6 +1,4 @@
-"""Contact in several patches: edges, loads and pressures against values of thirty digits, and
-closed forms.
-"""
+"""Contact in several patches, against values of thirty digits and laws."""
 
 import numpy as np
 import pytest
@@ -78,9 +76,6 @@ def test_the_edges_of_all_patches_are_the_references_and_certified(name):
         assert solution.tilt == pytest.approx(-0.07597308212919692, rel=1e-13)
 
 
-# -- the solution of a scene -----------------------------------------------------------------------
-
-
 def solved(**asked):
     return sie.solve(sie.Scene(modulus=1.0, poisson=0.3, **asked))
 
@@ -114,8 +109,6 @@ def test_a_row_of_one_convex_profile_is_that_profile():
     assert row.pressure.cauchy(z) == pytest.approx(one.pressure.cauchy(z), rel=1e-13)
     assert row.stress(x, 0.3).mises == pytest.approx(one.stress(x, 0.3).mises, rel=1e-11)
 
-
-# -- laws ------------------------------------------------------------------------------------------
 
 SCENES = {
     "row": {"profile": TWO, "normal_load": 0.4},
@@ -252,9 +245,6 @@ def test_a_shift_by_a_period_changes_nothing():
     assert solution.gap(there) == pytest.approx(solution.gap(x), rel=1e-9, abs=1e-12)
 
 
-# -- derivatives and full contact ------------------------------------------------------------------
-
-
 @pytest.mark.parametrize("name", ["row", "wave", "trace"])
 def test_the_derivative_of_the_potential_on_the_surface_is_that_of_slope_and_pressure(name):
     solution = solved(**SCENES[name])
@@ -279,9 +269,6 @@ def test_the_wave_in_full_contact():
     assert not solution.gap(x).any()
 
 
-# -- friction --------------------------------------------------------------------------------------
-
-
 def test_the_shear_of_a_row_of_one_is_that_of_its_profile():
     loads = {"normal_load": 0.4, "friction": 0.5, "tangential_load": 0.1, "bulk_stress": 0.05}
     one = solved(profile=sie.Parabola(1.0), **loads)
@@ -292,9 +279,6 @@ def test_the_shear_of_a_row_of_one_is_that_of_its_profile():
     assert row.slip(x) == pytest.approx(one.slip(x), abs=1e-12)
     assert row.energy_lost == pytest.approx(one.energy_lost, rel=1e-9)
     assert row.shift == pytest.approx(one.shift, rel=1e-8)
-
-
-# -- what has no answer ----------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(

@@ -109,9 +109,6 @@ def test_potential_and_derivative_of_a_wave(part):
     assert pressure.cauchy_derivative(z) == pytest.approx(exact, rel=1e-10)
 
 
-# -- waves that close without a corner -------------------------------------------------------------
-
-
 def two_harmonics(gap, second):
     """A wave A1 sin(2πx) + A2 sin(4πx) of the slope, and the load per E*/2 that leaves a gap.
 

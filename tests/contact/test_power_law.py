@@ -130,9 +130,7 @@ CUSPS = (1.002, 1.03, 1.1, 1.3, 1.5, 1.9)
 
 
 def potentials_of_unit_width(m, y):
-    """(F, F') at y from the axis, of flats F = dP/(π sqrt(y² - s²)) and dP = m P s^(m-1) ds; b = 1,
-    over P.
-    """
+    """(F, F')/P at y from the axis, of flats F = dP/(π sqrt(y² - s²)), dP = m P s^(m-1) ds."""
     m, y = DIGITS.mpf(m), DIGITS.mpmathify(y)
     F = DIGITS.hyp2f1(0.5, m / 2, m / 2 + 1, 1 / y**2) / (DIGITS.pi * y)
     flat = 1 / (DIGITS.pi * DIGITS.sqrt(y - 1) * DIGITS.sqrt(y + 1))

@@ -1,6 +1,4 @@
-"""Every remedy that a refusal offers is followed: the question that it makes of the one refused is
-answered, and rightly.
-"""
+"""Every remedy that a refusal offers makes a question that is answered."""
 
 import math
 import re

@@ -1,6 +1,4 @@
-"""A bad question is refused when it is built, with the value; a good one without an answer when it
-is asked, with what was reached.
-"""
+"""Bad questions are refused when they are built, good ones without an answer when asked."""
 
 import math
 import pickle
@@ -25,8 +23,6 @@ def asked(scene):
     """The edges, and with them whatever the scene is refused for."""
     return sie.solve(scene).edges
 
-
-# -- numbers that mean nothing --------------------------------------------------------------------
 
 POSITIVE = {
     "Parabola.radius": sie.Parabola,
@@ -128,9 +124,6 @@ def test_every_poisson_ratio_of_a_stable_solid_is_accepted(nu):
     assert sie.Elastic(1.0, nu).poisson == nu
 
 
-# -- too much or too little -----------------------------------------------------------------------
-
-
 @pytest.mark.parametrize(
     ("changes", "words"),
     [
@@ -227,9 +220,6 @@ def test_solve_and_with_refuse_unknown_names():
         sie.solve(scene(), economy=("magic",))
     with pytest.raises(ValueError, match="magic"):
         sie.plan(scene(), want="magic")
-
-
-# -- good questions without an answer -------------------------------------------------------------
 
 
 def wave(height, number, shift=0.0):

@@ -27,8 +27,6 @@ def test_a_valley_higher_than_a_light_load_presses_stays_open():
     assert len(contact.patches) == 1
 
 
-# -- loads that touch lightly ----------------------------------------------------------------------
-
 EQUAL = {
     "a formula": (PROFILES["waves without ends"], 2),
     "a function": (sie.FromFunction(lambda x: x**3 - x, domain=(-2.0, 2.0)), 2),

@@ -27,9 +27,7 @@ def test_a_moderate_bulk_stress_shifts_the_stick_zone_of_hertz():
 
 
 def test_with_bulk_stress_the_stick_zone_can_end_inside_the_flat():
-    """a/b = 0.7, Q/(f P) = 0.8, σ/(2 f E*) = 0.03 (b = R = 1); to all digits: both edges'
-    conditions, ∫H/w = 0 and the load.
-    """
+    """Both edges' conditions, ∫H/w = 0 and the load, to all digits (b = R = 1)."""
     load = float(rounded_load(mp.mpf("0.7"), mp.mpf(1)))
     solution = sheared(sie.RoundedFlat(0.7, 1.0), 0.8, load, bulk_stress=0.06 * F * E)
     scene, (lo, hi) = solution.scene, solution.stick[0]
@@ -49,9 +47,7 @@ def test_with_bulk_stress_the_stick_zone_can_end_inside_the_flat():
 
 
 def test_a_stick_zone_at_a_sharp_edge_may_slip_against_the_load():
-    """The strain pulls the far side back, and all of Q is held at the edge: q = -f (p - p̂), p̂
-    under P + |Q|/f.
-    """
+    """All of Q is held at the edge: q = -f (p - p̂), p̂ under P + |Q|/f."""
     scene = sie.Scene(
         profile=sie.Flat(1.0), modulus=2.0, normal_load=0.2, friction=0.6, tilt=0.125,
         tangential_load=0.02, bulk_stress=0.1,
@@ -121,9 +117,7 @@ def test_the_stress_under_two_signed_slip_is_continuous_to_the_surface():
 
 @pytest.mark.parametrize("strain", [2.0, 5.0, 9.0, 12.9])
 def test_a_large_bulk_stress_leaves_a_narrow_stick_zone_of_hertz(strain):
-    """∫_ρ^b p/sqrt(t² - ρ²) dt = π τ/(2 f) is f p0 [K(k) - E(k)] = π τ/2, k² = 1 - ρ²/b²: both
-    halves alike; ρ falls below 1e-8 b, and is known to the rounding of its ends.
-    """
+    """f p0 [K(k) - E(k)] = π τ/2, k² = 1 - ρ²/b²; ρ falls below 1e-8 b."""
     b = math.sqrt(4.0 * P / (math.pi * E))
     p0 = 2.0 * P / (math.pi * b)
     solution = sheared(sie.Parabola(1.0), 0.0, bulk_stress=4.0 * strain * F * p0)

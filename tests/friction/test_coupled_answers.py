@@ -120,9 +120,6 @@ def test_beta_below_rounding_is_that_of_similar_bodies():
     assert solution.shear is sie.ZERO and solution.check().shear is None
 
 
-# -- values and refusals ---------------------------------------------------------------------------
-
-
 def test_solution_of_two_bodies_answers_as_one_of_their_constants():
     given = {"profile": sie.RoundedFlat(1.0, 50.0), "friction": 0.3, "normal_load": 500.0}
     pair = sie.Scene(**given, body=TITANIUM, indenter=STEEL)

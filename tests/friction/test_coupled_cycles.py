@@ -26,9 +26,6 @@ def followed(*parts, beta=0.3, friction=0.3, strain=0.0):
     return sie.follow(pressed, sie.Path([(P, 0.0, 0.0), *points]))
 
 
-# -- zones, by other programs ----------------------------------------------------------------------
-
-
 @pytest.mark.parametrize("case", oblique_edges.EDGES)
 def test_edges_of_contact_and_stick_agree_with_another_program(case):
     found = zones(solved(None, *case, load=P))
@@ -72,9 +69,6 @@ def test_zones_after_a_reversal_agree_with_another_program(part):
     history = followed(0.5, part)
     assert zones(history[2]) == pytest.approx(np.array(REVERSED[part]), abs=1e-9)
     assert history[2].check().ok
-
-
-# -- every answer is certified ---------------------------------------------------------------------
 
 
 @pytest.mark.slow(but=2)
@@ -121,9 +115,6 @@ def test_a_cycle_of_steel_on_titanium_is_certified_at_every_point(friction, part
     assert all(point.energy_lost >= 0.0 and point.check().ok for point in history)
 
 
-# -- mirror images, scale and limits ---------------------------------------------------------------
-
-
 @pytest.mark.parametrize(("beta", "part"), [(0.3, -0.5), (-0.3, 0.5), (-0.3, -0.5)])
 def test_signs_of_the_load_and_of_the_mismatch_give_mirror_images(beta, part):
     one, other = solved(), solved(None, beta, 0.3, part)
@@ -161,9 +152,6 @@ def test_a_tilted_parabola_is_a_parabola_about_another_axis():
     assert zones(tilted) == pytest.approx(zones(upright) - 0.1, abs=1e-11)
     assert tilted.tilt == 0.1 and tilted.check().ok
     assert tilted.gap(2.0) == pytest.approx(float(upright.gap(2.1)), rel=1e-9)
-
-
-# -- tractions, slip, energy -----------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("name", ["parabola", "rounded flat"])
@@ -251,9 +239,6 @@ def test_the_steady_cycle_is_that_of_many_cycles():
     lo, hi = max(first[0], last[0]), min(first[1], last[1])
     assert steady.stick[0] == pytest.approx((lo, hi), abs=1e-8)
     assert steady.slip_range([0.5 * (lo + hi)]) == pytest.approx([0.0], abs=1e-10)
-
-
-# -- with other loads, and refusals ----------------------------------------------------------------
 
 
 def test_plan_names_the_stages_that_are_filled():

@@ -132,9 +132,6 @@ def test_a_grid_with_the_same_edges_finds_the_load_and_no_shear_load():
     assert errors[1] < 0.6 * errors[0] < 0.03
 
 
-# -- refusals --------------------------------------------------------------------------------------
-
-
 @pytest.mark.slow(but=7)
 @pytest.mark.parametrize(
     ("profile", "changes", "words"),

@@ -124,9 +124,6 @@ def test_the_shear_that_comes_and_goes_without_slip_is_that_of_flats_superposed(
     assert cycle.energy == 0.0
 
 
-# -- what is refused -------------------------------------------------------------------------------
-
-
 @pytest.mark.parametrize(
     ("ask", "words"),
     [

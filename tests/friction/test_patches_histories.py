@@ -182,9 +182,6 @@ def test_slip_at_incipient_sliding_is_the_limit_of_slip(scene):
     assert sliding.energy_lost == pytest.approx(nearly.energy_lost, rel=1e-4, abs=1e-12)
 
 
-# -- what is written of it -------------------------------------------------------------------------
-
-
 def test_the_table_of_a_path_lists_the_stick_zones_of_every_patch():
     scene = SCENES["row"]
     path = sie.Path(((0.4, 0.0, 0.0), (0.4, 0.12, 0.0)))

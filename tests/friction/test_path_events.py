@@ -12,9 +12,6 @@ from history_cases import HERTZ, P0, F, S, f, followed, inside
 
 import sie
 
-# -- into contact while they are sheared -----------------------------------------------------------
-
-
 P1 = 0.8
 ON_NOTHING = {
     "parabola": sie.Parabola(1.0),
@@ -70,9 +67,6 @@ def test_nothing_is_lost_and_nothing_shifts_while_a_growing_contact_sticks():
     assert last.energy_lost == 0.0
     assert last.shift == pytest.approx(0.0, abs=1e-12)
     assert not last.slip(np.linspace(*last.edges, 9)).any()
-
-
-# -- steps that are small beside the loads, as noise is --------------------------------------------
 
 
 UNIT = sie.Scene(profile=sie.Parabola(1.0), modulus=1.0, friction=0.3, normal_load=1.0)
@@ -135,9 +129,6 @@ def test_a_step_near_the_rounding_of_its_loads_is_answered_or_refused_without_wa
             _ = after([*BEFORE, step]).stick
 
 
-# -- several stick zones ---------------------------------------------------------------------------
-
-
 # Points are (Q/F, σ/S). The gap goes on slipping at the end of an earlier stick zone; it is in an
 # earlier zone of slip.
 TWO_STICKS = {
@@ -198,9 +189,6 @@ def test_energy_is_refused_where_slip_turned_beside_several_stick_zones_and_the_
         _ = turned.energy_lost
 
 
-# -- returns ---------------------------------------------------------------------------------------
-
-
 BACK_IN_PHASE = [(1, 0, 0), (0.73, 0.28, -0.112), (1, 0, 0), (0.73, 0.28, -0.112)]
 
 
@@ -243,8 +231,6 @@ def test_certificate_and_plan_say_which_steps_are_followed_part_by_part():
         history[1].check()
     )
 
-
-# -- slip that stops, begins and comes to an edge while P changes ----------------------------------
 
 EVENTFUL = {
     "an edge leaves slip behind": (

@@ -86,9 +86,7 @@ OVER_THE_JUMP = [(0.17463394504062985, -0.18860466064388023), (0.3, 0.3028715783
 
 @pytest.mark.slow
 def test_energy_while_an_edge_passes_a_jump_is_that_of_the_mirrored_path():
-    """Beside the jump the half-width hardly grows: a step of Newton's method that did not settle
-    there is no contact.
-    """
+    """Beside the jump the half-width hardly grows: Newton's method has to settle there."""
     here, there = (
         sie.follow(
             sie.Scene(profile=profile, modulus=1.0, normal_load=0.3, friction=1.2),
@@ -116,9 +114,7 @@ def test_energy_of_loading_hertz_with_a_growing_normal_load():
 
 
 def test_normal_load_alone_comes_before_anything():
-    """From (0, 0, 0), up, down: what is applied later, bulk stress included, finds a contact that
-    was never sheared.
-    """
+    """What is applied after P alone went up and down finds a contact that was never sheared."""
     Q, sigma = 0.4 * FP, 0.1
     loads = [(P, Q, sigma), (P, -0.2 * Q, -0.2 * sigma)]
     later = sie.follow(HERTZ, sie.Path([(0.0, 0.0), (0.0, 0.0), (2.0 * P, 0.0), (P, 0.0), *loads]))

@@ -1,6 +1,4 @@
-"""Dissimilar bodies: full sliding (q = ±f p acts back on the pressure) and full stick (a bonded
-flat punch).
-"""
+"""Dissimilar bodies in full sliding, and in full stick under a flat punch."""
 
 import math
 
@@ -23,9 +21,6 @@ PROFILES = {
     "thin rim": sie.RoundedFlat(half_flat=1.0, radius=1e4),
 }
 COUPLINGS = (0.3, -0.3, 0.49, 1e-3)
-
-
-# -- closed forms ----------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("coupling", COUPLINGS)
@@ -98,9 +93,7 @@ def test_the_bonded_flat_of_both_packages(beta):
 def test_at_a_sharp_edge_of_dissimilar_bodies_stresses_are_infinite_and_the_load_to_yield_vanishes(
     beta, given
 ):
-    """Pressure and the shear's Hilbert transform are both infinite there: their difference is no
-    nan.
-    """
+    """Pressure and the shear's Hilbert transform are both infinite: their difference is no nan."""
     solution = sie.solve(
         sie.Scene(
             profile=sie.Flat(2.0), modulus=3.0, dundurs=beta, poisson=0.3, normal_load=0.2, **given
@@ -111,9 +104,6 @@ def test_at_a_sharp_edge_of_dissimilar_bodies_stresses_are_infinite_and_the_load
         np.abs([stress.xx, stress.yy, stress.xy, stress.mises, stress.in_plane_sum]) == np.inf
     ).all()
     assert solution.elastic_limit().load == 0.0
-
-
-# -- laws ------------------------------------------------------------------------------------------
 
 
 GIVEN = (

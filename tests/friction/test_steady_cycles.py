@@ -21,8 +21,6 @@ from history_cases import (
 
 import sie
 
-# -- the ladder of tilted contacts -----------------------------------------------------------------
-
 
 def test_out_of_phase_loads_run_through_a_diamond():
     history = followed(HERTZ, OUT_OF_PHASE)
@@ -94,9 +92,6 @@ def test_a_moment_along_the_path_is_the_tilt_that_carries_it():
         assert one.moment == pytest.approx(moment, abs=1e-15)
         x = inside(other, 21)
         assert one.shear(x) == pytest.approx(other.shear(x), abs=1e-12)
-
-
-# -- steady cycles ---------------------------------------------------------------------------------
 
 
 STEADY = {

@@ -62,9 +62,6 @@ def agrees(table, name, exact, edges):
         assert mp.sqrt(distance) * abs(value - exact(x)) < EPS * peak
 
 
-# -- what the files hold --------------------------------------------------------------------------
-
-
 def test_the_set_has_twelve_cases():
     assert len(CASES) == 12
     assert {"hertz", "westergaard", "spence", "sliding-dissimilar", "tilted-rounded-flat"} < {
@@ -123,9 +120,6 @@ def test_calculix_runs_the_deck_as_it_is_and_comes_near(case, tmp_path):
     assert re.search(r"this mesh: p to \d\.\d%.*, peak stress to \d\.\d%", str(found))
 
 
-# -- against closed forms in 30 digits ------------------------------------------------------------
-
-
 B = hertz.half_width(normal_load=P, **CYLINDER, lib=mp)
 STICK = cattaneo.stick_half_width(half_width=B, **SHEARED, lib=mp)
 RIM = 1 - PUNCH["half_flat"]
@@ -168,9 +162,6 @@ def test_the_stick_zone_and_the_load_are_those_of_spence(texts):
     given = {"half_width": b, "friction": 0.3, "dundurs": 2.0 / 7.0}
     load = spence.load(**given, coefficient=0.01, exponent=2.0, modulus=float(ONE_BODY))
     assert load == pytest.approx(500.0, rel=1e-11)
-
-
-# -- where the files go ---------------------------------------------------------------------------
 
 
 @pytest.fixture

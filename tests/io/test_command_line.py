@@ -29,9 +29,6 @@ def solved(monkeypatch):
     return asked
 
 
-# -- solve -----------------------------------------------------------------------------------------
-
-
 def test_the_summary_says_edges_load_peak_and_certificate(scene, capsys):
     main(["solve", scene])
     out = capsys.readouterr().out
@@ -138,9 +135,6 @@ def test_a_file_s_want_holds_unless_the_command_line_gives_another(scene, tmp_pa
     assert "peak pressure" in capsys.readouterr().out
 
 
-# -- plan and example ------------------------------------------------------------------------------
-
-
 def test_a_plan_says_what_runs_what_is_skipped_and_why(scene, solved, capsys):
     assert main(["plan", scene, "--want", "edges"]) == 0
     out = capsys.readouterr().out
@@ -156,9 +150,6 @@ def test_an_example_is_listed_with_a_line_and_printed_as_it_is(kind, capsys):
     assert any(len(line.split()) > 2 and line.split()[0] == kind for line in listed)
     assert main(["example", kind]) == 0
     assert capsys.readouterr().out == scene_file.example(kind)
-
-
-# -- as a program ----------------------------------------------------------------------------------
 
 
 def test_a_scene_may_come_from_standard_input(monkeypatch, capsys):

@@ -24,9 +24,6 @@ def rows_of(name):
     return list(csv.DictReader(line for line in lines if not line.startswith("#")))
 
 
-# -- JSON and CSV ----------------------------------------------------------------------------------
-
-
 @pytest.mark.parametrize("kind", KINDS)
 def test_what_is_printed_and_written_of_an_example_is_what_the_library_computes(
     kind, tmp_path, capsys
@@ -67,9 +64,7 @@ def test_what_is_printed_and_written_of_an_example_is_what_the_library_computes(
 
 
 def test_the_shear_in_sliding_is_in_the_report_the_json_and_the_csv(tmp_path, monkeypatch, capsys):
-    """Dissimilar bodies: q = f p with their pressure, though how far they slipped before is not
-    known.
-    """
+    """Of dissimilar bodies: how far they slipped before they slid is not known."""
     monkeypatch.chdir(tmp_path)
     path = example("sliding", tmp_path)
     solution = sie.solve(scene_file.read(path).scene)
@@ -127,9 +122,6 @@ def test_csv_points_resolve_a_rounded_edge_of_a_thousandth_of_the_contact():
     x = sample_points.inside(solution, 100)
     assert ((x >= 0.999) & (x <= 1.0)).sum() >= 10
     assert len(x) == pytest.approx(100, abs=10)
-
-
-# -- shear and load paths --------------------------------------------------------------------------
 
 
 def test_shear_is_printed_and_written_with_its_zones(tmp_path, monkeypatch, capsys):
@@ -218,9 +210,6 @@ def test_a_path_that_is_not_covered_is_refused_by_plan_and_solve(tmp_path, monke
     for word in ("solve", "plan"):
         assert main([word, "bad.toml"]) == 2
         assert "step 3 of the path" in sentence(capsys)
-
-
-# -- several patches, and contacts that repeat -----------------------------------------------------
 
 
 WAVE = """

@@ -1,6 +1,4 @@
-"""Files and pictures of the stress hold what the solution says, and what cannot be written is
-refused before work.
-"""
+"""Files and pictures of the stress hold what the solution says."""
 
 import csv
 import io

@@ -1,6 +1,4 @@
-"""Files are read if they are ordinary, written whole or not at all, and nothing that is read is
-overwritten.
-"""
+"""Files are read if they are ordinary, and written whole or not at all."""
 
 import os
 import signal
@@ -56,8 +54,6 @@ def refused(argv, capsys):
     return err
 
 
-# -- what is read is not overwritten --------------------------------------------------------------
-
 TARGETS = {"scene.toml": "the scene file", "trace.csv": "a trace", "mesh.csv": "the mesh result"}
 LINKS = {
     "itself": lambda target: target,
@@ -93,9 +89,6 @@ def test_a_scene_on_standard_input_is_not_overwritten(folder):
         found = run("solve", "-", "--csv", "scene.toml", stdin=scene)
     assert found.returncode == 2 and "would overwrite the scene file" in found.stderr
     assert listing(folder) == before
-
-
-# -- only regular files of reasonable length are read ---------------------------------------------
 
 
 def odd_file(kind):
@@ -138,8 +131,6 @@ def test_a_trace_of_too_many_points_is_refused_before_it_is_taken_apart(folder, 
     Path("trace.csv").write_text("0 0\n" * 200_000)
     assert "thin the points out" in refused(["solve", "scene.toml"], capsys)
 
-
-# -- whole or not at all --------------------------------------------------------------------------
 
 KILLED = """
 import os, signal, sys

@@ -1,6 +1,4 @@
-"""Results as finite-element codes write them are read, and agree with the exact answer that they
-were made of. The layouts are those of the codes' own manuals and exports.
-"""
+"""Results in the layouts of finite-element codes agree with what they were made of."""
 
 import re
 

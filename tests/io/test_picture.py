@@ -1,6 +1,4 @@
-"""The picture shows the numbers of the solution, says what its axes are, and leaves Matplotlib as
-it was.
-"""
+"""The picture shows the numbers of the solution, and leaves Matplotlib as it was."""
 
 import functools
 import itertools
@@ -128,8 +126,6 @@ def test_units_that_are_not_mm_keep_their_name_behind_a_power_of_ten():
     assert lower.get_xlabel() == "$x$ ($10^{-6}$ m)"
 
 
-# -- shear ----------------------------------------------------------------------------------------
-
 FRETTING = parse(example("fretting-cycle"))
 SHEARED = {
     "partial slip": sie.solve(parse(example("partial-slip")).scene),
@@ -221,8 +217,6 @@ def test_a_place_without_an_indenter_is_left_out_of_the_picture(profile):
     low, high = lower.get_ylim()
     assert -np.inf < low < 0.0 < high < np.inf
 
-
-# -- stress ---------------------------------------------------------------------------------------
 
 stress = pytest.importorskip("sie.plots.stress_plot")
 NARROW_PEAK = solved("thin rim")

@@ -56,9 +56,6 @@ def bars(monkeypatch, clock):
     return drawn
 
 
-# -- what is drawn, and when ----------------------------------------------------------------------
-
-
 def test_nothing_is_drawn_in_the_first_second(clock, bars):
     with Progress("search", 3) as work:
         clock.now = 0.99
@@ -88,9 +85,6 @@ def test_the_line_is_wiped_whatever_ends_the_work(error, clock, bars):
         clock.now = 2.5
         work.update()
     assert [bar.name for bar in bars] == ["search", "next"]
-
-
-# -- what tells its steps --------------------------------------------------------------------------
 
 
 @pytest.fixture
@@ -155,8 +149,6 @@ def test_long_work_tells_its_steps(work, name, least, told):
     work()
     assert told[name] >= least, told
 
-
-# -- on a terminal --------------------------------------------------------------------------------
 
 SEVERAL_TOML = """
 [profile]

@@ -1,6 +1,4 @@
-"""Scene files: what they say is what is solved, and what they cannot say is refused in one sentence
-with a remedy.
-"""
+"""What scene files say is what is solved."""
 
 import dataclasses
 
@@ -15,9 +13,6 @@ from sie.profiles import kinds
 
 def profile_of(text):
     return parse(PAIR + LOAD + text).scene.profile
-
-
-# -- examples --------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("kind", KINDS)
@@ -85,9 +80,6 @@ def test_the_showcase_still_works_with_its_commented_lines_switched_on():
     assert parse("\n".join(lines)).scene.profile == profile
 
 
-# -- what a file says ------------------------------------------------------------------------------
-
-
 def test_modifiers_are_applied_mirrored_then_tilted_then_shifted():
     text = (
         "[profile]\nshifted = 0.5\ntilted = 1e-3\nmirrored = true\n"
@@ -145,9 +137,6 @@ def test_files_of_common_editors_and_shells_are_read(encoding, tmp_path):
     path = tmp_path / "scene.toml"
     path.write_text('title = "Grüße"\n' + BODY + PARABOLA + LOAD, encoding=encoding)
     assert read(path).title == "Grüße"
-
-
-# -- traces ----------------------------------------------------------------------------------------
 
 
 TRACE = """

@@ -1,6 +1,4 @@
-"""A sweep answers what single solutions answer, keeps failures and reasons, runs anywhere, and
-loses nothing.
-"""
+"""A sweep answers what single solutions answer, and keeps failures with their reasons."""
 
 from dataclasses import replace
 

@@ -63,9 +63,7 @@ def test_a_half_width_given_is_in_equilibrium_too(scene, factor):
 
 @given(strategies.scenes(), strategies.between(-0.2, 0.2))
 def test_a_moment_given_is_the_moment_of_the_pressure(scene, lever):
-    """Where the profile can carry it: a lever of 0.2 r may tilt a wedge or a sharp punch beyond its
-    slopes.
-    """
+    """Unless a lever of 0.2 r tilts a wedge or a sharp punch beyond its slopes."""
     upright = sie.solve(scene)
     wanted = upright.moment + lever * scene.normal_load * upright.half_width
     solution = upright.with_(moment=wanted)

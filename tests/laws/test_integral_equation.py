@@ -1,6 +1,4 @@
-"""E*/2 h' = 1/π PV∫ p(ξ)/(x - ξ) dξ in contact, and the potential F(z) = 1/π ∫ p(t)/(z - t) dt of
-which it is the limit.
-"""
+"""E*/2 h' = 1/π PV∫ p(ξ)/(x - ξ) dξ in contact, the limit of F(z) = 1/π ∫ p(t)/(z - t) dt."""
 
 from itertools import product
 
@@ -27,9 +25,6 @@ def interior(solution, seed, n=6, margin=0.02):
     return x[np.abs(x[:, None] - marks).min(axis=1) > margin * r][:n]
 
 
-# -- the equation ---------------------------------------------------------------------------------
-
-
 @given(strategies.scenes(), st.integers(0, 2**32 - 1))
 def test_the_pressure_solves_the_integral_equation(scene, seed):
     solution = sie.solve(scene)
@@ -51,9 +46,6 @@ def test_the_pressure_agrees_with_the_40_digit_reference(case: Case):
     peak = max(expected)
     for value, e in zip(solution.pressure(x), expected, strict=True):
         assert abs(mp.mpf(float(value)) - e) <= PROMISE * peak
-
-
-# -- the potential --------------------------------------------------------------------------------
 
 
 def places(case: Case) -> list[complex]:
@@ -122,9 +114,7 @@ def test_the_potential_jumps_by_the_pressure_across_the_contact(scene, seed):
 
 @given(strategies.scenes(), st.integers(0, 2**32 - 1))
 def test_the_potential_reaches_its_limit_at_the_surface_continuously(scene, seed):
-    """Down to a depth of 1e-12 r the difference from the surface is the depth times the derivative,
-    and rounding.
-    """
+    """The difference is the depth times the derivative, and rounding."""
     solution = sie.solve(scene)
     r = solution.half_width
     beside = (
@@ -180,8 +170,6 @@ def test_infinities_are_infinite_and_nothing_is_nan():
     assert (flat.pressure(np.array([-np.nextafter(1.0, 2), np.nextafter(1.0, 2)])) == 0).all()
 
 
-# -- the gap --------------------------------------------------------------------------------------
-
 SAMPLED = (
     "rounded-P=0.2",
     "rounded-P=0.2-tilt=0.05",
@@ -236,13 +224,8 @@ def test_the_slope_of_the_gap_is_that_of_the_profile_less_that_of_the_surface(sc
     assert difference == pytest.approx(slope, rel=1e-5, abs=1e-6)
 
 
-# -- the reference itself -------------------------------------------------------------------------
-
-
 def test_the_reference_reproduces_the_closed_form_of_the_rounded_punch():
-    """p(0) = E*/(πR) [bθ - a arccosh(b/a)], P = E*b²/(2R) (θ - sin θ cos θ), and F at one point: to
-    30 digits.
-    """
+    """p(0) = E*/(πR) [bθ - a arccosh(b/a)], P = E*b²/(2R) (θ - sin θ cos θ), and one F."""
     a, b = mp.mpf(1) / 2, mp.mpf(1)
     pieces = normal_contact.Pieces(
         (-mp.inf, -a, a, mp.inf), (lambda t: t + a, lambda t: 0 * t, lambda t: t - a)

@@ -1,6 +1,4 @@
-"""What a scene does not need is skipped: the footprint is the plan's, and every economy leaves the
-answer as it is.
-"""
+"""The footprint of an answer is the plan's, and every economy leaves the answer as it is."""
 
 from contextlib import suppress
 
@@ -160,9 +158,6 @@ def test_every_economy_leaves_the_answer_as_it_is(scene):
         assert wasteful.edges == pytest.approx((x1, x2), abs=1e-14 * r * far)
         assert wasteful.moment == pytest.approx(thrifty.moment, abs=1e-14 * P * r * far)
         assert wasteful.pressure(x) == pytest.approx(thrifty.pressure(x), abs=3e-14 * peak * far)
-
-
-# -- with_ ----------------------------------------------------------------------------------------
 
 
 def test_with_keeps_the_stages_that_cannot_have_changed():

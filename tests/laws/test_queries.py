@@ -1,6 +1,4 @@
-"""Every query at every x: nan gives nan, far away is far away, and no other entry of an array is
-touched by either.
-"""
+"""Every query has a value at every x, and no x changes the value at another."""
 
 import warnings
 

@@ -1,6 +1,4 @@
-"""Units, mirror, shift, tilt, load: what changes in the question changes in the answer as it
-must.
-"""
+"""What changes in the question changes in the answer as it must."""
 
 import laws
 import numpy as np
@@ -24,8 +22,6 @@ def answers(solution):
         / r
     )
 
-
-# -- units ----------------------------------------------------------------------------------------
 
 SCALED = {
     "parabola": lambda L: sie.Parabola(2.0 * L),
@@ -61,9 +57,6 @@ def test_units_of_length_and_stress_change_no_dimensionless_answer(name, tilt):
         exact = E * complex(one.pressure.cauchy(z))
         assert complex(other.pressure.cauchy(L * z)) == pytest.approx(exact, rel=PROMISE)
         assert other.check().ok
-
-
-# -- mirror and shift -----------------------------------------------------------------------------
 
 
 @given(strategies.scenes())
@@ -103,9 +96,6 @@ def test_a_shift_of_the_profile_shifts_the_answer(scene, n):
     )
 
 
-# -- questions and answers exchanged --------------------------------------------------------------
-
-
 @given(strategies.scenes())
 def test_tilt_and_moment_are_inverse_to_each_other(scene):
     one = sie.solve(scene)
@@ -137,9 +127,6 @@ def test_a_tilt_of_the_scene_is_a_tilt_of_the_profile(scene, share):
     assert other.moment == pytest.approx(
         one.moment, abs=PROMISE * scene.normal_load * (one.half_width + abs(one.centre))
     )
-
-
-# -- growth and superposition ---------------------------------------------------------------------
 
 
 @given(strategies.scenes(profile=sie.RoundedFlat(0.5, 1.0)), between(1.01, 5.0))

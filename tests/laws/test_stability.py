@@ -1,6 +1,4 @@
-"""Nothing is lost where formulas are known to cancel: nearly flat, nearly round, tiny tilts, huge
-and tiny loads, many pieces.
-"""
+"""Nothing is lost where formulas are known to cancel."""
 
 import laws
 import numpy as np
@@ -101,9 +99,7 @@ def test_the_pressure_agrees_with_the_closed_form_of_the_rounded_punch(
 
 @given(NEAR_FLAT, between(-0.3, 0.3))
 def test_a_nearly_flat_punch_keeps_its_moment_under_tilt(delta, share):
-    """A tilt that is a fraction of the slope of the rounded edge, off the axis: equilibrium by the
-    certificate and the moment's inverse.
-    """
+    """A tilt that is a fraction of the slope of the rounded edge."""
     profile = sie.RoundedFlat(1.0, 1.0)
     solution = sie.solve(
         sie.Scene(profile=profile, modulus=1.0, normal_load=1.0, tilt=share * delta)
@@ -168,18 +164,13 @@ def test_many_pieces_keep_full_accuracy(n):
 
 
 def test_a_corner_far_from_the_origin_is_no_jump():
-    """Coefficients in x round the slope at a break by ulps of their own size, not of the slope: no
-    wedge, up or down, may come of it.
-    """
+    """The slope at a break is rounded by ulps of the coefficients: no wedge may come of it."""
     rng = np.random.default_rng(1)
     for _ in range(20):
         at, c, d = 1000.0 * rng.uniform(1, 10), *rng.uniform(1, 10, 2)
         profile = sie.Piecewise((at,), ((-c * at, c), (-d * at, d)))
         solution = sie.solve(sie.Scene(profile=profile, modulus=1.0, half_width=1.0))
         assert np.isfinite(solution.pressure(at))
-
-
-# -- known limits: each is a bug to be fixed, and its mark then falls -----------------------------
 
 
 @pytest.mark.parametrize("text", ["exp(x) - 1", "log(1 + x)", "sqrt(1 + x) - 1"])

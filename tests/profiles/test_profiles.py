@@ -1,6 +1,4 @@
-"""Profiles are values, and say of themselves what is true: slope, height, breaks, parity, domain,
-what moving and adding them means.
-"""
+"""Profiles are values, and say of themselves what is true."""
 
 import copy
 import pickle
@@ -52,9 +50,6 @@ def solved(profile):
     return sie.solve(sie.Scene(profile=profile, modulus=1.0, normal_load=1e-3))
 
 
-# -- values ---------------------------------------------------------------------------------------
-
-
 @each
 def test_a_profile_is_a_value_that_is_rebuilt_from_its_repr(profile):
     before = hash(profile), repr(profile)
@@ -84,9 +79,6 @@ def test_profiles_of_different_kinds_or_numbers_are_different():
     for i, one in enumerate(EVERY_KIND):
         for other in EVERY_KIND[i + 1 :]:
             assert one != other
-
-
-# -- geometry -------------------------------------------------------------------------------------
 
 
 def inside(profile, n=41):
@@ -135,9 +127,7 @@ def test_breaks_ascend_inside_the_domain(profile):
 
 @given(strategies.profiles())
 def test_between_breaks_a_profile_has_no_corner(profile):
-    """The slope's second difference goes like the square of the step where no break is near; at a
-    corner it goes like the step.
-    """
+    """The slope's second difference goes like the square of the step; at a corner like the step."""
     x, d = inside(profile, 23), 1e-4
     x = x[np.abs(x[:, None] - np.array([*profile.breaks, 1e9])).min(axis=1) > 1e-2]
 
@@ -248,9 +238,6 @@ def test_heights_are_measured_from_the_nearest_point_to_zero():
     assert sie.Piecewise((1.0, 2.0), ((0.0, 1.0),)).height(1.0) == 0.0
     assert sie.FromFunction("x", domain=(1.0, 2.0)).height(2.0) == pytest.approx(1.5)
     assert sie.FromFunction("x").height(0.0) == 0.0
-
-
-# -- a class of one's own, which states its slope alone --------------------------------------------
 
 
 def test_a_height_that_a_class_does_not_state_is_the_integral_of_its_slope():

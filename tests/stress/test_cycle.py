@@ -1,6 +1,4 @@
-"""What a cycle does: histories are the states' stresses, ranges their extremes, and Ruiz'
-parameters their products.
-"""
+"""Histories, ranges and Ruiz' parameters of a cycle."""
 
 import sys
 

@@ -1,6 +1,4 @@
-"""Where the body yields first and where its surface is torn most: against 30 digits, and against
-brute force.
-"""
+"""Where the body yields first and where its surface is torn most."""
 
 import numpy as np
 import pytest
@@ -202,9 +200,7 @@ def test_an_unknown_criterion_is_refused():
 @pytest.mark.parametrize("modulus", [1e-100, 1e100])
 @pytest.mark.parametrize("criterion", ["mises", "tresca"])
 def test_no_unit_of_length_or_stress_changes_the_elastic_limit(length, modulus, criterion):
-    """P/(bk) of a surface maximum: the slope of the stress there needs a side of the surface,
-    however small the contact.
-    """
+    """The slope of the stress at the surface needs a side of it, however small the contact."""
 
     def limit(length, modulus):
         P = 0.01 * modulus * length
@@ -230,16 +226,11 @@ RUBBER = sie.Elastic(young=3.0, poisson=0.5)
 
 @pytest.mark.parametrize("criterion", ["mises", "tresca"])
 def test_an_incompressible_body_under_a_wedge_yields_beneath_the_apex(criterion):
-    """Straight below the apex the shear stress tends to E*A/π (Johnson 1985, § 5.2), the largest
-    there is: P/k = P π/(E*A).
-    """
+    """There the shear stress tends to E*A/π (Johnson 1985, § 5.2): P/k = P π/(E*A)."""
     scene = sie.Scene(profile=sie.Wedge(0.1), body=RUBBER, normal_load=0.2)
     found = sie.solve(scene).elastic_limit(criterion)
     assert found.load == pytest.approx(0.2 * np.pi / (0.1 * scene.Estar), rel=1e-13)
     assert found.places == ((0.0, 0.0),) and found.j2 == pytest.approx(found.stress**2)
-
-
-# -- maxima beside edges and breaks, and what they cost -------------------------------------------
 
 
 def around(solution, x, criterion="mises"):
@@ -264,9 +255,7 @@ LOPSIDED_CORNERS = {
 @pytest.mark.parametrize("criterion", ["mises", "tresca"])
 @pytest.mark.parametrize("case", LOPSIDED_CORNERS)
 def test_beside_the_corner_of_an_incompressible_body_no_depth_is_worse(case, criterion):
-    """The largest stress may lie as near to a jump of h' as 1e-6 half-widths, above what it tends
-    to there.
-    """
+    """The largest stress may lie 1e-6 half-widths from a jump of h'."""
     breaks, pieces, load = LOPSIDED_CORNERS[case]
     solution = sie.solve(
         sie.Scene(profile=sie.Piecewise(breaks, pieces), modulus=1.0, poisson=0.5, normal_load=load)

@@ -1,6 +1,4 @@
-"""The stress in the body: 40-digit references at every depth, the laws of elasticity, and nothing
-computed that is not asked for.
-"""
+"""The stress in the body: 40-digit references and the laws of elasticity."""
 
 from functools import cache
 
@@ -27,14 +25,9 @@ def peak(solution):
     return float(p[np.isfinite(p)].max())
 
 
-# -- references ------------------------------------------------------------------------------------
-
-
 @cache
 def places(case):
-    """Abscissae of a case and, for the reference, the same ones with the edges as they are beyond
-    double precision.
-    """
+    """Abscissae of a case, and the same ones with the edges beyond double precision."""
     (x1, x2), r, m, truth = (
         solved(case).edges,
         solved(case).half_width,
@@ -139,13 +132,8 @@ def _by_circle(function, z, n=40):
     return sum(values) / n, sum(v / w for v, w in zip(values, turns, strict=True)) / (n * rho)
 
 
-# -- laws ------------------------------------------------------------------------------------------
-
-
 def derivatives(function, x, y, span):
-    """(∂/∂x, ∂/∂y) of functions that are analytic around (x, y), by Chebyshev interpolation in a
-    cross of that size.
-    """
+    """(∂/∂x, ∂/∂y) of analytic functions by Chebyshev interpolation in a cross about (x, y)."""
     nodes = np.polynomial.chebyshev.chebpts1(20)
 
     def slope(values):
@@ -238,9 +226,7 @@ def test_a_half_circle_carries_the_load(scene, radius):
 
 @EVERY
 def test_far_away_the_stress_depends_on_the_resultant_only(scene):
-    """Flamant: σ_rr = -2/(πr) (P sin θ + Q cos θ), about the line of action; what differs falls off
-    like 1/r³.
-    """
+    """Flamant: σ_rr = -2/(πr) (P sin θ + Q cos θ) about the line of action, but for 1/r³."""
     solution = sliding(scene)
     P, Q = solution.normal_load, solution.shear.resultant
     origin = solution.moment / P

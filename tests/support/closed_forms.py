@@ -1,6 +1,4 @@
-"""What the tests of the closed forms share: contexts, principal values, and laws that any function
-of `analytic` keeps.
-"""
+"""Contexts, principal values, and laws that any function of `analytic` keeps."""
 
 import math
 from collections.abc import Callable, Sequence
@@ -51,9 +49,7 @@ def every_call(calls: Sequence[Call]) -> pytest.MarkDecorator:
 
 
 def call(function: Form, given: Given, **options: Any) -> Any:
-    """The value, a pair as an array or list, of the call with its position first, as users write
-    it.
-    """
+    """The value of the call with its position first, as users write it."""
     rest = {name: value for name, value in given.items() if name not in ("x", "z")}
     return function(*(given[name] for name in ("x", "z") if name in given), **rest, **options)
 
@@ -180,9 +176,7 @@ def principal_value(density: Callable[[Any], Any], x: float, breaks: Sequence[An
 def resultant(
     density: Callable[[Any], Any], breaks: Sequence[Any], weight: Callable[[Any], Any] = lambda t: 1
 ) -> Any:
-    """∫ density(t) weight(t) dt from the first to the last of `breaks`, 30 digits, by the same
-    angle.
-    """
+    """∫ density(t) weight(t) dt over `breaks`, 30 digits, by the same angle."""
     lo, hi = mp.convert(breaks[0]), mp.convert(breaks[-1])
     m, r = (lo + hi) / 2, (hi - lo) / 2
 

@@ -1,6 +1,4 @@
-"""The validation's own machinery: verdicts come from numbers, a measure that cannot fail is called
-blind, the page needs nothing else.
-"""
+"""Verdicts come from numbers, and a measure that cannot fail is called blind."""
 
 import math
 
@@ -21,8 +19,6 @@ from validation.rivals.problems import kinked, sliding, wavy
 from validation.topics import paper, speed, stability, sweeps
 from validation.topics.sweeps import SPOILED
 from validation.wrong_programs.mutants import BAR, MUTANTS
-
-# -- verdicts --------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(
@@ -117,9 +113,6 @@ def test_a_failing_claim_is_printed_and_sets_the_exit_status(capsys, tmp_path):
     )
 
 
-# -- topics ----------------------------------------------------------------------------------------
-
-
 TRIED = (
     "appendix",
     "collocation",
@@ -178,9 +171,6 @@ def test_a_sweep_detects_a_wrong_answer():
     assert outcome.spoiled == pytest.approx(SPOILED, rel=0.5)
 
 
-# -- peers and truths ------------------------------------------------------------------------------
-
-
 def test_the_peers_are_right_where_they_should_be():
     """Hertz, p = sqrt(1 - x²)/2 for E* = R = 1."""
     x = np.linspace(-0.95, 0.95, 41)
@@ -219,9 +209,6 @@ def test_the_truth_of_sliding_agrees_with_the_closed_form():
             x, normal_load=P, half_flat=0.5, radius=1.0, modulus=1.0, coupling=0.3
         )
         assert float(truth.pressure(x)) == pytest.approx(float(closed), rel=1e-12)
-
-
-# -- wrong programs, which their checkers catch ----------------------------------------------------
 
 
 @pytest.mark.parametrize("mutant", MUTANTS, ids=lambda m: m.name)

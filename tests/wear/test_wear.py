@@ -137,9 +137,6 @@ def test_what_has_no_limit_is_refused(loads, more, error, word):
         sie.wear_limit(scene, **more)
 
 
-# -- the modes of Galin ----------------------------------------------------------------------------
-
-
 def test_the_eigenvalues_of_galin():
     expected = [1.56600511, 0.90972723, 0.61295835, 0.47394407, 0.38034020]
     assert np.abs(sie.wear_modes().eigenvalues[:5] - expected).max() <= 1e-8
