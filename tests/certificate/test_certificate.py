@@ -1,6 +1,5 @@
 """What the certificate promises: no error far above its estimate, nothing unseen in a function."""
 
-import dataclasses
 import math
 
 import numpy as np
@@ -12,8 +11,6 @@ from oracles.normal_contact import mp
 from sie.certificate import result
 from sie.certificate.result import BESIDES, PROMISE
 from sie.contact import normal
-from sie.numerics.interval import interval_about
-from validation.wrong_programs.pressures import with_pressure
 
 SHARE = 3.0  # of the promise
 SLIGHT = 1e-15  # of the peak
@@ -34,34 +31,29 @@ def bound(certificate, distance):
 
 
 INF = mp.inf
+PIECES = ((0.5, 2.0), (0.0625, 0.25), (-1.9375, 4.25))
+RIM = mp.mpf(0.3)  # as the profile has it
+# The profile, its breaks and pieces exactly, the load and the tilt.
 CASES = {
     "rounded flat": (
         sie.RoundedFlat(0.3, 2.0),
-        ((-INF, -0.3, 0.3, INF), ((0.15, 0.5), (0.0,), (-0.15, 0.5))),
+        ((-INF, -RIM, RIM, INF), ((RIM / 2, mp.mpf(0.5)), (mp.zero,), (-RIM / 2, mp.mpf(0.5)))),
         0.1,
         0.0,
     ),
     "tilted": (sie.Parabola(1.0), ((-INF, INF), ((0.0, 1.0),)), 0.01, 0.17),
     "uneven": (
-        sie.Piecewise((-0.25, 0.5), ((0.5, 2.0), (0.0625, 0.25), (-1.9375, 4.25))),
-        ((-INF, -0.25, 0.5, INF), ((0.5, 2.0), (0.0625, 0.25), (-1.9375, 4.25))),
-        0.3,
-        -0.03,
+        sie.Piecewise((-0.25, 0.5), PIECES), ((-INF, -0.25, 0.5, INF), PIECES), 0.3, -0.03
     ),
     "cubic": (
-        sie.Polynomial((0.0, 0.0, 0.1, 0.1, 1.0)),
-        ((-INF, INF), ((0.0, 0.2, 0.3, 4.0),)),
-        0.05,
-        0.0,
+        sie.Polynomial((0.0, 0.0, 0.1, 0.1, 1.0)), ((-INF, INF), ((0.0, 0.2, 0.3, 4.0),)), 0.05, 0.0
     ),
-}
+}  # fmt: skip
 
 
 @pytest.mark.parametrize("name", CASES)
 def test_the_error_given_the_load_keeps_the_promise_up_to_the_edges(name):
     profile, (breaks, rows), load, tilt = CASES[name]
-    if name == "rounded flat":  # 0.3 and 0.15 = 0.3/2 as the profile has them
-        rows = ((mp.mpf(0.3) / 2, mp.mpf(0.5)), (mp.zero,), (-mp.mpf(0.3) / 2, mp.mpf(0.5)))
     solution = solved(profile, load, tilt=tilt)
     truth = normal_contact.contact(
         normal_contact.polynomials(breaks, rows).tilted(tilt), 1.0, solution.edges, load=load
@@ -71,18 +63,11 @@ def test_the_error_given_the_load_keeps_the_promise_up_to_the_edges(name):
     x = np.concatenate((x1 + away, x2 - away))
     x = x[(x > x1) & (x < x2)]
     expected = [truth.pressure(v) for v in x.tolist()]
-    errors = np.array(
-        [
-            abs(float(mp.mpf(p) - e))
-            for p, e in zip(solution.pressure(x).tolist(), expected, strict=True)
-        ]
-    )
-    distance = np.array(
-        [float(min(mp.mpf(v) - truth.x1, truth.x2 - mp.mpf(v)) / truth.r) for v in x.tolist()]
-    )
     found = solution.check()
     assert found.ok
-    assert (errors <= bound(found, distance) * float(max(expected))).all()
+    for v, p, e in zip(x.tolist(), solution.pressure(x).tolist(), expected, strict=True):
+        distance = float(min(mp.mpf(v) - truth.x1, truth.x2 - mp.mpf(v)) / truth.r)
+        assert abs(float(mp.mpf(p) - e)) <= bound(found, distance) * float(max(expected))
 
 
 def test_the_error_by_the_edges_is_neither_zero_nor_far_too_large():
@@ -138,19 +123,6 @@ def test_the_same_promise_is_printed_and_documented():
     assert f"{PROMISE} {BESIDES}" in " ".join(result.Certificate.__doc__.split())
     for nearer in (1.0, 1e2, 1e4):
         assert f"{3.0 * (found.error + found.edges * nearer**0.5):.1e}" in str(found)
-
-
-def test_a_contact_that_is_off_as_a_whole_shows_in_the_error_that_its_residual_implies():
-    """p(x - δ) of a parabola leaves the constant E* δ/(2R), and is wrong by far more next to the
-    edges.
-    """
-    scene = sie.Scene(profile=sie.Parabola(1.0), modulus=1.0, half_width=1.0)
-    p, size = sie.solve(scene).pressure, 1e-6
-    found = with_pressure(scene, lambda x: p(x - size)).check()
-    x = np.linspace(-0.98, 0.98, 99)
-    error = float(np.abs(p(x - size) - p(x)).max() / p(0.0))
-    assert found.error >= error / SHARE
-    assert max(found.residual, found.force, found.moment, found.edges) < error / SHARE
 
 
 def test_a_rounded_edge_between_two_doubles_is_not_certified():
@@ -277,24 +249,6 @@ def test_next_to_a_sharp_edge_the_pressure_that_counts_is_a_thousandth_of_r_away
     """Where it is infinite some pressure exceeds any bound."""
     solution = solved(sie.Flat(1.0), load, **given)
     assert bool(solution.notes) is noted
-
-
-@pytest.mark.parametrize("exponent", [1.3, 2.5, 60.5])
-@pytest.mark.parametrize("size", [1e-6, 1e-9])
-def test_a_power_s_contact_that_is_too_wide_is_detected(exponent, size):
-    """Its load is right and its shape that of the law: the equation and the conditions of the edges
-    show it.
-    """
-    scene = sie.Scene(profile=sie.Power(exponent, 0.75), modulus=1.0, normal_load=0.3)
-    right, wide = (sie.solve(scene) for _ in range(2))
-    p, r = right.pressure, right.half_width
-    contact = interval_about(0.0, r * (1.0 + size))
-    wide.__dict__["pressure"] = dataclasses.replace(p, contact=contact)
-    x = r * np.linspace(-0.95, 0.95, 401)
-    error = float(np.abs(wide.pressure(x) - p(x)).max() / p(x).max())
-    found = wide.check()
-    assert not found.ok
-    assert found.error >= error / SHARE
 
 
 @pytest.mark.parametrize("tol", [1e-3, 1e-6, 1e-9])

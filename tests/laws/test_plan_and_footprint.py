@@ -108,15 +108,6 @@ def test_a_want_that_is_no_name_is_refused(want):
         sie.plan(SCENES["flat"], want=want)
 
 
-@pytest.mark.slow
-@given(strategies.scenes())
-def test_the_footprint_is_the_plan_for_random_scenes(scene):
-    for want, ask in ASK.items():
-        solution = sie.solve(scene)
-        ask(solution)
-        assert footprint(solution) == sie.plan(scene, want=want).stages
-
-
 def test_a_plan_prints_every_step_with_run_or_skip_and_a_reason():
     for scene in SCENES.values():
         for line in str(sie.plan(scene, want="check")).splitlines():
