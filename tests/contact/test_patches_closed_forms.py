@@ -3,6 +3,7 @@
 import mpmath
 import numpy as np
 import pytest
+from scenes import solved
 
 import sie
 from analytic import flat_row, parabola_row, two_flats, two_parabolas, wavy
@@ -12,10 +13,6 @@ DIGITS.dps = 40
 GAPS = [1e-2, 1e-6, 1e-10]
 AT_CORNERS = np.array([1e-6, 1e-3, 0.1, 0.4, 0.7, 0.97, 1.0 - 1e-6])
 INSIDE = np.array([0.02, 0.3, 0.5, 0.6, 0.85, 0.97])
-
-
-def solved(**asked):
-    return sie.solve(sie.Scene(modulus=1.0, **asked))
 
 
 # Each form: profile, load, the exact last patch (None: corners of flats), and p(x, a, b) there.

@@ -89,12 +89,6 @@ def test_the_shear_of_bonded_bodies_is_reported(tmp_path):
     assert "Q = 3" in told and "bonded" in told and "inf" not in told
 
 
-def test_an_infinite_pressure_is_a_string_that_reads_as_a_number(tmp_path, capsys):
-    main(["solve", example("flat", tmp_path), "--json"])
-    p = strict(capsys.readouterr().out)["pressure"]["p"]
-    assert p[0] == p[-1] == "Infinity" and float(p[0]) == float("inf")
-
-
 def test_json_and_csv_go_to_a_file_or_alone_to_standard_output(scene, tmp_path, capsys):
     main(["solve", scene, "--want", "check", "--json"])
     printed = capsys.readouterr().out
@@ -104,16 +98,6 @@ def test_json_and_csv_go_to_a_file_or_alone_to_standard_output(scene, tmp_path, 
     assert "wrote out.json" in capsys.readouterr().out
     main(["solve", scene, "--csv", "-"])
     assert capsys.readouterr().out.startswith("# Fretting pad")
-
-
-@pytest.mark.parametrize(
-    ("kind", "says"),
-    [("parabola", "# x and gap in mm, p in MPa,"),
-     ("partial-slip", "# x and gap and slip in mm, p and q in MPa,")],
-)  # fmt: skip
-def test_csv_names_the_unit_of_every_column(kind, says, tmp_path, capsys):
-    main(["solve", example(kind, tmp_path), "--csv", "-", "--points", "20"])
-    assert says in capsys.readouterr().out
 
 
 def test_csv_points_resolve_a_rounded_edge_of_a_thousandth_of_the_contact():
@@ -176,17 +160,6 @@ def rig(tmp_path, monkeypatch):
     Path("rig.toml").write_text(before + 'path = "rig.csv"\n')
     file = scene_file.read("rig.toml")
     return sie.follow(file.scene, file.load_path)
-
-
-@pytest.mark.slow
-def test_the_turning_points_of_a_rig_are_a_table_with_its_tilts(rig, capsys):
-    assert main(["solve", "rig.toml", "--want", "shear"]) == 0
-    rows = [line.split() for line in capsys.readouterr().out.splitlines()][-len(rig) - 1 :]
-    assert rows[0][:4] == ["P", "Q", "σ", "tilt"]
-    for row, point, loads in zip(rows[1:], rig, rig.path.points, strict=True):
-        (stick,) = point.stick
-        expected = (*loads, point.scene.tilt, *stick, point.energy_lost)
-        assert [float(cell) for cell in row] == pytest.approx(expected, rel=1e-5, abs=1e-12)
 
 
 @pytest.mark.slow
