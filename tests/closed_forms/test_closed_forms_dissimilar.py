@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from closed_forms import EPS, call, coarse, mp, resultant, short
+from closed_forms import EPS, call, coarse, short
 
 from analytic import (
     bonded_flat,
@@ -59,35 +59,6 @@ def test_the_half_width_of_the_sliding_parabola_is_that_of_its_load(k: float) ->
     P = sliding_hertz.load(**HERTZ, coupling=k)
     found = sliding_hertz.half_width(normal_load=P, radius=2.0, modulus=3.0, coupling=k)
     assert found == pytest.approx(1.0, rel=4 * EPS)
-
-
-@pytest.mark.parametrize("z", [-1.2, 2.1 - 1j, -40 + 3j])
-def test_potentials_are_cauchy_integrals(z: complex) -> None:
-    k = -0.4
-    edges = sliding_hertz.edges(half_width=1, coupling=k, lib=mp)
-    cases = [
-        (
-            lambda t: sliding_hertz.pressure(t, **HERTZ, coupling=k, lib=mp),
-            edges,
-            sliding_hertz.potential(z, **HERTZ, coupling=k),
-        ),
-        (
-            lambda t: sliding_flat.pressure(t, **FLAT, coupling=k, moment=0.3, lib=mp),
-            (-1, 1),
-            sliding_flat.potential(z, **FLAT, coupling=k, moment=0.3),
-        ),
-        (
-            lambda t: mp.mpc(
-                bonded_flat.pressure(t, **BONDED, dundurs=k, lib=mp),
-                bonded_flat.shear(t, **BONDED, dundurs=k, lib=mp),
-            ),
-            (-1, 1),
-            bonded_flat.potential(z, **BONDED, dundurs=k),
-        ),
-    ]
-    for density, ends, value in cases:
-        exact = resultant(density, ends, lambda t: 1 / (mp.mpc(z) - t)) / mp.pi
-        assert abs(value - complex(exact)) <= 1e-13 * abs(value)
 
 
 @either_way

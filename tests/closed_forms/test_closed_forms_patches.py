@@ -62,25 +62,6 @@ def test_half_widths_of_wave_and_row_invert_the_mean_pressure(a: float) -> None:
     assert abs(wavy.half_width(mean_pressure=exact, **shape, lib=mp) - a) < 1e-28
 
 
-@pytest.mark.parametrize("z", [0.5, -2.2 - 0.4j, 1e6])
-def test_potential_of_two_flats_is_the_cauchy_integral(z: complex) -> None:
-    given = {**FLATS, "moment": -2.0}
-    p = lambda t: two_flats.pressure(t, **given, lib=mp)  # noqa: E731
-    right = resultant(p, (1, 2), lambda t: 1 / (mp.mpc(z) - t))
-    left = resultant(lambda t: p(-t), (1, 2), lambda t: 1 / (mp.mpc(z) + t))
-    value = two_flats.potential(z, **given)
-    assert abs(complex((right + left) / mp.pi) - value) <= 1e-13 * abs(value)
-
-
-@pytest.mark.parametrize("z", [0.7, -4.3 - 0.5j])
-def test_potentials_of_rows_are_periodic_cauchy_integrals(z: complex) -> None:
-    ends = (-mp.mpf(0.6), mp.mpf(0.6))
-    kernel = lambda t: mp.cot(mp.pi * (mp.mpc(z) - t) / 2) / 2  # noqa: E731
-    for module, given in ((wavy, WAVE), (flat_row, ROW)):
-        exact = resultant(lambda t: module.pressure(t, **given, lib=mp), ends, kernel)  # noqa: B023
-        assert abs(complex(exact) - module.potential(z, **given)) <= 1e-13 * abs(complex(exact))
-
-
 @pytest.mark.parametrize("side", [+1, -1])
 def test_potentials_tend_to_their_side_of_the_contact_and_have_the_slope_there(side: int) -> None:
     step = mp.mpc(0, side * mp.mpf("1e-40"))
