@@ -89,14 +89,9 @@ def test_ends_may_be_words_pairs_or_arrays(ends):
 @pytest.mark.parametrize("a", [0.0, 0.3, 0.2j])
 @pytest.mark.parametrize("ends", KINDS)
 def test_the_condition_number_of_a_smooth_kernel_is_small_and_does_not_grow(ends, a):
-    equation = sie.CauchyEquation(
-        (-1.0, 1.0),
-        1.0,
-        a=a,
-        k=smooth_kernel,
-        ends=ends,
-        total=0.0 if index_of(ends) == 1 else None,
-    )
+    total = 0.0 if index_of(ends) == 1 else None
+    given = {"a": a, "k": smooth_kernel, "ends": ends, "total": total}
+    equation = sie.CauchyEquation((-1.0, 1.0), 1.0, **given)
     conditions = [np.linalg.cond(equation.system(n)[0]) for n in (8, 32, 128)]
     assert max(conditions) < 6.0
     assert conditions[2] == pytest.approx(conditions[1], rel=1e-6)
@@ -105,12 +100,8 @@ def test_the_condition_number_of_a_smooth_kernel_is_small_and_does_not_grow(ends
 @pytest.mark.parametrize(("ends", "a"), [(KINDS[0], 0.0), (KINDS[1], 0.3), (KINDS[3], 0.2j)])
 def test_the_transform_and_the_system_agree(ends, a):
     """The system is forced by a kernel that vanishes."""
-    question = {
-        "g": lambda x: np.exp(x) / (1.3 - x),
-        "a": a,
-        "ends": ends,
-        "total": 0.2 if index_of(ends) == 1 else None,
-    }
+    question = {"g": lambda x: np.exp(x) / (1.3 - x), "a": a, "ends": ends}
+    question["total"] = 0.2 if index_of(ends) == 1 else None
     question["free"] = (1.0,) if index_of(ends) == -1 else ()
     by_transform = sie.CauchyEquation((-1.0, 1.0), **question).solve()
     by_system = sie.CauchyEquation((-1.0, 1.0), k=lambda x, t: 0.0 * x * t, **question).solve()

@@ -1,5 +1,7 @@
 """What the solutions of Cauchy equations obey; references are in 40 digits."""
 
+from itertools import product
+
 import numpy as np
 import pytest
 import scipy.special
@@ -23,13 +25,8 @@ PLACES += [1 + 1e-12, -1 - 1e-9, 1 + 1e-4j, 1.001, -1.3, 2.0, 5j, 40.0 + 1e-9j, 
 )
 def test_the_potential_is_that_of_40_digits_near_and_far(a, ends):
     """Relative to itself, from 1e-12 half-widths off the interval to 1e5 away."""
-    d = Manufactured(
-        -1.0,
-        3.0,
-        *exponents(a, 1.0, ends),
-        (1.0, -0.5, 0.25, 0.1),
-        ((1.5, 0.3), (-0.2 + 0.8j, 0.1)),
-    )
+    poles = ((1.5, 0.3), (-0.2 + 0.8j, 0.1))
+    d = Manufactured(-1.0, 3.0, *exponents(a, 1.0, ends), (1.0, -0.5, 0.25, 0.1), poles)
     density = equation_of([d], a, 1.0, [ends]).solve()
     z = 1.0 + 2.0 * np.array(PLACES)
     for where, found in zip(z.tolist(), density.cauchy(z), strict=True):
@@ -56,12 +53,8 @@ def test_the_potential_next_to_gaps_of_every_kind_is_that_of_40_digits(ends, gap
         for i, e, p in zip(intervals, ends, ((1.0, -0.5), (0.3, 1.0, 0.2), (1.0, 0.4)), strict=True)
     ]
     density = equation_of(manufactured, 0.0, 1.0, ends).solve()
-    z = [
-        at + gap * complex(u, v)
-        for at in (0.0, 1.5)
-        for u in (-2.0, 0.5, 1.3)
-        for v in (1e-6, -0.1, 3.0)
-    ]
+    beside = product((0.0, 1.5), (-2.0, 0.5, 1.3), (1e-6, -0.1, 3.0))
+    z = [at + gap * complex(u, v) for at, u, v in beside]
     z += [0.7 + 0.2j, 0.3 - 1e-3j, 1e3j]
     for where, found, slope in zip(z, density.cauchy(z), density.cauchy_derivative(z), strict=True):
         parts = [complex(d.cauchy(where)) for d in manufactured]
@@ -148,11 +141,8 @@ def test_the_residual_is_small_at_points_that_were_not_used(k):
     right, left = density.parts[0].weight.alpha, density.parts[0].weight.beta
     s, weight = scipy.special.roots_jacobi(40, right, left)
     t = 0.5 + 1.5 * s
-    smooth = (
-        0.0
-        if k is None
-        else k(x[:, None], t) @ (1.5 * weight * density(t) / ((1 - s) ** right * (1 + s) ** left))
-    )
+    values = 1.5 * weight * density(t) / ((1 - s) ** right * (1 + s) ** left)
+    smooth = 0.0 if k is None else k(x[:, None], t) @ values
     left_over = a * density(x) - b * density.hilbert(x) + smooth - np.cos(x) - density.constants[0]
     assert np.abs(left_over).max() <= PROMISE
 

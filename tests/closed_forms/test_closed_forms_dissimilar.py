@@ -92,12 +92,8 @@ def test_sliding_rounded_flat_keeps_its_digits_everywhere(k: float, a: float) ->
     """The last points are where an edge's own rounding is 1e-14 of p."""
     given = {**ROUNDED, "half_flat": a, "coupling": k}
     d1, d2 = sliding_rounded_flat.rims(**given)
-    x = np.concatenate(
-        [
-            np.linspace(-a - 0.99 * d1, a + 0.99 * d2, 5),
-            [-a, a, a - 1e-9, a + 1e-9, -a + 1e-5, -a - 1e-5],
-        ]
-    )
+    beside = [-a, a, a - 1e-9, a + 1e-9, -a + 1e-5, -a - 1e-5]
+    x = np.array([*np.linspace(-a - 0.99 * d1, a + 0.99 * d2, 5), *beside])
     exact = [float(sliding_rounded_flat.pressure(v, **given, lib=short)) for v in x]
     np.testing.assert_allclose(sliding_rounded_flat.pressure(x, **given), exact, rtol=1e-13, atol=0)
 

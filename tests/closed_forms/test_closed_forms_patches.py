@@ -70,13 +70,8 @@ def test_potentials_tend_to_their_side_of_the_contact_and_have_the_slope_there(s
         (wavy.potential, WAVE, 6.2),
         (flat_row.potential, ROW, -4.3),
     ):
-        assert (
-            abs(
-                function(x, **given, side=side, lib=mp)
-                - function(mp.mpf(x) + step, **given, lib=mp)
-            )
-            < 1e-35
-        )
+        beside = function(mp.mpf(x) + step, **given, lib=mp)
+        assert abs(function(x, **given, side=side, lib=mp) - beside) < 1e-35
     slope = wavy.slope(6.2, wavelength=2.0, amplitude=0.3)
     assert wavy.potential(6.2, **WAVE, side=side).real == pytest.approx(2.5 * slope, rel=1e-13)
 

@@ -45,22 +45,12 @@ def test_the_surface_tension_in_partial_slip_is_that_of_the_potential(ratio):
     parameters = {"half_flat": mp.mpf(ratio), "radius": 1, "modulus": 1, "lib": mp}
     stick = [c for c in (0.0, 0.2, 0.5, 0.9, 0.999) if c == 0.0 or c > ratio]
     P = rounded_flat.load(half_width=mp.one, **parameters)
-    expected = [
-        float(
-            mp.pi
-            / P
-            * 2
-            * (
-                mp.mpf(1 - ratio) / 2
-                - (
-                    mp.re(rounded_flat.potential(mp.one, half_width=mp.mpf(c), **parameters))
-                    if c
-                    else 0
-                )
-            )
-        )
-        for c in stick
-    ]
+
+    def corrective(c):
+        return mp.re(rounded_flat.potential(mp.one, half_width=mp.mpf(c), **parameters)) if c else 0
+
+    whole = mp.mpf(1 - ratio) / 2
+    expected = [float(2 * mp.pi / P * (whole - corrective(c))) for c in stick]
     assert charts.surface_tension(ratio, stick) == pytest.approx(expected, rel=2e-12)
     assert charts.surface_tension(ratio, 1.0) == 0.0
 

@@ -73,12 +73,8 @@ def reverse_slip_of_hertz(strain):
 
     def excess(c):
         k = 1 - c * c
-        return (
-            mp.quad(
-                lambda t: k * mp.cos(t) ** 2 / mp.sqrt(c * c + k * mp.sin(t) ** 2), [0, mp.pi / 2]
-            )
-            - mp.pi / 2 * strain
-        )
+        integrand = lambda t: k * mp.cos(t) ** 2 / mp.sqrt(c * c + k * mp.sin(t) ** 2)  # noqa: E731
+        return mp.quad(integrand, [0, mp.pi / 2]) - mp.pi / 2 * strain
 
     return mp.findroot(excess, (mp.mpf("0.3"), mp.mpf("0.9")), solver="anderson")
 
@@ -122,13 +118,8 @@ def test_a_large_bulk_stress_leaves_a_narrow_stick_zone_of_hertz(strain):
     p0 = 2.0 * P / (math.pi * b)
     solution = sheared(sie.Parabola(1.0), 0.0, bulk_stress=4.0 * strain * F * p0)
     with mp.workdps(160):  # 1 - c²/b²
-        u = mp.findroot(
-            lambda u: (
-                mp.ellipk(1 - mp.exp(2 * u)) - mp.ellipe(1 - mp.exp(2 * u)) - mp.pi * strain / 2
-            ),
-            -1.57 * strain,
-        )
-        c = mp.exp(u)
+        difference = lambda m: mp.ellipk(m) - mp.ellipe(m) - mp.pi * strain / 2  # noqa: E731
+        c = mp.exp(mp.findroot(lambda u: difference(1 - mp.exp(2 * u)), -1.57 * strain))
     ((lo, hi),) = solution.stick
     assert abs(0.5 * (hi - lo) - b * c) < 1e-13 * b
     assert abs(0.5 * (hi + lo)) < 1e-13 * b

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import pickle
-from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -89,14 +88,8 @@ def test_the_other_sign_of_beta_turns_shear_and_slip_alone(coupling):
 @pytest.mark.parametrize(("length", "stress"), [(1e-6, 1e12), (1e3, 1e-9)])
 def test_answer_is_free_of_units(length, stress):
     one = solved(sie.RoundedFlat(0.5, 1.0), normal_load=0.6)
-    other = sie.solve(
-        replace(
-            one.scene,
-            profile=sie.RoundedFlat(0.5 * length, length),
-            modulus=2.0 * stress,
-            normal_load=0.6 * length * stress,
-        )
-    )
+    sizes = {"modulus": 2.0 * stress, "normal_load": 0.6 * length * stress}
+    other = one.with_(profile=sie.RoundedFlat(0.5 * length, length), **sizes)
     x = np.linspace(0.01, 0.99, 9) * one.half_width
     assert other.half_width == pytest.approx(length * one.half_width, rel=1e-13)
     assert other.pressure(length * x) == pytest.approx(stress * one.pressure(x), rel=1e-11)

@@ -94,11 +94,8 @@ def test_at_a_sharp_edge_of_dissimilar_bodies_stresses_are_infinite_and_the_load
     beta, given
 ):
     """Pressure and the shear's Hilbert transform are both infinite: their difference is no nan."""
-    solution = sie.solve(
-        sie.Scene(
-            profile=sie.Flat(2.0), modulus=3.0, dundurs=beta, poisson=0.3, normal_load=0.2, **given
-        )
-    )
+    pair = {"modulus": 3.0, "dundurs": beta, "poisson": 0.3}
+    solution = sie.solve(sie.Scene(profile=sie.Flat(2.0), normal_load=0.2, **pair, **given))
     stress = solution.stress([-2.0, 2.0], 0.0)
     assert (
         np.abs([stress.xx, stress.yy, stress.xy, stress.mises, stress.in_plane_sum]) == np.inf

@@ -96,12 +96,8 @@ def answered(build):
         solution = sie.solve(build())
         asked = [*solution.edges, solution.normal_load, solution.moment, solution.tilt]
         x = solution.centre + solution.half_width * POINTS
-        asked += [
-            *solution.pressure(x),
-            *solution.shear(x),
-            *np.ravel(solution.stick),
-            float(str(solution.check()) == ""),
-        ]
+        asked += [*solution.pressure(x), *solution.shear(x), *np.ravel(solution.stick)]
+        assert str(solution.check())
     except (ValueError, sie.ContactError) as refusal:
         return str(refusal)
     assert np.isfinite(asked).all()

@@ -137,19 +137,11 @@ def test_a_principal_value_has_its_closed_form(roots):
     at = graded_panels.Rule.of([[0.0, 1.0]], graded_panels.gauss_shares((0.0, 0.5), 5))
 
     def density(x):
-        return {
-            (False, False): np.ones_like(x.from_lo),
-            (True, False): np.sqrt(x.from_hi / x.from_lo),
-            (False, True): np.sqrt(x.from_lo / x.from_hi),
-            (True, True): 1.0 / np.sqrt(x.from_lo * x.from_hi),
-        }[roots]
+        to_lo, to_hi = (0.5 if both != any(roots) else -0.5 for both in roots)
+        return x.from_lo**to_lo * x.from_hi**to_hi if any(roots) else np.ones_like(x.from_lo)
 
-    exact = {
-        (False, False): np.log(at.from_lo / at.from_hi),
-        (True, False): np.full(len(at.lo), np.pi),
-        (False, True): np.full(len(at.lo), -np.pi),
-        (True, True): np.zeros(len(at.lo)),
-    }[roots]
+    exact = np.pi * (float(roots[0]) - float(roots[1])) + np.zeros(len(at.lo))
+    exact = exact if any(roots) else np.log(at.from_lo / at.from_hi)
     given_at = density(rule), density(at)
     found = graded_panels.principal_value(rule, given_at, at, roots, lambda step: step)
     assert found == pytest.approx(exact, abs=1e-12 * np.abs(given_at[1]).max())

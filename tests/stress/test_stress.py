@@ -28,12 +28,8 @@ def peak(solution):
 @cache
 def places(case):
     """Abscissae of a case, and the same ones with the edges beyond double precision."""
-    (x1, x2), r, m, truth = (
-        solved(case).edges,
-        solved(case).half_width,
-        solved(case).centre,
-        exact(case),
-    )
+    solution, truth = solved(case), exact(case)
+    (x1, x2), r, m = solution.edges, solution.half_width, solution.centre
     inner = [b for b in case.profile.breaks if x1 < b < x2]
     return [(x, mp.mpf(x)) for x in (m + 0.31 * r, x2 + 0.4 * r, *inner[:2])] + [
         (x1, truth.x1),
@@ -135,11 +131,7 @@ def test_strains_are_those_of_the_displacement_gradients_and_rotations_are_their
     x, y = solution.centre + 0.4 * r, 0.3 * r
     g, e = solution.stress(x, y).gradients, solution.stress(x, y).strain
     scale = peak(solution) / STEEL.young
-    assert (
-        g.xx == pytest.approx(e.xx)
-        and g.yy == pytest.approx(e.yy)
-        and g.xy + g.yx == pytest.approx(2 * e.xy)
-    )
+    assert (g.xx, g.yy, g.xy + g.yx) == pytest.approx((e.xx, e.yy, 2 * e.xy))
     # the gradients of one displacement: ∂y (u_x,x) = ∂x (u_x,y), ∂y (u_y,x) = ∂x (u_y,y)
     of = {
         name: derivatives(

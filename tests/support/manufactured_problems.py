@@ -89,11 +89,8 @@ def problems(draw: st.DrawFn, intervals: int = 1) -> Any:
             draw(between(-0.15, 0.15)),
             complex(draw(between(-1.0, 1.0)), height * draw(between(1.0, 2.0))),
         )
-        kernels = (
-            ((c, shift),)
-            if isinstance(a, complex) or isinstance(b, complex)
-            else ((c, shift), (c, shift.conjugate()))
-        )
+        is_complex = isinstance(a, complex) or isinstance(b, complex)
+        kernels = ((c, shift),) if is_complex else ((c, shift), (c, shift.conjugate()))
     return out, a, b, ends, kernels
 
 

@@ -24,5 +24,5 @@ def dissimilar(
     profile: Profile | None = None, beta: float = 0.3, friction: float = 0.3, **loads: Any
 ) -> Scene:
     """Dissimilar bodies with friction, under P = 1 if no loads are given."""
-    given = {"modulus": 2.0, "dundurs": beta, "friction": friction}
+    given: dict[str, Any] = {"modulus": 2.0, "dundurs": beta, "friction": friction}
     return Scene(profile=profile or sie.Parabola(1.0), **given, **(loads or {"normal_load": 1.0}))

@@ -29,14 +29,8 @@ def a_section(name="one"):
     drawing, ax = axes()
     draw(ax, found.curves("figure"))
     labelled(ax, "x [mm]", "y", log="y")
-    return Section(
-        name,
-        "Title",
-        "Words.\n\nMore words.",
-        found,
-        [drawn(Figure(name, drawing, "What is seen."))],
-        0.1,
-    )
+    figures = [drawn(Figure(name, drawing, "What is seen."))]
+    return Section(name, "Title", "Words.\n\nMore words.", found, figures, 0.1)
 
 
 def test_the_page_needs_no_network_and_fits_a_phone():
