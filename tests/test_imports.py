@@ -1,6 +1,4 @@
-"""What depends on what: imports point downward, solver and closed forms share nothing, heavy
-packages wait.
-"""
+"""Imports point downward, solver and closed forms share nothing, heavy packages wait."""
 
 import ast
 import functools
@@ -117,9 +115,7 @@ def dependencies():
 
 
 def every_dependency():
-    """Every import in the solver: (importing module, imported module, line), both by their full
-    names; without those of `sie` itself, which hands all on.
-    """
+    """(importing module, imported module, line) in the solver, but for those of `sie` itself."""
     for path in modules("sie"):
         inside = path.relative_to(HOUSES["sie"].parent).with_suffix("").parts
         package = list(inside[:-1])

@@ -223,9 +223,6 @@ def test_of_hertz_every_answer_follows_from_powers():
     assert by_load.pressure.resultant == pytest.approx(1.0, rel=1e-14)
 
 
-# -- quantities, gradients, uncertainty ------------------------------------------------------------
-
-
 SCENES = {
     "trace": lambda: scene(sie.Sampled(X, TRACE)),
     "tilted punch in sliding": lambda: scene(FLAT, tilt=0.15, friction=0.4, sliding=1),
@@ -286,9 +283,6 @@ def test_noise_of_a_trace_is_one_number_for_all_heights():
     gradient = solution.gradient("peak_pressure")["profile.heights"]
     found = solution.uncertainty({"profile.heights": 1e-4}).of("peak_pressure")
     assert found == pytest.approx(1e-4 * np.linalg.norm(gradient), rel=1e-14)
-
-
-# -- refusals --------------------------------------------------------------------------------------
 
 
 def test_where_slip_begins_or_ends_derivatives_are_one_sided():
