@@ -20,7 +20,7 @@ LINES = {
     "cli": 790,
     "contact": 2420,
     "examples": 10,
-    "friction": 9810,
+    "friction": 9820,
     "inverse": 320,
     "io": 4650,
     "live": 1140,
