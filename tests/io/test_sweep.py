@@ -96,9 +96,9 @@ def test_arrays_are_kept_with_their_own_dimensions():
 
 def test_the_normal_problem_is_solved_once_for_all_frictions(monkeypatch):
     solved = []
-    original = sie.frictionless.by_pieces
+    original = sie.answers.frictionless.by_pieces
     monkeypatch.setattr(
-        sie.frictionless, "by_pieces", lambda *args: solved.append(1) or original(*args)
+        sie.answers.frictionless, "by_pieces", lambda *args: solved.append(1) or original(*args)
     )
     sie.sweep(
         SCENE,
