@@ -15,8 +15,7 @@ from numpy.typing import NDArray
 from sie.errors import ContactError
 from sie.numerics.chord import Chord
 
-from .equations import Zones
-from .state import SAME, Contact, State, intervals, united
+from .state import SAME, Contact, State, Zones, intervals, united
 
 Array = NDArray[np.float64]
 Ints = NDArray[np.int64]

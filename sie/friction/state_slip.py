@@ -29,12 +29,11 @@ from sie.numerics.root_finding import false_position
 from sie.traction.combination import superposed
 
 from .cells import zones_on_cells
-from .equations import Zones
 from .finite_step import Part, newton
 from .gained_slip import GainedSlip, drag
 from .loading import limit_on
 from .slip_state import Slip, Step
-from .state import SAME, Contact, State, intervals, refuse_inadmissible
+from .state import SAME, Contact, State, Zones, intervals, refuse_inadmissible
 
 if TYPE_CHECKING:
     from sie.traction.base import Density

@@ -13,8 +13,6 @@ that of D sin²(φ/2), of D times the distance from that edge over the width of 
 
 from __future__ import annotations
 
-from functools import lru_cache
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -22,41 +20,15 @@ from sie.numerics import chebyshev
 from sie.numerics.chord import Points
 
 from .operator import Operator, intensities, on_patches
+from .panels import DEEPEST, NODES, halves
 from .state import CLOSED, Tension
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
 
-NODES = 8  # on a part of a panel
-DEEPEST = 30  # halvings
 TENSION = 1e-13  # of the largest D: rounding
 MANY = 1 << 14  # parts more than panels: where D is next to nothing but for one place they are few
 HALVED = 42  # times the distance from a concave corner is
-
-
-@lru_cache(maxsize=8)
-def legendre(n: int) -> Array:
-    """Values at the n Gauss nodes to Legendre coefficients, as a matrix (n, n)."""
-    g, w = chebyshev.gauss_legendre(n)
-    P = np.polynomial.legendre.legvander(2.0 * g - 1.0, n - 1)
-    matrix = P * w[:, None] * (2.0 * np.arange(n) + 1.0)
-    matrix.flags.writeable = False
-    return matrix
-
-
-def halves(lo: Array, hi: Array) -> tuple[Array, Array]:
-    """The ends of the left halves of parts, then those of the right ones."""
-    middle = 0.5 * (lo + hi)
-    return np.concatenate((lo, middle)), np.concatenate((middle, hi))
-
-
-def lower_bound(values: Array) -> Array:
-    """Below all of a polynomial that has these values (m, n) at Gauss nodes."""
-    c = values @ legendre(values.shape[1])
-    return np.asarray(c[:, 0] - np.abs(c[:, 1:]).sum(axis=1))
-
-
-# -- tension ---------------------------------------------------------------------------------------
 
 
 def tensions(o: Operator) -> tuple[tuple[Tension, ...], float]:
@@ -76,7 +48,8 @@ def tensions(o: Operator) -> tuple[tuple[Tension, ...], float]:
         scale = max(scale, float(finite.max(initial=0.0)))
         least = -TENSION * scale
         distance = np.where(sharp[panel, None], np.sin(0.5 * angle) ** 2, 1.0)
-        bound = lower_bound((np.where(np.isfinite(D), D, scale) - least) * distance) + least
+        above = (np.where(np.isfinite(D), D, scale) - least) * distance
+        bound = chebyshev.lower_bound(above) + least
         negative = least > D
         for j in np.flatnonzero(negative.any(axis=1)):
             bad += [(int(k.patch[panel[j]]), *run) for run in _runs(x[j], negative[j])]

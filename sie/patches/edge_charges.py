@@ -28,8 +28,9 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from sie.numerics.tree import add, parts
+
 from .panels import GapPanels, Patches
-from .sums import add, parts
 
 Array = NDArray[np.float64]
 

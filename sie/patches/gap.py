@@ -16,9 +16,8 @@ from sie.errors import ResolutionError
 from sie.numerics import chebyshev
 from sie.numerics.interval import EPS
 
-from .bounds import DEEPEST, NODES, legendre, lower_bound
 from .operator import Operator, gap_values
-from .panels import FARTHEST, GapPanels, distance_of, gap_panels, parameter_of
+from .panels import DEEPEST, FARTHEST, NODES, GapPanels, distance_of, gap_panels, parameter_of
 from .state import Findings, Overlap
 
 Array = NDArray[np.float64]
@@ -135,8 +134,8 @@ def _judged(
     lo, hi = np.minimum(anchor[:, 0], x.min(axis=1)), np.maximum(anchor[:, 0], x.max(axis=1))
     rounding = o.pieces.rounding(lo, hi) + EPS * abs(tilt) * (hi - lo)
     tolerance = rounding + ROUNDING * float(np.abs(o.H).max()) * away.max(axis=1)
-    bound = lower_bound(value)
-    rising = lower_bound(phi) >= 0.0
+    bound = chebyshev.lower_bound(value)
+    rising = chebyshev.lower_bound(phi) >= 0.0
     opened = parts.followed(np.cumsum(side.panels.lo == 0.0), rising)
     opens = opened & rising
     matters = (rounding > NEGLIGIBLE * load) & ~opens & (bound < tolerance)
@@ -198,7 +197,7 @@ def sides(o: Operator, panels: GapPanels) -> Side:
     half = 0.5 * (panels.hi - panels.lo)
     _, _, derivative = distance_of(_nodes(panels), panels.width[:, None])
     integrand = half[:, None] * phi * panels.root * derivative
-    c = integrand @ legendre(n)
+    c = integrand @ chebyshev.legendre(n)
     primitive = np.asarray(np.polynomial.legendre.legint(c, lbnd=-1, axis=1), dtype=float)
     first = np.flatnonzero(panels.lo == 0.0)
     run = np.cumsum(panels.lo == 0.0) - 1
@@ -207,7 +206,7 @@ def sides(o: Operator, panels: GapPanels) -> Side:
     sums = np.zeros((len(first), int(position.max()) + 2))
     sums[run, position + 1] = primitive.sum(axis=1)
     start = np.cumsum(sums, axis=1)[run, position]
-    return Side(panels, sign, phi @ legendre(n), primitive, start)
+    return Side(panels, sign, phi @ chebyshev.legendre(n), primitive, start)
 
 
 def _nodes(panels: GapPanels) -> Array:

@@ -26,10 +26,9 @@ from numpy.typing import NDArray
 
 from sie.numerics import chebyshev
 from sie.numerics.chord import Points
-from sie.numerics.tree import Level, Tree
+from sie.numerics.tree import Groups, Level, Tree, far_sums, multiply, parts
 
 from .panels import Patches, PatchPanels, patch_panels
-from .sums import Groups, far_sums, multiply, parts
 
 if TYPE_CHECKING:
     from sie.profiles.pieces import Pieces

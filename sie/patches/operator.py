@@ -23,11 +23,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie.numerics.chord import Points
-from sie.numerics.tree import Level, Separation, Tree
+from sie.numerics.tree import Groups, Level, Separation, Tree, add, far_sums, parts, ranges
 
 from .measure import Measure, Targets, close, integrals
 from .panels import GapPanels, gap_panels
-from .sums import Groups, add, far_sums, parts, ranges
 
 if TYPE_CHECKING:
     from sie.profiles.pieces import Pieces

@@ -70,9 +70,9 @@ def test_arrays_are_kept_with_their_own_dimensions():
 
 def test_the_normal_problem_is_solved_once_for_all_frictions(monkeypatch):
     solved = []
-    original = sie.frictionless.by_pieces
+    original = sie.answers.frictionless.by_pieces
     counted = lambda *args: solved.append(1) or original(*args)  # noqa: E731
-    monkeypatch.setattr(sie.frictionless, "by_pieces", counted)
+    monkeypatch.setattr(sie.answers.frictionless, "by_pieces", counted)
     over = {"normal_load": [0.1, 0.2], "friction": np.linspace(0, 1, 10)}
     sie.sweep(SCENE, over, "half_width")
     assert len(solved) == 2

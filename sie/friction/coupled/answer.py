@@ -18,12 +18,12 @@ from sie.errors import ContactError
 from sie.friction.state import intervals
 from sie.numerics.graded_panels import Pieces
 
-from .step import Loaded
 from .view import View
 from .work import work
 
 if TYPE_CHECKING:
     from .pressed import Pressed
+    from .step import Loaded
 
 Array = NDArray[np.float64]
 

@@ -9,14 +9,15 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.special import sici
 
-from .pieces import Places
-from .state import State
+if TYPE_CHECKING:
+    from .pieces import Places
+    from .state import State
 
 Array = NDArray[np.float64]
 

@@ -22,6 +22,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,8 +30,10 @@ from numpy.typing import NDArray
 from sie.numerics.elliptic import modulus_of_ratio
 
 from .flat import NARROWEST_RATIO, FlatPunch, half_rule, squares
-from .pieces import Places
 from .state import Rates, State
+
+if TYPE_CHECKING:
+    from .pieces import Places
 
 Array = NDArray[np.float64]
 

@@ -11,23 +11,26 @@ import itertools
 import math
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from sie.numerics.gauss_jacobi import with_weight
 from sie.numerics.interval import Interval
-from sie.profiles.slope import Slope
 
 from .fields import Fields
-from .flat import FlatPunch
 from .frozen import Frozen, Gradient
 from .pieces import FINE, Pieces
 from .search import state_of
 from .state import HalfSlope, Question
 from .step import Loaded
 from .view import View
+
+if TYPE_CHECKING:
+    from sie.profiles.slope import Slope
+
+    from .flat import FlatPunch
 
 Array = NDArray[np.float64]
 

@@ -12,14 +12,17 @@ import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .fields import Fields, cumulative, summed
-from .pieces import Places
 from .search import Carried, Zones, cuts_between, settled, zones_between, zones_of, zones_on_cells
-from .state import Question, State
+
+if TYPE_CHECKING:
+    from .pieces import Places
+    from .state import Question, State
 
 Array = NDArray[np.float64]
 

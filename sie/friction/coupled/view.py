@@ -10,14 +10,15 @@ from numpy.typing import ArrayLike, NDArray
 
 from sie.contact.known_contact import Edges
 from sie.numerics.interval import Interval
-from sie.profiles.base import Profile
-from sie.traction.base import FAR_AWAY, on_line, zero_or_nan
-from sie.traction.in_contact import InContact
+from sie.traction.base import FAR_AWAY, InContact, on_line, zero_or_nan
 
-from .step import Loaded
 from .traction import EDGE, REACH, OnPieces, Piece, places, tabulated
 
 if TYPE_CHECKING:
+    from sie.profiles.base import Profile
+
+    from .step import Loaded
+
     pass
 
 Array = NDArray[np.float64]

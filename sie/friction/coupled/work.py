@@ -13,6 +13,7 @@ from bisect import insort
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import pairwise
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,8 +21,10 @@ from numpy.typing import NDArray
 from sie.errors import ContactError
 
 from .search import ROUGHLY, Zones, passing, settled, zones_of
-from .state import Question, State
 from .step import Loaded, guess, slip_along
+
+if TYPE_CHECKING:
+    from .state import Question, State
 
 Array = NDArray[np.float64]
 
