@@ -26,7 +26,7 @@ LINES = {
     "live": 1140,
     "many": 740,
     "numerics": 2150,
-    "patches": 4920,
+    "patches": 4980,
     "paths": 1190,
     "plots": 960,
     "problem": 890,

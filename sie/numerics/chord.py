@@ -71,10 +71,7 @@ class Chord:
         return self.both(step, offset)[1]
 
     def both(self, step: Any, offset: Any = 0.0) -> tuple[Any, Any]:
-        """d and cos(π(x - y)/λ); on the line x - y and 1.
-
-        By the addition theorem d of a sum is d of one times the cosine of the other, and so around.
-        """
+        """d and cos(π(x - y)/λ), with which d of a sum of differences is that of a sine."""
         if not self.periodic:
             return step + offset, np.ones_like(step + offset)
         turns = np.rint(step / self.period)
