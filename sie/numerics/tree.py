@@ -35,7 +35,7 @@ Mask = NDArray[np.bool_]
 FAR = 2.0  # half-lengths of a node from its middle: its charges serve from here on
 CHARGES = 28  # of a node: (FAR + sqrt(FAR² - 1))**-CHARGES is rounding
 LEAF = 4  # rows in a leaf
-FEWEST = 48  # rows: fewer are summed as they are ...
+FEWEST = 12  # rows: fewer are summed as they are ...
 FEW = 1 << 14  # ... and rows times places: a tree takes longer
 SHORTEST = 64.0  # ulp: the half-length of a node that is no longer than the spacing of doubles
 CHUNK = 1 << 18  # entries of an array that are computed at once
@@ -226,15 +226,17 @@ def far_sums(
         total = _summed(total, at, level, (node[~smooth][pair], block, of_block), x)
     if not many.any():
         return total
-    g = np.repeat(np.arange(len(lo)), np.diff(groups.starts))
-    some = np.flatnonzero(many[g])
-    g, x, c = g[some], x[some], groups.c[g[some], None]
-    place = chord.difference(x.anchor - c, x.offset) + (c - middle[g, None])
-    T = chebyshev.polynomials(CHARGES, place / half[g, None])
-    series = chebyshev.transform(np.moveaxis(field, 1, 2))[g]
+    series = chebyshev.transform(np.moveaxis(field, 1, 2))
     total = total + np.zeros(series.shape[1])
-    field = T.transpose(1, 2, 0) @ series.transpose(0, 2, 1)
-    total[some] += field * chord.sign(x.anchor - c)[..., None] if odd else field
+    of_block = np.repeat(np.arange(len(lo)), np.diff(groups.starts))
+    inside = np.flatnonzero(many[of_block])
+    for some in parts(len(inside), CHARGES * shape[1]):
+        block, g = inside[some], of_block[inside[some]]
+        step, c = x.anchor[block] - groups.c[g, None], groups.c[g, None]
+        place = chord.difference(step, x.offset[block]) + (c - middle[g, None])
+        T = chebyshev.polynomials(CHARGES, place / half[g, None])
+        value = T.transpose(1, 2, 0) @ series[g].transpose(0, 2, 1)
+        total[block] += value * chord.sign(step)[..., None] if odd else value
     return total
 
 

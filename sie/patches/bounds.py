@@ -20,7 +20,7 @@ from sie.numerics import chebyshev
 from sie.numerics.chord import Points
 
 from .operator import Operator, intensities, on_patches
-from .panels import DEEPEST, NODES, halves
+from .panels import CLEARLY, DEEPEST, FIRST, NODES, halves
 from .state import CLOSED, Tension
 
 Array = NDArray[np.float64]
@@ -34,14 +34,13 @@ HALVED = 42  # times the distance from a concave corner is
 def tensions(o: Operator) -> tuple[tuple[Tension, ...], float]:
     """Where the patches are in tension, and the lowest bound of D over the largest D."""
     k = o.panels
-    lo, hi = k.lo, k.hi
-    panel = np.arange(len(k.lo))
     # a charge that pulls is an event of its own
     sharp = np.where(k.right, 1.0, -1.0) * o.Y[2 * k.patch + k.right] > 0.0
-    scale, lowest = 0.0, np.inf
+    panel, scale = _open(o, sharp)
+    lo, hi, lowest = k.lo[panel], k.hi[panel], np.inf
     bad: list[tuple[int, float, float, float, float]] = []
     g, _ = chebyshev.gauss_legendre(NODES)
-    for depth in range(DEEPEST):
+    for depth in range(DEEPEST if panel.size else 0):
         angle = lo[:, None] + (hi - lo)[:, None] * g
         D, x = intensities(o, panel, angle)
         finite = D[np.isfinite(D)]
@@ -69,6 +68,20 @@ def tensions(o: Operator) -> tuple[tuple[Tension, ...], float]:
     return tuple(_joined(bad)), lowest / scale if scale else 0.0
 
 
+def _open(o: Operator, sharp: NDArray[np.bool_]) -> tuple[Index, float]:
+    """The panels on which a first look leaves open whether D is positive, and the largest D."""
+    k, every = o.panels, np.arange(len(o.panels.lo))
+    g, _ = chebyshev.gauss_legendre(FIRST)
+    D, _ = intensities(o, every, k.lo[:, None] + (k.hi - k.lo)[:, None] * g)
+    with np.errstate(invalid="ignore"):
+        clear = (
+            (chebyshev.lower_bound(D) > CLEARLY * D.mean(axis=1))
+            & np.isfinite(D).all(axis=1)
+            & ~sharp
+        )
+    return np.flatnonzero(~clear), float(D[np.isfinite(D)].max(initial=0.0))
+
+
 def _at_corners(o: Operator) -> tuple[list[tuple[int, float, float, float, float]], float]:
     """Runs of tension at the concave corners on patches, as `_runs` has them, and the lowest D."""
     P, pieces = o.patches, o.pieces
@@ -83,9 +96,10 @@ def _at_corners(o: Operator) -> tuple[list[tuple[int, float, float, float, float
     ahead = np.minimum(pieces.breaks[after + 1] - corners, P.b[patch] - corners)
     halved = 0.5 ** np.arange(1.0, HALVED)
     offset = np.concatenate((-behind[:, None] * halved, ahead[:, None] * halved), axis=1)
-    corner = np.broadcast_to(corners[:, None], offset.shape)
     piece = np.where(offset < 0.0, before[:, None], after[:, None])
-    D = on_patches(o, patch, Points(corner, offset), piece)
+    places = Points(np.repeat(corners, offset.shape[1]), offset.ravel())
+    _, D = on_patches(o, np.repeat(patch, offset.shape[1]), places, piece.ravel())
+    D = D.reshape(offset.shape)
     deepest, pulls = D.min(axis=1), np.where(D < 0.0, offset, 0.0)
     left, right = -pulls.min(axis=1), pulls.max(axis=1)
     # D < 0 on half of the gap that opens there, of which a quarter at least is found

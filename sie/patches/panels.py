@@ -50,6 +50,9 @@ FARTHEST = 1e4
 LITTLE = 0.25  # of a period
 # parts of panels, on which bounds are found: the nodes of one, and how often it is halved
 NODES, DEEPEST = 8, 30
+# at a first look: the nodes of a panel, on which what varies by no more than this part of its mean
+# is positive
+FIRST, CLEARLY = 4, 0.5
 
 
 @dataclass(frozen=True, eq=False)

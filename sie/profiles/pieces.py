@@ -208,18 +208,18 @@ class Pieces(Slope):
         same = kx == ky
         total = self._rounding(kx, x, np.where(same, y, self.breaks[kx + 1]))
         total += self._rounding(ky, np.where(same, y, self.breaks[ky]), y)
-        until = np.append(0.0, np.cumsum(self._roundings))
+        until, corners = self._roundings
         total += np.maximum(until[ky] - until[np.minimum(kx + 1, ky)], 0.0)
-        corners = np.append(0.0, np.cumsum(np.abs(self.breaks[1:-1] * np.minimum(self.steps, 0.0))))
         return np.asarray(ROUNDINGS * EPS * (total + (corners[ky] - corners[kx])))
 
     @cached_property
-    def _roundings(self) -> Array:
-        """The terms of h over each piece (0 of an unbounded one)."""
+    def _roundings(self) -> tuple[Array, Array]:
+        """The terms of h over all pieces before each (0 of unbounded ones), and of its corners."""
         k = np.flatnonzero(np.isfinite(self._half))
         found = np.zeros(len(self.origins))
         found[k] = self._rounding(k, self.breaks[k], self.breaks[k + 1])
-        return found
+        corners = np.abs(self.breaks[1:-1] * np.minimum(self.steps, 0.0))
+        return np.append(0.0, np.cumsum(found)), np.append(0.0, np.cumsum(corners))
 
     def _rounding(self, k: Index, x: Array, y: Array) -> Array:
         """The terms of h(y) - h(x) on pieces k, and what the places of a series come to."""

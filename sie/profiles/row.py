@@ -307,7 +307,7 @@ class Periodic(Profile):
     @property
     def breaks(self) -> tuple[float, ...]:
         """Those in the period that begins at `start`."""
-        return tuple(float(b) for b in self.pieces.breaks[1:-1])
+        return tuple(self.pieces.breaks[1:-1].tolist())
 
     @property
     @override

@@ -120,6 +120,9 @@ CASES = {
     "half-width": (lambda v: scene(FLAT, half_width=v, tilt=0.03), 1.0, "half_width"),
     "wedge": (lambda v: scene(sie.Wedge(v)), 0.3, "profile.slope"),
     "power": (lambda v: scene(sie.Power(2.5, v)), 0.5, "profile.coefficient"),
+    "power, shifted": (
+        lambda v: scene(sie.Power(1.3, v).shifted(0.3)), 0.5, "profile.coefficient"
+    ),
     "exponent": (lambda v: scene(sie.Power(v, 0.5)), 2.5, "profile.exponent"),
     "corners": (lambda v: scene(sie.Flat(0.5), normal_load=v), 0.4, "normal_load"),
     "corners, tilt": (lambda v: scene(sie.Flat(0.5), tilt=v), 0.05, "tilt"),
