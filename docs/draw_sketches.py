@@ -245,10 +245,46 @@ def certificate(theme):
     return s.figure
 
 
+def cracks(theme):
+    s = Sketch(theme, top=-1.4, bottom=1.2)
+    s.half_plane()
+    s.indenter(rounded, top=-0.95)
+    s.arrow((0, -1.35), (0, -0.95), text="$P$", at=(0.17, -1.22))
+    s.arrow((-0.55, -0.65), (0.05, -0.65), s.red, text="$Q$", at=(-0.7, -0.65))
+    s.line([-0.75, -0.45], [0, 0], s.red, lw=4)
+    s.line([-0.45, 0.75], [0, 0], s.blue, lw=4)
+    s.dimension(-0.75, -0.45, 0.18, "$d$", s.red)
+    s.arrow((-0.75, -0.2), (-0.2, -0.2), text="$s$", at=(-0.1, -0.2))
+    s.line([-0.78, -0.75, -0.72], [0, 0.85, 0], s.ink, lw=1.8)
+    s.arrow((-0.25, 0), (-0.25, 0.85), style="<|-|>", text="$a$", at=(-0.1, 0.45))
+    for side in (-1, 1):
+        s.arrow((-0.75 + 0.1 * side, 0.6), (-0.75 + 0.4 * side, 0.6))
+    s.text(-1.5, 0.6, "$\\sigma(y)$")
+    return s.figure
+
+
+def derivatives(theme):
+    s = Sketch(theme, top=-1.45, bottom=0.7)
+    s.line([-1.8, 1.8], [0, 0])
+    x, p = hertz()
+    s.line(x, -p, s.blue)
+    s.line(1.15 * x, -1.15 * p, s.blue, ls="--")
+    inside = x[2:-2]
+    s.line(inside, -0.16 / np.sqrt(1 - inside**2), s.red, lw=1.8)
+    s.text(-0.45, -0.65, "$p$", s.blue)
+    s.text(0.0, -0.33, "$\\delta p$", s.red)
+    s.text(1.45, -0.85, "$P + \\delta P$", s.blue)
+    for sign in (-1, 1):
+        s.line([sign] * 2, [-0.1, 0.25], lw=0.8, ls=":")
+        s.line([1.15 * sign] * 2, [-0.1, 0.25], lw=0.8, ls=":")
+    s.arrow((1.0, 0.18), (1.15, 0.18), text="$\\delta b$", at=(1.08, 0.42))
+    return s.figure
+
+
 SKETCHES = {
     draw.__name__: draw
     for draw in (equation, gauss_chebyshev, kinks, edges, stress, cattaneo, spence, patches,
-                 certificate)
+                 cracks, certificate, derivatives)
 }  # fmt: skip
 
 

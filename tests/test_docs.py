@@ -93,6 +93,14 @@ def test_every_page_of_the_explanation_ends_with_three_exercises_or_more(page):
     assert len(re.findall(r"^\d+\. ", exercises, flags=re.MULTILINE)) >= 3
 
 
+@pytest.mark.parametrize("page", EXPLANATION, ids=lambda path: path.stem)
+def test_a_page_of_the_explanation_opens_with_a_sketch_and_has_equations_of_its_number(page):
+    text, index = (path.read_text(encoding="utf-8") for path in (page, page.parent / "index.md"))
+    assert "```{sketch}" in text.split("\n## ")[0]
+    number = 1 + re.findall(r"^\w+$", index, flags=re.MULTILINE).index(page.stem)
+    assert {*re.findall(r"\\tag\{(\d+)\.\d+\}", text)} <= {str(number)}
+
+
 def test_the_picture_of_the_architecture_is_that_of_the_imports():
     script = runpy.run_path(str(ROOT / "docs" / "draw_architecture.py"))
     drawn = (ROOT / "docs" / "architecture.svg").read_text(encoding="utf-8")

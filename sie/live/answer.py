@@ -49,10 +49,10 @@ def answer(setting: Setting, part: str, units: Units | None = None) -> Answer:
 
 
 def _in_the_sliders_words(setting: Setting) -> str:
-    """A slider that alone, set to 0, gives an answer: the first, as each takes a solution."""
+    """A slider that alone, set to 0, gives an answer: the first, those of little work before."""
     labels = {control.name: control.label for control in sliders(setting.file)}
     remedy = "Move the sliders nearer to their start."
-    for name in ("bulk", "tilt", "beta", "share"):
+    for name in ("beta", "bulk", "tilt", "share"):
         zero: dict[str, Any] = {name: 0.0}
         if getattr(setting, name) and _answered(replace(setting, **zero)):
             remedy = f"Set “{labels[name]}” to 0."

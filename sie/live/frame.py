@@ -6,6 +6,7 @@ a small load looks small; the page widens them where an answer exceeds them.
 
 from __future__ import annotations
 
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
@@ -63,11 +64,10 @@ def frame_of(shape: str, file: Scene | None) -> Frame:
     ContactError, ValueError
         If there is no answer at any of its loads.
     """
-    controls = {control.name: control for control in sliders(file)}
-    start = {name: control.start for name, control in controls.items()}
-    first = Setting(shape=shape, file=file, **start)
-    flats = controls["flat"].values if shape == ROUNDED else (first.flat,)
-    loads = (*controls["load"].values[::-1], first.load)
+    values = {control.name: control.values for control in sliders(file)}
+    first = Setting.of_words({"shape": shape}, file)
+    flats = values["flat"] if shape == ROUNDED else (first.flat,)
+    loads = (*values["load"][::-1], first.load)
     frames = [_first_frame(replace(first, flat=flat), loads) for flat in {flats[0], flats[-1]}]
     return Frame(
         min(frame.lo for frame in frames),
@@ -78,13 +78,10 @@ def frame_of(shape: str, file: Scene | None) -> Frame:
 
 def _first_frame(setting: Setting, loads: tuple[float, ...]) -> Frame:
     """The axes of the first of the loads that has an answer."""
-    for load in loads:
-        try:
+    for load in loads[:-1]:
+        with suppress(ContactError, ValueError):
             return _frame(solution_of(replace(setting, load=load)))
-        except (ContactError, ValueError):
-            if load == loads[-1]:
-                raise
-    raise AssertionError("there are no loads")
+    return _frame(solution_of(replace(setting, load=loads[-1])))
 
 
 def _frame(solution: Solution) -> Frame:

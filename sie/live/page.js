@@ -8,6 +8,7 @@ const figures = {};
 const REFINED = 4; // pixels of the stress between two of its points
 const LEVELS = 1000; // of heights, over that of the frame
 const PAUSE = 1000; // ms, after which a movement is a new one
+const REST = 150; // ms without a movement, before what takes longest is asked for
 let latest = 0;
 let limits = null; // of the axes, for one punch
 let shown = null; // the last answer, and the settings it belongs to
@@ -300,6 +301,8 @@ async function update() {
     const stress = await answer(values, "stress", turn);
     if (turn !== latest) return;
     showStress({ ...stress, frame: contact.frame });
+    await new Promise((resolve) => setTimeout(resolve, REST));
+    if (turn !== latest) return;
     const strength = stress.refusal ? stress : await answer(values, "strength", turn);
     if (turn !== latest) return;
     say(strength.refusal || "");

@@ -21,8 +21,8 @@ KEPT = (
     "The answers for the sliders' steps are kept in this page; <code>sie live</code> solves "
     "everything between. "
 )
-IN_RADII = "Lengths are in radii R and stresses in E*."
-OF_A_FILE = "The first punch is that of the scene file, in its units."
+IN_RADII = 'Lengths are in radii R, stresses in E*: see <a href="#letters">the symbols</a>.'
+OF_A_FILE = f"The first punch is that of the scene file, in its units. Of the others: {IN_RADII}"
 HOME = '<nav><a href="index.html">Home: what this package computes</a></nav>'
 LOADS = "10⁻⁴ E* R"
 

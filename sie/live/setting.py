@@ -23,13 +23,7 @@ KEPT = 16  # solutions at hand: the parts of one answer share one
 
 @dataclass(frozen=True)
 class Setting:
-    """Where the sliders stand.
-
-    Raises
-    ------
-    ValueError
-        From `of_words`, for a name or a number that the page does not send.
-    """
+    """Where the sliders stand."""
 
     shape: str = ROUNDED
     flat: float = 0.005
@@ -43,7 +37,10 @@ class Setting:
 
     @classmethod
     def of_words(cls, words: Mapping[str, str], file: Scene | None = None) -> Setting:
-        """The setting that a query of the page names; what it leaves out keeps its start."""
+        """The setting that a query of the page names; what it leaves out keeps its start.
+
+        ValueError for a name or a number that the page does not send.
+        """
         numbers = {control.name: control for control in sliders(file)}
         given: dict[str, Any] = {name: control.start for name, control in numbers.items()}
         for name, word in words.items():
@@ -109,7 +106,13 @@ def solution_of(setting: Setting) -> Solution:
     ValueError, ContactError
         As of `sie.solve`.
     """
-    return solve(setting.scene)
+    scene = setting.scene
+    if not (scene.coupled and (scene.tangential_load or scene.bulk_stress)):
+        return solve(scene)
+    # Dissimilar bodies are pressed once for all Q and σ under the same P.
+    pressed = solution_of(replace(setting, share=0.0, bulk=0.0))
+    _ = pressed.edges
+    return pressed.with_(tangential_load=scene.tangential_load, bulk_stress=scene.bulk_stress)
 
 
 class Rest(NamedTuple):

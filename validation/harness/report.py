@@ -22,10 +22,12 @@ from validation.harness.drawing import Drawn
 from validation.harness.records import Claim, Found, Table
 
 CSS = """
-:root { color-scheme: light; --line: #d8dee4; --soft: #57606a }
+:root { color-scheme: light dark; --line: light-dark(#d8dee4, #3d444d);
+  --soft: light-dark(#57606a, #a4adb8) }
 * { box-sizing: border-box }
 body { margin: 0 auto; max-width: 62rem; padding: 1rem; font: 16px/1.5 system-ui, sans-serif;
-  color: #1f2328; background: #fff }
+  color: light-dark(#1f2328, #e6e8eb); background: light-dark(#fff, #14181e) }
+a { color: light-dark(#0a58a8, #7db4ee) }
 h1 { font-size: 1.5rem }
 h2 { margin-top: 2.5rem; border-bottom: 1px solid var(--line); font-size: 1.25rem }
 h3 { font-size: 1rem }
@@ -33,13 +35,15 @@ nav a { display: inline-block; margin-right: .8rem }
 p.intro { white-space: pre-line; color: var(--soft) }
 .figures { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 25rem), 1fr));
   gap: 1rem }
-figure { margin: 0; min-width: 0 } figure svg { width: 100%; height: auto; display: block }
+figure { margin: 0; min-width: 0 } figure svg { width: 100%; height: auto; display: block;
+  background: #fff }
 figcaption, .note { font-size: .87rem; color: var(--soft) }
 .scroll { overflow-x: auto } table { border-collapse: collapse; font-size: .87rem; width: 100% }
 th, td { text-align: left; vertical-align: top; padding: .3rem .6rem .3rem 0;
   border-bottom: 1px solid var(--line) }
 td.number { font-variant-numeric: tabular-nums; white-space: nowrap }
-.badge { border-radius: .6rem; padding: 0 .5rem; font-weight: 600; white-space: nowrap }
+.badge { color: #1f2328; border-radius: .6rem; padding: 0 .5rem; font-weight: 600;
+  white-space: nowrap }
 .holds { background: #dafbe1 } .refuted { background: #fff8c5 }
 .fails, .blind { background: #ffebe9; color: #a40e26 }
 @media (max-width: 40rem) {

@@ -21,6 +21,6 @@ for moment in (0.0, 60.0, 120.0, 180.0, 240.0):
     above.plot(x, tilted.pressure(x), label=f"{moment / 300.0:.1f}")
     below.plot(x, 1e3 * tilted.gap(x))
 above.set(ylabel="pressure, MPa", xlabel="x, mm")
-above.legend(title="M/P, mm", ncols=2, fontsize=8)
+above.legend(title="M/P, mm", ncols=2, fontsize=8, loc="upper center")
 below.set(xlabel="x, mm", ylabel="gap, µm", ylim=(0.0, 3.0))
 plt.show()

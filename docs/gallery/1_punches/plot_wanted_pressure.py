@@ -19,16 +19,16 @@ wanted = {
 }
 fig, (upper, lower) = plt.subplots(2, sharex=True, layout="constrained")
 for name, p in wanted.items():
-    pad = sie.profile_for_pressure(p, half_width=1.0, modulus=100.0)
+    pad = sie.profile_for_pressure(p, half_width=1.0, modulus=1.0)
     theta = np.pi * (np.arange(400) + 0.5) / 400
     load = float(np.pi / 400 * (p(np.cos(theta)) * np.sin(theta)).sum())
-    solution = sie.solve(sie.Scene(profile=pad, modulus=100.0, normal_load=load))
+    solution = sie.solve(sie.Scene(profile=pad, modulus=1.0, normal_load=load))
     upper.plot(x, pad.height(x), label=name)
     for share in (1.0, 0.5):
         lighter = solution.with_(normal_load=share * load)
         lower.plot(x, lighter.pressure(x), label=f"{name}, {share:g} P")
-upper.set(xlabel="x", ylabel="height")
+upper.set(xlabel="x/b", ylabel="height h E*/(b p₀)")
 upper.legend()
-lower.set(xlabel="x", ylabel="pressure")
+lower.set(xlabel="x/b", ylabel="pressure p/p₀")
 lower.legend()
 plt.show()

@@ -22,13 +22,14 @@ pad = sie.solve(
     )
 )
 x = np.linspace(*pad.edges, 1001)
+limit = 0.6 * pad.pressure(x)
 fig, ax = plt.subplots(layout="constrained")
-ax.fill_between(x, -0.6 * pad.pressure(x), 0.6 * pad.pressure(x), color="0.92", label="|q| <= f p")
+ax.fill_between(x, -limit, limit, color="0.92", label="|q| ≤ f p")
 for k, sigma in enumerate((0.0, 60.0, 120.0, 240.0)):
     loaded = pad.with_(bulk_stress=sigma)
     ax.plot(x, loaded.shear(x), color=f"C{k}", label=f"σ = {sigma:.0f} MPa")
     for zone in loaded.stick:
-        ax.plot(zone, [-130 - 6 * k] * 2, color=f"C{k}", linewidth=3)
+        ax.plot(zone, [-(1.1 + 0.06 * k) * limit.max()] * 2, color=f"C{k}", linewidth=3)
 ax.set(xlabel="x, mm", ylabel="shear traction, MPa (bars: stick zones)")
 fig.legend(loc="outside right upper")
 plt.show()

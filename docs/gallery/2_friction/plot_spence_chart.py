@@ -29,8 +29,11 @@ def stick_ratio(beta, friction):
     return sie.solve(scene).stick[0][1]
 
 
-betas, frictions = np.linspace(0.02, 0.5, 17), np.linspace(0.05, 1.0, 17)
-ratios = np.array([[stick_ratio(b, f) for b in betas.tolist()] for f in frictions.tolist()])
+# Along lines of β/f, between which c/b changes little
+frictions = np.linspace(0.05, 1.0, 12)[:, None]
+betas = frictions * np.geomspace(0.25, np.minimum(5.0, 0.5 / frictions[:, 0]), 12).T
+frictions = np.broadcast_to(frictions, betas.shape)
+ratios = np.vectorize(stick_ratio)(betas, frictions)
 
 # %%
 # The chart
@@ -54,5 +57,5 @@ ax.clabel(lines, fmt=dict(zip(levels, map(str, shares))), fontsize=8)
 point = abs(punch.beta), punch.friction
 ax.plot(*point, "ko")
 ax.annotate("steel on titanium", point, (0.03, 0.6), arrowprops={"arrowstyle": "-"})
-ax.set(xlabel="Dundurs' β", ylabel="coefficient of friction f", title="c/b")
+ax.set(xlabel="Dundurs' β", ylabel="coefficient of friction f", title="c/b", xlim=(0.0, 0.5))
 plt.show()

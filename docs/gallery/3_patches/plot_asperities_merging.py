@@ -20,11 +20,11 @@ answers = [
     for P in loads.tolist()
 ]
 for k in (4, 12, 18, 23):
-    axes[0].plot(x, answers[k].pressure(x), label=f"P = {loads[k]:.2f}")
-axes[0].set(xlabel="x", ylabel="pressure p/E*")
+    axes[0].plot(x, answers[k].pressure(x), label=f"P/(E* L) = {loads[k]:.2f}")
+axes[0].set(xlabel="x/L", ylabel="pressure p/E*")
 fig.legend(loc="outside right upper")
 for P, answer in zip(loads, answers):
     for patch in answer.patches:
         axes[1].plot(patch, [P, P], color="C0", linewidth=1.5)
-axes[1].set(xlabel="x", ylabel="load P/E*", yscale="log")
+axes[1].set(xlabel="x/L", ylabel="load P/(E* L)", yscale="log")
 plt.show()

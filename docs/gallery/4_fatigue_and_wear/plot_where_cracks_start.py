@@ -23,7 +23,7 @@ x = np.linspace(-2.0, 2.0, 1601)
 fig, ax = plt.subplots(layout="constrained")
 for share in (0.0, 0.3, 0.6, 0.9):
     pushed = pad.with_(tangential_load=share * 0.6 * 350.0)
-    (line,) = ax.plot(x, pushed.surface_stress(x).xx, label=f"Q = {share:g} f P")
+    (line,) = ax.plot(x, pushed.surface_stress(x).xx, label=f"Q/(f P) = {share:g}")
     peak = pushed.peak_tension()
     if peak.value > 0.0:
         ax.plot(peak.x, peak.value, "o", color=line.get_color())

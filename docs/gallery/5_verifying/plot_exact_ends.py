@@ -43,8 +43,7 @@ axes.quiver(
     color="C0",
 )
 axes.plot([-1, 1], [0, 0], color="C3", linewidth=3, label="contact")
-axes.set(xlabel="x, mm", ylabel="depth y, mm", aspect="equal")
-axes.invert_yaxis()
+axes.set(xlabel="x, mm", ylabel="depth y, mm", aspect="equal", xlim=(-4.8, 4.8), ylim=(4.4, -0.8))
 fig.legend(loc="outside upper center", ncols=2)
 plt.show()
 

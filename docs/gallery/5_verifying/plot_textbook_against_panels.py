@@ -2,9 +2,9 @@
 The textbook's collocation beside exact panels
 ==============================================
 
-Gauss-Chebyshev collocation (`sie.teaching`) of three punches, all pressed until the contact is
-(-1, 1). It is excellent for a smooth slope. At a kink it converges like a low power of n, while the
-panels of the package, which are exact between kinks, have nothing to converge.
+Gauss-Chebyshev collocation of three punches, all pressed until the contact is (-1, 1). It is
+excellent for a smooth slope. At a kink it converges like a low power of n, while the panels of the
+package, which are exact between kinks, have nothing to converge.
 """
 
 import matplotlib.pyplot as plt
