@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from functools import cached_property, partial
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -17,14 +16,7 @@ from sie.traction.in_contact import InContact
 from .step import Loaded
 from .traction import EDGE, REACH, OnPieces, Piece, places, tabulated
 
-if TYPE_CHECKING:
-    pass
-
 Array = NDArray[np.float64]
-
-LEAST = 1e-300
-ONE = 1e-13  # of the contact: marks that are nearer are one
-PRESSED = 1e-9  # of P: what the state of the normal load may miss
 
 
 class View:
