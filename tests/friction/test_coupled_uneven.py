@@ -107,7 +107,7 @@ def test_the_body_yields_first_where_no_other_place_is_stressed_more():
 
 def on_a_grid(state, n):
     """The printed equations increment by increment, between the edges of the state's growth."""
-    s = state.s * np.linspace(0.0, 1.0, n + 1)[1:]
+    s = state.half_width * np.linspace(0.0, 1.0, n + 1)[1:]
     middles = [state.frozen.middle(one) for one in s]
     edges = np.array([(m - one, m + one) for m, one in zip(middles, s, strict=True)])
     last = 2.0 * edges[-1] - edges[-2]  # of the outermost cells, where p is 0
@@ -124,7 +124,7 @@ def test_a_grid_with_the_same_edges_finds_the_load_and_no_shear_load():
         P, Q = grid.loads
         errors.append(abs(P / 0.5 - 1.0))
         assert abs(Q) < 1e-3 * P
-        width = 2.0 * state.s / len(grid.x)
+        width = 2.0 * state.half_width / len(grid.x)
         ((lo, hi),) = solution.stick
         sticking = grid.x[grid.sticks]
         assert sticking[0] == pytest.approx(lo, abs=2.0 * width)

@@ -19,13 +19,7 @@ if TYPE_CHECKING:
 
     from .step import Loaded
 
-    pass
-
 Array = NDArray[np.float64]
-
-LEAST = 1e-300
-ONE = 1e-13  # of the contact: marks that are nearer are one
-PRESSED = 1e-9  # of P: what the state of the normal load may miss
 
 
 class View:

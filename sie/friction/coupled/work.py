@@ -217,9 +217,9 @@ class Way:
 
 def power(state: State, dQ: float, strain: float) -> float:
     """∫ f p |dg| dx of a rate."""
-    rates = state.rates(dQ, strain)
-    slip = slip_along(state, rates.at, rates.gamma - strain)
-    lost = rates.at.weight * state.question.friction * state.pressure_in_slip(rates.at) * slip
+    at, growth = state.rates(dQ, strain)
+    slip = slip_along(state, at, growth - strain)
+    lost = at.weight * state.question.friction * state.pressure_in_slip(at) * slip
     if lost[lost < 0.0].sum() < -TURNED * lost.sum():
         raise _unknown()
     return float(lost.sum())
