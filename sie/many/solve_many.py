@@ -182,14 +182,8 @@ class Many:
 
     def _answer(self, k: int) -> str:
         """Solve one scene by itself; why it has no answer, or ""."""
-        profile, own = self._profile, {name: float(v[k]) for name, v in self._own.items()}
-        loads: dict[str, Any] = {name: float(v[k]) for name, v in self._loads.items()}
         try:
-            if not isinstance(profile, Profile):
-                profile = FromFunction(partial(profile, **own))
-            elif own:
-                profile = type(profile)(*own.values())
-            solution = solve(Scene(profile=profile, **loads))
+            solution = self._solution(k)
             m, P, M = solution.centre, solution.normal_load, solution.moment
             _ = solution.stick
         except (ContactError, ValueError) as problem:
@@ -199,6 +193,16 @@ class Many:
             mine[k] = new
         self._alone[k] = solution
         return ""
+
+    def _solution(self, k: int, **more: Any) -> Solution:
+        """The solution of one scene, with more of its numbers."""
+        profile, own = self._profile, {name: float(v[k]) for name, v in self._own.items()}
+        loads: dict[str, Any] = {name: float(v[k]) for name, v in self._loads.items()}
+        if not isinstance(profile, Profile):
+            profile = FromFunction(partial(profile, **own))
+        elif own:
+            profile = type(profile)(*own.values())
+        return solve(Scene(profile=profile, **loads, **more))
 
     # -- answers -----------------------------------------------------------------------------------
 
@@ -264,6 +268,24 @@ class Many:
                 lo, hi = places[every, np.clip((k - 1, k + 1), 0, p.shape[1] - 1)]
                 places = np.linspace(lo, hi, PLACES, axis=1)
         return self._shaped(best)
+
+    def elastic_limit(self, poisson: float) -> Array:
+        """The load P/k at first yield by von Mises' criterion, found scene by scene in some ms.
+
+        Parameters
+        ----------
+        poisson : float
+            ν of the bodies, between 0 and 0.5.
+
+        Returns
+        -------
+        ndarray of float
+            `YieldPoint.load`, a length, of shape `shape`; nan where a scene is refused.
+        """
+        out = np.full(len(self._family), np.nan)
+        for k in np.flatnonzero(self.refused.ravel() == "").tolist():
+            out[k] = self._solution(k, poisson=poisson).elastic_limit().load
+        return self._shaped(out)
 
     @cached_property
     def stick(self) -> Array:
