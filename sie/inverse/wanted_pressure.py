@@ -23,7 +23,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -33,8 +33,9 @@ from sie import arguments
 from sie.numerics import chebyshev
 from sie.profiles.base import Profile
 from sie.profiles.from_function import FromFunction
-from sie.profiles.resolution import resolved
+from sie.profiles.pieces import Pieces, from_slope
 from sie.profiles.row import Row
+from sie.profiles.slope import function_slope
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -50,26 +51,9 @@ PLACES = 1 << 12  # evaluated together
 SHOWN = 17  # places of a piece at which tension is looked for
 
 
-class Pieces(NamedTuple):
-    """A function on pieces: their ends (K + 1,), and Chebyshev coefficients (D, K)."""
-
-    ends: Array
-    series: Array
-
-    def __call__(self, x: Array) -> Array:
-        """Its values at x, between the ends."""
-        ends = self.ends
-        k = np.clip(np.searchsorted(ends, x, "right") - 1, 0, len(ends) - 2)
-        s = ((x - ends[k]) - (ends[k + 1] - x)) / (ends[k + 1] - ends[k])
-        return np.asarray(chebyshev.evaluate(self.series[:, k], s))
-
-
 def _on_pieces(function: Callable[[Array], Array], cuts: Array, tolerance: float) -> Pieces:
-    """A function that is smooth between the cuts."""
-    ends, degrees = resolved(function, cuts, tolerance)
-    s = chebyshev.points(int(degrees.max()) + 1)
-    middle, half = 0.5 * (ends[1:] + ends[:-1])[:, None], 0.5 * np.diff(ends)[:, None]
-    return Pieces(ends, chebyshev.transform(function(middle + half * s)).T)
+    """The series of a function that is smooth between the cuts."""
+    return from_slope(function_slope(cuts.tolist(), function), (cuts[0], cuts[-1]), tolerance)
 
 
 @dataclass(frozen=True, eq=False)
@@ -91,7 +75,7 @@ class Patch:
         pole = np.arccos((self.m - x.astype(complex)) / self.r)
         image = np.where(pole.real < 0.5 * np.pi, -pole, 2.0 * np.pi - pole)
         both, total = np.concatenate((pole, image)), np.zeros(2 * len(x))
-        for lo, hi, c in zip(self.pressure.ends, self.pressure.ends[1:], self.pressure.series.T):
+        for (lo, hi), c in zip(pairwise(self.pressure.breaks), self.pressure.series, strict=True):
             total += _of_panel(lo, hi, c, both)
         return -0.5 * (total[: len(x)] + total[len(x) :])
 
@@ -142,7 +126,7 @@ class Extended:
 
     def __call__(self, x: Array) -> Array:
         """h' at an array of x."""
-        within = np.clip(x, self.inside.ends[0], self.inside.ends[-1])
+        within = np.clip(x, *self.inside.domain)
         return self.inside(within) + self.steepness * (x - within)
 
 
@@ -265,18 +249,18 @@ def _patch(p: Any, lo: float, hi: float, breaks: Sequence[float]) -> Patch:
     if not callable(p):
         of_angle = PchipInterpolator(knots, given)
     pressure = _on_pieces(of_angle, np.unique([0.0, 0.5 * np.pi, np.pi, *knots]), TOLERANCE)
-    ends, series = pressure
+    ends, series = pressure.breaks, pressure.series
     theta = np.linspace(ends[:-1], ends[1:], SHOWN)
     values = of_angle(theta)
     if values.min() < -VANISHES * np.abs(values).max():
         x = float(m - r * np.cos(theta.flat[np.argmin(values)]))
         raise ValueError(f"p = {values.min():.6g} at x = {x:.6g} is a tension: give p >= 0")
     # without the rounding of a pressure that vanishes at an edge
-    at_edges = series[:, 0] @ (-1.0) ** np.arange(len(series)), series[:, -1].sum()
+    at_edges = series[0] @ (-1.0) ** np.arange(len(series[0])), series[-1].sum()
     vanishes = tuple(abs(value) <= VANISHES * np.abs(series).max() for value in at_edges)
     for k, value, held in zip((0, -1), at_edges, vanishes, strict=True):
         if held:
-            series[:2, k] -= 0.5 * value * np.array([1.0, 1.0 if k else -1.0])[: len(series)]
+            series[k, :2] -= 0.5 * value * np.array([1.0, 1.0 if k else -1.0])[: len(series[k])]
     return Patch(m, r, pressure, vanishes)
 
 

@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from sie import arguments
+from sie.answers.body import BodyAnswers
 from sie.answers.sheared import Sheared
 from sie.errors import ContactError
 from sie.problem.coverage import refuse_uncovered
@@ -123,6 +124,10 @@ def many(
     return Many(profile, own, numbers, shape, alone)
 
 
+class Alone(BodyAnswers, Sheared):
+    """What is asked of a scene that no family answers."""
+
+
 class Many:
     """The contacts of many scenes; `solve_many` makes it.
 
@@ -144,7 +149,7 @@ class Many:
         n, self._families = math.prod(shape), families(profile, tuple(own))
         self._family = np.full(n, ALONE, dtype=np.int8)
         self._found = Contact(*(np.full(n, np.nan) for _ in range(4)))
-        self._alone: dict[int, Sheared] = {}
+        self._alone: dict[int, Alone] = {}
         with np.errstate(all="ignore"):
             for some in _chunks(n, CHUNK):
                 for number in range(len(self._families)):
@@ -183,16 +188,8 @@ class Many:
 
     def _answer(self, k: int) -> str:
         """Solve one scene by itself; why it has no answer, or ""."""
-        profile, own = self._profile, {name: float(v[k]) for name, v in self._own.items()}
-        loads: dict[str, Any] = {name: float(v[k]) for name, v in self._loads.items()}
         try:
-            if not isinstance(profile, Profile):
-                profile = FromFunction(partial(profile, **own))
-            elif own:
-                profile = type(profile)(*own.values())
-            scene = Scene(profile=profile, **loads)
-            refuse_uncovered(scene)
-            solution = Sheared(scene)
+            solution = self._solution(k)
             m, P, M = solution.centre, solution.normal_load, solution.moment
             _ = solution.stick
         except (ContactError, ValueError) as problem:
@@ -202,6 +199,18 @@ class Many:
             mine[k] = new
         self._alone[k] = solution
         return ""
+
+    def _solution(self, k: int, **more: Any) -> Alone:
+        """The solution of one scene, with more of its numbers."""
+        profile, own = self._profile, {name: float(v[k]) for name, v in self._own.items()}
+        loads: dict[str, Any] = {name: float(v[k]) for name, v in self._loads.items()}
+        if not isinstance(profile, Profile):
+            profile = FromFunction(partial(profile, **own))
+        elif own:
+            profile = type(profile)(*own.values())
+        scene = Scene(profile=profile, **loads, **more)
+        refuse_uncovered(scene)
+        return Alone(scene)
 
     # -- answers -----------------------------------------------------------------------------------
 
@@ -267,6 +276,24 @@ class Many:
                 lo, hi = places[every, np.clip((k - 1, k + 1), 0, p.shape[1] - 1)]
                 places = np.linspace(lo, hi, PLACES, axis=1)
         return self._shaped(best)
+
+    def elastic_limit(self, poisson: float) -> Array:
+        """The load P/k at first yield by von Mises' criterion, found scene by scene in some ms.
+
+        Parameters
+        ----------
+        poisson : float
+            ν of the bodies, between 0 and 0.5.
+
+        Returns
+        -------
+        ndarray of float
+            `YieldPoint.load`, a length, of shape `shape`; nan where a scene is refused.
+        """
+        out = np.full(len(self._family), np.nan)
+        for k in np.flatnonzero(self.refused.ravel() == "").tolist():
+            out[k] = self._solution(k, poisson=poisson).elastic_limit().load
+        return self._shaped(out)
 
     @cached_property
     def stick(self) -> Array:

@@ -102,12 +102,13 @@ def evaluate_second_kind(c: Array, s: Any) -> Any:
 
 def polynomials(n: int, s: Array) -> Array:
     """T_0(s) ... T_{n-1}(s), stacked along a new first axis."""
-    t = np.empty((n, *s.shape))
+    t, twice = np.empty((n, *s.shape)), 2.0 * s
     t[0] = 1.0
     if n > 1:
         t[1] = s
     for k in range(2, n):
-        t[k] = 2.0 * s * t[k - 1] - t[k - 2]
+        np.multiply(twice, t[k - 1], out=t[k])
+        t[k] -= t[k - 2]
     return t
 
 

@@ -38,7 +38,7 @@ Index = NDArray[np.int64]
 
 
 BLOCK = 16  # places in a block
-SHARED = 16  # panels, about, on which the blocks share their far sums
+SHARED = 24  # panels, about, on which the blocks share their far sums
 
 
 @dataclass(frozen=True, eq=False)

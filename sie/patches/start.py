@@ -24,7 +24,7 @@ ITERATIONS, PRECONDITIONED = 400, 200  # on one grid
 # noise some comes with every step
 SELDOM = 5
 # relative changes of the pressure in a step: below them a grid is done, and may be used
-STILL, LAST = 1e-5, 5e-5
+STILL, LAST = 1e-5, 2e-4
 
 
 class Grid(NamedTuple):

@@ -261,18 +261,25 @@ def _not_a_knot(step: Array, chord: Array, tail: Array) -> Array:
     from scipy.linalg import solve_banded  # noqa: PLC0415 -- heavy, and for traces only
 
     bends = np.diff(chord) + np.diff(tail)
-    first, last = step[0] / step[1], step[-1] / step[-2]
-    system = np.zeros((3, len(bends)))
+    system, first, last = not_a_knot_bands(step)
+    inner = solve_banded((1, 1), system, 6.0 * bends, check_finite=False)
+    return np.concatenate(([first @ inner[:2]], inner, [last @ inner[-2:]]))
+
+
+def not_a_knot_bands(step: Array) -> tuple[Array, Array, Array]:
+    """The bands (3, n - 2) of the equations of the inner f'', and the outer ones by the next two.
+
+    They make the rises of the chords, times 6.
+    """
+    begin, end = step[0] / step[1], step[-1] / step[-2]
+    system = np.zeros((3, len(step) - 1))
     system[1] = 2.0 * (step[:-1] + step[1:])
     system[0, 1:] = system[2, :-1] = step[1:-1]
-    system[1, 0] += step[0] * (1.0 + first)
-    system[0, 1] -= step[0] * first
-    system[1, -1] += step[-1] * (1.0 + last)
-    system[2, -2] -= step[-1] * last
-    inner = solve_banded((1, 1), system, 6.0 * bends, check_finite=False)
-    start = inner[0] + first * (inner[0] - inner[1])
-    end = inner[-1] + last * (inner[-1] - inner[-2])
-    return np.concatenate(([start], inner, [end]))
+    system[1, 0] += step[0] * (1.0 + begin)
+    system[0, 1] -= step[0] * begin
+    system[1, -1] += step[-1] * (1.0 + end)
+    system[2, -2] -= step[-1] * end
+    return system, np.array([1.0 + begin, -begin]), np.array([-end, 1.0 + end])
 
 
 def _reinsch(x: Array, h: Array, lam: float) -> Array:

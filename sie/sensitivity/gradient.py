@@ -30,6 +30,7 @@ from sie.contact.known_contact import Normal
 from sie.errors import ContactError
 from sie.numerics.interval import Interval
 from sie.profiles.sampled import Sampled
+from sie.profiles.splines import not_a_knot_bands
 
 from .contact_rate import Response, integrals_of, response
 from .derivative import Derivative, OfPatches, peaks
@@ -268,17 +269,11 @@ def transposed_spline(x: Array, first: float, weights: Array) -> Array:
     # f'(x0) = chord - step (2 γ0 + γ1)/6
     w[:2] -= first * step[0] * np.array([2.0, 1.0]) / 6.0
     out[:2] += first * np.array([-1.0, 1.0]) / step[0]
-    begin, end = step[0] / step[1], step[-1] / step[-2]
+    system, begin, end = not_a_knot_bands(step)
+    system[0, 1:], system[2, :-1] = system[2, :-1].copy(), system[0, 1:].copy()  # transposed
     inner = w[1:-1].copy()
-    inner[:2] += w[0] * np.array([1.0 + begin, -begin])
-    inner[-2:] += w[-1] * np.array([-end, 1.0 + end])
-    system = np.zeros((3, len(inner)))  # the transpose: its bands change places
-    system[1] = 2.0 * (step[:-1] + step[1:])
-    system[2, :-1] = system[0, 1:] = step[1:-1]
-    system[1, 0] += step[0] * (1.0 + begin)
-    system[2, 0] -= step[0] * begin
-    system[1, -1] += step[-1] * (1.0 + end)
-    system[0, -1] -= step[-1] * end
+    inner[:2] += w[0] * begin
+    inner[-2:] += w[-1] * end
     bends = 6.0 * solve_banded((1, 1), system, inner, check_finite=False)
     chords = np.append(0.0, bends) - np.append(bends, 0.0)
     out[1:] += chords / step

@@ -197,3 +197,23 @@ def test_a_sweep_with_a_point_without_answer_names_it_as_before():
     swept = sie.sweep(PUNCH, {"normal_load": [*np.linspace(0.1, 1.0, 40), -1.0]}, "half_width")
     reasons = np.asarray(swept["reason"])
     assert "normal_load" in reasons[-1] and not any(reasons[:-1])
+
+
+def test_the_elastic_limit_of_many_is_that_of_each():
+    punches, loads = (
+        sie.RoundedFlat(half_flat=np.array([0.3, 0.6, 0.6]), radius=1.0),
+        [0.5, 0.5, -1.0],
+    )
+    many = sie.solve_many(
+        punches, modulus=2.0, normal_load=loads, friction=0.3, tangential_load=0.1
+    )
+    each = sie.solve(
+        sie.Scene(
+            profile=sie.RoundedFlat(0.6, 1.0), modulus=2.0, poisson=0.3, normal_load=0.5,
+            friction=0.3, tangential_load=0.1,
+        )
+    )  # fmt: skip
+    found = many.elastic_limit(poisson=0.3)
+    assert found[1] == pytest.approx(each.elastic_limit().load, rel=1e-12)
+    assert found[0] < found[1]
+    assert np.isnan(found[2])
