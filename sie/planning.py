@@ -11,7 +11,6 @@ from html import escape
 
 from .problem.request import ECONOMY, sheared, wanted
 from .problem.scene import Scene, refuse_no_scene
-from .profiles.row import asks_for_patches
 
 BODY = ("stress", "yield", "tension", "cycle", "crack")  # what is asked of the stress in the body
 # The stages of `Solution` that answer what is asked for, beside the contact itself: where the shear
@@ -125,7 +124,7 @@ def plan(
     no_shear: dict[str, tuple[str, ...]] = dict.fromkeys(("shear", "energy"), ())
     needed = TWO_PROBLEMS | ({} if sheared(scene, economy) or scene.epsilon else no_shear)
     stages = {stage for name in names for stage in needed[name]}
-    patches = asks_for_patches(scene.profile)
+    patches = scene.profile.of_several
     steps = (
         *(_of_patches(scene) if patches else _of_one_patch(scene, economy)),
         _tilt(scene),
@@ -267,7 +266,7 @@ def _expansion(scene: Scene, economy: Collection[str]) -> str:
     """How the pressure is written."""
     hows = (
         (
-            asks_for_patches(scene.profile),
+            scene.profile.of_several,
             "values of the slope on all patches, summed: no unknown but the edges",
         ),
         (bool(scene.epsilon), "exact panels with the edges' exponents"),
@@ -281,7 +280,7 @@ def _expansion(scene: Scene, economy: Collection[str]) -> str:
 def _convexity(scene: Scene, economy: Collection[str]) -> Step:
     profile = scene.profile
     skipped = (
-        (asks_for_patches(profile), "not asked: patches are found whatever the profile"),
+        (profile.of_several, "not asked: patches are found whatever the profile"),
         (
             profile.convex and "convexity" in economy,
             "the profile is known to be convex: one patch, p > 0",
@@ -315,7 +314,7 @@ def _slip(scene: Scene, asked: bool, economy: Collection[str]) -> Step:
         (not sheared(scene, economy), "Q = 0 and no bulk stress: there is no shear traction"),
         (not asked, "not asked for"),
     )
-    patches = " on all patches" * asks_for_patches(scene.profile)
+    patches = " on all patches" * scene.profile.of_several
     how = f"zones of stick and slip for Q at constant P, slip in one direction{patches}"
     both = "zones of stick and slip for Q and σ in proportion: one direction or two, by the"
     return _step("slip", skipped, f"{both} inequalities" if scene.tau else how, "tangential")
@@ -335,6 +334,6 @@ def _corrective(scene: Scene, economy: Collection[str]) -> Step:
         how += "; not where slip goes both ways"
     elif scene.profile.pieces.has_zero:
         how += "; none if nothing but the flat base sticks"
-    if asks_for_patches(scene.profile):
+    if scene.profile.of_several:
         how = "the patches under P - |Q|/f are the stick zones: found as those under P"
     return _step("corrective", skipped, how)

@@ -218,9 +218,6 @@ def test_the_cells_of_a_page_run_in_order(page, tmp_path, monkeypatch, capsys):
     assert all(energy == pytest.approx(told[0], rel=0.01) for energy in told)
 
 
-# -- the README ------------------------------------------------------------------------------------
-
-
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 SNIPPETS = re.findall(r"```python\n(.*?)```", README, flags=re.DOTALL)
 

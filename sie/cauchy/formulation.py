@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,9 +14,11 @@ from sie import arguments
 from sie.errors import ContactError
 from sie.numerics import jacobi
 from sie.numerics.interval import EPS
-from sie.numerics.jacobi_weight import Weight
 
 from .interval_map import Affine, Map
+
+if TYPE_CHECKING:
+    from sie.numerics.jacobi_weight import Weight
 
 Array = NDArray[Any]
 Function = Callable[[Array], Any] | complex

@@ -28,13 +28,15 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from sie.numerics.jacobi_weight import Weight
 from sie.numerics.lerch import log1p
+
+if TYPE_CHECKING:
+    from sie.numerics.jacobi_weight import Weight
 
 Array = NDArray[Any]
 

@@ -11,16 +11,18 @@ perturbation.
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from sie.numerics import jacobi
 from sie.numerics.interval import EPS
-from sie.numerics.jacobi_weight import Weight
 
-from .interval_map import Map
+if TYPE_CHECKING:
+    from sie.numerics.jacobi_weight import Weight
+
+    from .interval_map import Map
 
 Array = NDArray[Any]
 

@@ -29,7 +29,7 @@ from sie.numerics.gauss_jacobi import gauss_jacobi
 from sie.numerics.interval import EPS
 from sie.problem.scene import Scene
 from sie.progress_bar import reported
-from sie.traction.in_contact import InContact
+from sie.traction.base import InContact
 
 from .result import Certificate, ShearCertificate
 from .shear_check import ENDS, excess

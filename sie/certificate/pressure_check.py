@@ -25,7 +25,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie.contact.edge_integrals import edge_integrals
-from sie.contact.gap import intervals_below, relative_gaps
+from sie.contact.gap import relative_gaps
 from sie.contact.small_strains import notes, regular_points
 from sie.numerics.chord import Points
 from sie.numerics.interval import EPS, Interval
@@ -37,7 +37,7 @@ from sie.progress_bar import reported
 from sie.traction.of_slope import SlopeDensity
 
 from .quadrature import Rule, composite_rule, finite
-from .result import Certificate, unresolved
+from .result import TOLERATED, Certificate, Intervals, unresolved
 
 Array = NDArray[np.float64]
 
@@ -202,4 +202,26 @@ def _rounding(density: SlopeDensity, change: Array, rule: Rule, p: Array) -> tup
     near = np.clip(np.searchsorted(x, at), 1, len(x) - 1) - 1
     return float(weight @ moved), float(
         (of_value[near] + density.half_modulus * np.abs(change)).max()
+    )
+
+
+def intervals_below(x: Array, values: Array) -> Intervals:
+    """The intervals where values are below -TOLERATED.
+
+    They begin and end where values change sign between two of the points.
+    """
+    order = np.argsort(x, kind="stable")
+    x, values = x[order], values[order]
+    low = np.concatenate(([False], values < -TOLERATED, [False]))
+    starts, ends = np.flatnonzero(low[1:] & ~low[:-1]), np.flatnonzero(low[:-1] & ~low[1:]) - 1
+
+    def crossing(inner: int, outer: int) -> float:
+        outer = min(max(outer, 0), len(x) - 1)
+        rise = values[outer] - values[inner]
+        crosses = values[outer] > 0.0 and np.isfinite(rise)
+        return float(x[inner] - ((x[outer] - x[inner]) * values[inner] / rise if crosses else 0.0))
+
+    return tuple(
+        (crossing(i, i - 1), crossing(j, j + 1))
+        for i, j in zip(starts.tolist(), ends.tolist(), strict=True)
     )

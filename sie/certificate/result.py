@@ -10,8 +10,9 @@ from html import escape
 from typing import Any
 
 from sie.arguments import as_numbers
-from sie.contact.gap import TOLERATED, Intervals, shown
 from sie.numerics.interval import EPS
+
+Intervals = tuple[tuple[float, float], ...]
 
 PROMISE = (
     "At a distance d from the nearer edge the pressure is wrong by at most 3 (error + edges "
@@ -25,6 +26,8 @@ BESIDES = (
 # r over the distances from an edge at which the promise is given in numbers
 NEARER = {1.0: "r, half of the width", 1e2: "r/100", 1e4: "r/10000"}
 WIDE = 79  # columns of a terminal
+TOLERATED = 1e-11  # of the peak: tension or overlap below it is rounding
+NAMED = 3  # intervals that a message names
 LEAST = 8.0 * EPS  # rounding of single pressures, which the integrals average out ...
 # what one ulp of x does may add up to this multiple in a principal value next to a corner
 EXPLAINED = 16.0
@@ -243,3 +246,9 @@ def _largest(*defects: float) -> float:
 
 def _allowed(tol: float, abscissae: float) -> float:
     return tol + min(EXPLAINED * abscissae, MOST_EXPLAINED)
+
+
+def shown(intervals: Intervals) -> str:
+    """Intervals as a message has them."""
+    shown = ", ".join(f"[{lo:.6g}, {hi:.6g}]" for lo, hi in intervals[:NAMED])
+    return f"x in {shown}{f' and {len(intervals) - NAMED} more' if len(intervals) > NAMED else ''}"

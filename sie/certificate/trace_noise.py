@@ -33,7 +33,7 @@ from sie.patches.newton import response
 from sie.problem.scene import Scene
 from sie.profiles.base import Profile
 from sie.profiles.fitting import Gap
-from sie.profiles.pieces import of_profile
+from sie.profiles.of_profile import of_profile
 from sie.profiles.placed_traces import PlacedTrace, traces_in
 from sie.profiles.row import Periodic
 from sie.profiles.sampled import Sampled

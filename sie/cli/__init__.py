@@ -204,7 +204,7 @@ def _benchmark_set(arguments: argparse.Namespace) -> int:
     from sie.io.benchmark_set import benchmark_set
 
     folder = files.empty_folder(arguments.folder)
-    contents = {folder / name: data for name, data in benchmark_set().items()}
+    contents = {folder / name: data for name, data in benchmark_set(_solution).items()}
     for path in contents:
         path.parent.mkdir(parents=True, exist_ok=True)
     with files.writing(contents):
@@ -259,7 +259,7 @@ def _progress(arguments: argparse.Namespace) -> Progress:
     return Progress(f"sie {arguments.command}", shown=not arguments.quiet)
 
 
-def _solution(file: SceneFile, tol: float) -> Solution:
+def _solution(file: SceneFile, tol: float = TOL) -> Solution:
     """The solution of the scene, or of the last point of its path."""
     if not file.load_path:
         return solve(file.scene, tol=tol)

@@ -9,14 +9,12 @@ from __future__ import annotations
 
 import math
 from functools import lru_cache
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from sie.numerics import chebyshev
-from sie.numerics.interval import Interval
-from sie.profiles.slope import Row, Slope
 from sie.traction.piece_quadrature import (
     NARROW_ANGLE,
     Geometry,
@@ -24,6 +22,10 @@ from sie.traction.piece_quadrature import (
     narrow_order,
     quadrature_order,
 )
+
+if TYPE_CHECKING:
+    from sie.numerics.interval import Interval
+    from sie.profiles.slope import Row, Slope
 
 Array = NDArray[np.float64]
 

@@ -33,13 +33,16 @@ import math
 from bisect import bisect_left
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from sie.numerics.interval import EPS, Interval, two_sum
 from sie.numerics.root_finding import Bracket
 from sie.profiles.resolution import rounding_noise
-from sie.profiles.slope import Slope
 
-from .edge_integrals import EdgeIntegrals
+if TYPE_CHECKING:
+    from sie.profiles.slope import Slope
+
+    from .edge_integrals import EdgeIntegrals
 
 # A residual is rounding below so many units of its terms: the roots and the angle of each piece,
 # its sines, its weights, Horner's rule and the sum round it once or twice each.

@@ -29,7 +29,7 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -37,12 +37,14 @@ from sie.errors import ContactError, LoadError
 from sie.numerics.interval import EPS, Interval, interval_about, two_sum
 from sie.numerics.root_finding import ROUGH, logarithmic_root
 from sie.profiles.lowest_points import lowest_points
-from sie.profiles.slope import Slope
 
 from .edge_integrals import EdgeIntegrals, edge_integrals
 from .edge_refinement import MAX_POLISHING, Polish
 from .first_guess import first_guess, of_linear_rise
 from .known_contact import Edges
+
+if TYPE_CHECKING:
+    from sie.profiles.slope import Slope
 
 MISSED = 1e-6  # of the load: a search that ends with more has not found a contact
 # Newton from a neighbouring contact is given up unless its first step is below this fraction of the

@@ -26,7 +26,6 @@ from sie.traction.of_slope import SlopeDensity
 from .convexity import rises, rises_at
 
 Array = NDArray[np.float64]
-Intervals = tuple[tuple[float, float], ...]
 
 NODES = 20
 DEGREE = 8.0  # of a series that they integrate over a panel
@@ -37,15 +36,12 @@ DOUBLED: Array = np.geomspace(1.0, 1024.0, 11)
 LONGEST = 0.5
 NEAR = 4.0  # half-widths, how far out the gap of a function is tested at least
 OUT = 1.0 + 1e-9  # of a reach: what is at it is within it
-# Tension or overlap below this fraction of the peak is rounding.
-TOLERATED = 1e-11
 FAR = 1e3  # half-widths, how far out the gap is tested at least
 HALVINGS = 60  # of the interval in which the gap is least
 STEEP = 1e6  # times the slopes in the contact
 SCAN = 40
 # Distances from an edge, in half-widths.
 AHEAD = np.concatenate((np.geomspace(1e-6, 1.0, SCAN), np.geomspace(1.0, FAR, 2 * SCAN)[1:]))
-NAMED = 3  # intervals that a message names
 
 
 def gap(
@@ -262,33 +258,6 @@ def _rounding(x: Array, gaps: Array, m: float) -> Array:
         heights = np.where(np.isfinite(gaps[outwards]), np.abs(gaps[outwards]), 0.0)
         found[outwards] = ROUNDING * np.maximum.accumulate(heights)
     return found
-
-
-def intervals_below(x: Array, values: Array) -> Intervals:
-    """The intervals where values are below -TOLERATED.
-
-    They begin and end where values change sign between two of the points.
-    """
-    order = np.argsort(x, kind="stable")
-    x, values = x[order], values[order]
-    low = np.concatenate(([False], values < -TOLERATED, [False]))
-    starts, ends = np.flatnonzero(low[1:] & ~low[:-1]), np.flatnonzero(low[:-1] & ~low[1:]) - 1
-
-    def crossing(inner: int, outer: int) -> float:
-        outer = min(max(outer, 0), len(x) - 1)
-        rise = values[outer] - values[inner]
-        crosses = values[outer] > 0.0 and np.isfinite(rise)
-        return float(x[inner] - ((x[outer] - x[inner]) * values[inner] / rise if crosses else 0.0))
-
-    return tuple(
-        (crossing(i, i - 1), crossing(j, j + 1))
-        for i, j in zip(starts.tolist(), ends.tolist(), strict=True)
-    )
-
-
-def shown(intervals: Intervals) -> str:
-    shown = ", ".join(f"[{lo:.6g}, {hi:.6g}]" for lo, hi in intervals[:NAMED])
-    return f"x in {shown}{f' and {len(intervals) - NAMED} more' if len(intervals) > NAMED else ''}"
 
 
 def _beside(contact: Interval, slope: Slope) -> Array:

@@ -4,16 +4,19 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from sie import arguments
 from sie.errors import LoadError
-from sie.numerics.interval import Interval
-from sie.problem.scene import Scene
-from sie.profiles.base import Profile
-from sie.profiles.slope import Slope
+
+if TYPE_CHECKING:
+    from sie.numerics.interval import Interval
+    from sie.problem.scene import Scene
+    from sie.profiles.base import Profile
+    from sie.profiles.slope import Slope
 
 Array = NDArray[np.float64]
 

@@ -22,12 +22,11 @@ from sie.problem.scene import Scene
 from sie.profiles.base import Profile
 from sie.profiles.look import between_points
 from sie.profiles.pieces import without_functions
-from sie.profiles.resolution import refined
+from sie.profiles.resolution import accuracy_for, refined
 from sie.profiles.slope import Slope
 
 from .edges import NEAR, Found, Search
 from .known_contact import NEARER, Edges, Normal, refuse_unresolved, with_breaks
-from .pressure import resolution
 from .smooth_slope import smooth_contact
 from .tilt_of_moment import refuse_outside, tilt_of_moment
 from .window import FITTED, MOST_GROWN, Window, window_of
@@ -119,7 +118,7 @@ def of_one_patch(edges: Edges, scene: Scene, tol: float, economy: Collection[str
         resolved = with_breaks(scene.profile.pieces, found.seen)
         if resolved.functions:
             window = max(lo - margin, ends[0]), min(hi + margin, ends[1])
-            resolved = refined(resolved, *window, resolution(tol))
+            resolved = refined(resolved, *window, accuracy_for(tol))
         found = replace(found, edges=_closer(edges, scene, resolved, economy))
         more = _unseen(found, resolved, scene, tol) if resolved.functions else ()
         if not more:
@@ -165,7 +164,7 @@ def _in_window(
         while not window.holds(_lever(scene)) and window.may_grow:
             window.grow()
         resolved = with_breaks(profile.pieces, seen)
-        resolved = refined(resolved, window.lo, window.hi, resolution(tol))
+        resolved = refined(resolved, window.lo, window.hi, accuracy_for(tol))
         try:
             found = _searched(scene, resolved, economy, tilt)
         except LoadError:
@@ -223,7 +222,7 @@ def _smooth(scene: Scene, slope: Slope, tol: float, symmetry: bool) -> Normal | 
     slope, G = slope.tilted(scene.tilt), 0.5 * scene.Estar
     axis = scene.profile.axis if symmetry and scene.tilt == 0.0 else None
     load = None if scene.normal_load is None else scene.normal_load / G
-    found = smooth_contact(slope, load, scene.half_width, axis, resolution(tol))
+    found = smooth_contact(slope, load, scene.half_width, axis, accuracy_for(tol))
     if found is None:
         return None
     contact, c = found.contact.rounded(slope.break_points), found.series
@@ -259,7 +258,7 @@ def _unseen_by_series(found: Normal, profile: Profile, tol: float) -> bool:
     none = np.zeros(1)
     ends = np.array([contact.x1, contact.x2])
     series = Slope(ends, none, none[:, None], series=found.series[None])
-    return bool(between_points(found.slope(profile), (series,), contact, resolution(tol)))
+    return bool(between_points(found.slope(profile), (series,), contact, accuracy_for(tol)))
 
 
 def _unseen(found: Normal, resolved: Slope, scene: Scene, tol: float) -> tuple[float, ...]:
@@ -268,7 +267,7 @@ def _unseen(found: Normal, resolved: Slope, scene: Scene, tol: float) -> tuple[f
     By the pieces that gave the edges, and by those that will give the pressure.
     """
     slope, contact = found.slope(scene.profile), found.edges.contact
-    accuracy = resolution(tol)
+    accuracy = accuracy_for(tol)
     of_edges = without_functions(resolved.tilted(found.edges.tilt))
     of_pressure = without_functions(refined(slope, contact.x1, contact.x2, accuracy))
     return between_points(slope, (of_edges, of_pressure), contact, accuracy)

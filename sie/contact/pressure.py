@@ -12,10 +12,10 @@ from collections.abc import Collection
 import numpy as np
 from numpy.typing import NDArray
 
-from sie.numerics.interval import EPS, Interval
+from sie.numerics.interval import Interval
 from sie.problem.request import ECONOMY
 from sie.problem.scene import Scene
-from sie.profiles.resolution import refined
+from sie.profiles.resolution import accuracy_for, refined
 from sie.profiles.slope import Slope
 from sie.traction.of_slope import SlopeDensity, TransformDensity
 from sie.traction.on_panels import PanelDensity
@@ -41,7 +41,7 @@ def pressure(
         return TransformDensity(*common, normal.series)
     declared = normal.slope(scene.profile)
     if scene.epsilon:
-        slope = refined(declared, contact.x1, contact.x2, resolution(tol))
+        slope = refined(declared, contact.x1, contact.x2, accuracy_for(tol))
         geometry = SlidingGeometry(
             slope, contact, scene.epsilon, keep_zero="zero panels" not in economy
         )
@@ -52,7 +52,7 @@ def pressure(
             if not any(edges.sharp):
                 series[0] = 0.0  # the edges' condition, which quadrature met to rounding
             return TransformDensity(*common, series)
-    slope = refined(declared, contact.x1, contact.x2, resolution(tol))
+    slope = refined(declared, contact.x1, contact.x2, accuracy_for(tol))
     return PanelDensity(
         *common, Panels(Geometry(slope, contact, keep_zero="zero panels" not in economy), edges.I0)
     )
@@ -69,7 +69,3 @@ def slope_series(slope: Slope, contact: Interval) -> Array | None:
         return None
     k = Geometry(slope, contact, keep_zero=True)
     return k.chebyshev_slope(max(int(slope.degrees[k.k[0]]) + 1, 2))[0] if len(k.k) == 1 else None
-
-
-def resolution(tol: float) -> float:
-    return max(EPS, 1e-2 * tol) if tol > 1e-13 else EPS

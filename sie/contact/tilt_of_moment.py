@@ -5,13 +5,16 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 from sie.errors import ContactError, LoadError
 from sie.numerics.interval import EPS
 from sie.numerics.root_finding import Bracket
 
-from .edges import Search
 from .known_contact import PLACES, Edges
+
+if TYPE_CHECKING:
+    from .edges import Search
 
 MAX_TILTS = 100  # tried, whether or not the profile can be tilted by so much
 HUGE = 1e300  # stands for an open end of the bracket

@@ -8,8 +8,8 @@ which for short cracks falls with the depth (El Haddad, Smith & Topper 1979):
 ΔK0 is the threshold of long cracks, Δσ0 the fatigue limit of the smooth material, as ranges.
 
 The equation of a crack has no length but its depth a. One solved system therefore gives, for all
-depths, K = sqrt(π a) Σ_i W_i σ(a ξ_i). Cells (`faces`) tell where all of a crack is open; a crack
-that is not takes an equation of its own.
+depths, K = sqrt(π a) Σ_i W_i σ(a ξ_i). Cells of constant opening tell where all of a crack is open;
+a crack that is not takes an equation of its own.
 
 For cracks below a fretted contact: Nowell, Dini & Hills, Eng. Fract. Mech. 73 (2006) 207-222.
 """
@@ -31,8 +31,7 @@ from sie.cauchy.system import System
 from sie.numerics import jacobi
 from sie.stress.half_plane import Stress, Tractions
 
-from .edge_crack import CrackCertificate, EdgeCrack, regular_kernel
-from .faces import cells, opened
+from .edge_crack import CrackCertificate, EdgeCrack, cells, opened, regular_kernel
 
 Array = NDArray[np.float64]
 
@@ -237,8 +236,11 @@ class StressIntensity:
         """
         from sie.plots.one_axes import of_cracks  # noqa: PLC0415 -- a higher layer
 
-        limits = (threshold, fatigue_limit) if threshold or fatigue_limit else None
-        return of_cracks(self, ax, limits, units)
+        lines = [(self.range, "-", "ΔK_I"), (self.shear_range, "--", "ΔK_II")]
+        if threshold or fatigue_limit:
+            limit = self.threshold(threshold, fatigue_limit)
+            lines.append((limit, ":", "threshold of ΔK_I"))
+        return of_cracks(self.depth, lines, ax, units)
 
 
 def stress_intensity(

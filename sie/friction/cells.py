@@ -15,8 +15,7 @@ from numpy.typing import NDArray
 from sie.errors import ContactError
 from sie.numerics.chord import Chord
 
-from .equations import Zones
-from .state import SAME, Contact, State, intervals, united
+from .state import SAME, Contact, State, Zones, intervals, united
 
 Array = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -133,10 +132,25 @@ def _cells(before: State, after: Contact) -> Array:
 
 def _slip(edges: Array, before: State, after: Contact) -> tuple[Array, Array]:
     """For each cell the direction of q where it slips, 0 where it sticks; and q."""
+    x = edges.mean(axis=1)
+    loads = after.Q - before.contact.Q, after.tau - before.contact.tau
+    carried = before.shear(x), after.limit(x)
+    found = slip_of_cells(edges, carried, loads, _compliance(edges, after))
+    if found is None:
+        raise ContactError("stick and slip do not settle on a grid")
+    return found
+
+
+def slip_of_cells(
+    edges: Array, carried: tuple[Array, Array], loads: tuple[float, float], A: Array
+) -> tuple[Array, Array] | None:
+    """For each cell the direction of q where it slips, 0 where it sticks; and q.
+
+    Given are q before the step and f p after it, ΔQ and Δτ, and the compliance of the cells. None
+    where the active set does not settle.
+    """
     x, h = edges.mean(axis=1), np.diff(edges, axis=1)[:, 0]
-    q, bound = before.shear(x), after.limit(x)
-    dQ, dtau = after.Q - before.contact.Q, after.tau - before.contact.tau
-    A = _compliance(edges, after)
+    (q, bound), (dQ, dtau) = carried, loads
     at, seen, one = np.zeros(len(x)), set(), False
     for _ in range(MOST):
         sticks = at == 0.0
@@ -164,16 +178,21 @@ def _slip(edges: Array, before: State, after: Contact) -> tuple[Array, Array]:
             only = np.arange(len(x)) == worst
             out, into = out & only, into & only
         at = np.where(out, np.sign(new), np.where(into, 0.0, at))
-    raise ContactError("stick and slip do not settle on a grid")
+    return None
+
+
+def compliance(edges: Array, unit: float) -> Array:
+    """A of cells on a half-plane; lengths in logarithms in a unit."""
+    s = edges.T[:, None, :] - edges.mean(axis=1)[:, None]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        primitive = np.where(s == 0.0, 0.0, s * np.log(np.abs(s) / unit)) - s
+    A: Array = -(primitive[1] - primitive[0]) / np.pi
+    return A
 
 
 def _compliance(edges: Array, after: Contact) -> Array:
-    """A, symmetric in the forces of cells: the mean of both collocations."""
-    x, h = edges.mean(axis=1), np.diff(edges, axis=1)[:, 0]
-    s = edges.T[:, None, :] - x[:, None]
-    with np.errstate(divide="ignore", invalid="ignore"):
-        primitive = np.where(s == 0.0, 0.0, s * np.log(np.abs(s) / after.width)) - s
-    A = -(primitive[1] - primitive[0]) / np.pi
+    """The same on what may repeat."""
+    A, x, h = compliance(edges, after.width), edges.mean(axis=1), np.diff(edges, axis=1)[:, 0]
     if np.isfinite(after.period):
         step = x[:, None] - x
         ratio = np.where(step == 0.0, 1.0, Chord(after.period)(step) / np.where(step, step, 1.0))

@@ -17,11 +17,11 @@ from sie.errors import ContactError
 from sie.numerics.root_finding import false_position
 
 from .cells import zones_on_cells
-from .equations import Equations, Zones
+from .equations import Equations
 from .finite_step import Part, balanced, newton, on_earlier_zones, solved, without_idle
 from .loading import LoadStep
 from .onset import End, Motion, Onset, onset, set_out
-from .state import EXCEEDED, TURNS, Contact, State
+from .state import EXCEEDED, TURNS, Contact, State, Zones
 from .strip_part import strip_part
 
 Array = NDArray[np.float64]

@@ -39,20 +39,12 @@ from sie.numerics.graded_panels import (
 from sie.numerics.zones import left_over
 
 from .rates import LoadRates, Rates
-from .state import KNOWN, SAME, Contact, Ends, State, intervals, united
+from .state import KNOWN, SAME, Contact, Ends, State, Zones, intervals, united
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 NEAREST = 5  # places next to an end, from which what is there follows
 FEW = 3  # nodes a panel of the places where |q| <= f p is tested on the way
-
-
-@dataclass(frozen=True)
-class Zones:
-    """Stick zones, and the direction of slip on each part of the patches beside them."""
-
-    stick: Ends
-    signs: tuple[float, ...]
 
 
 class Gap:
@@ -115,6 +107,11 @@ class Equations:
     @property
     def chord(self) -> Chord:
         return Chord(self.after.period)
+
+    @property
+    def slipped_strips(self) -> list[tuple[float, float, Pieces]]:
+        """The integral of D over each strip that is among the data; a finite step has none."""
+        return []
 
     @cached_property
     def stick(self) -> Array:

@@ -18,8 +18,8 @@ from sie.errors import ContactError
 from sie.numerics.graded_panels import Pieces
 from sie.numerics.zones import left_over
 
-from .equations import Equations, Zones
-from .state import SAME, Contact, Ends, State, intervals, overlaps, refuse_inadmissible
+from .equations import Equations
+from .state import SAME, Contact, Ends, State, Zones, intervals, overlaps, refuse_inadmissible
 
 if TYPE_CHECKING:
     from .onset import End

@@ -14,7 +14,6 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.polynomial.chebyshev import chebval, chebvander
 from numpy.typing import NDArray
 
 from sie.errors import ContactError
@@ -22,16 +21,11 @@ from sie.numerics.graded_panels import OF_SERIES, Pieces, Rule
 
 from .equations import Equations, Gap
 from .state import SAME, intervals, united
-from .strips import TAU, StripEquations
-from .zones_between import ZonesBetween
 
 if TYPE_CHECKING:
     from .finite_step import Part
-    from .loading import LoadStep
 
 Array = NDArray[np.float64]
-
-HALVINGS = 52  # of the time at which a place comes into contact
 
 
 @dataclass(eq=False)
@@ -84,17 +78,7 @@ class GainedSlip:
     @cached_property
     def strips(self) -> list[tuple[float, float, Pieces]]:
         """The integral of D over each strip, from its beginning."""
-        now, found = self.equations, []
-        if not isinstance(now, StripEquations):
-            return []
-        for strip, c in zip(now.strips, now.series, strict=True):
-            lo, hi = strip.reaches(float(now.stick.ravel()[strip.j]))
-            places = Pieces.places(np.array([[lo, hi]]))
-            whole = Pieces.integral(places, c @ strip.basis(places))
-            if strip.outward < 0.0:
-                whole.series[..., 0] -= whole.last
-            found.append((lo, hi, whole))
-        return found
+        return self.equations.slipped_strips
 
     @cached_property
     def beside(self) -> list[tuple[float, float, Pieces]]:
@@ -137,22 +121,6 @@ class GainedSlip:
         return self.at_ends[e] - now.over(Gap(hi, e)) - across
 
 
-# -- what is asked of a part -----------------------------------------------------------------------
-
-
-def slip(part: Part, step: LoadStep, x: Array) -> Array:
-    """The slip at places (1-d); at one that came into contact in the part, since then."""
-    found = GainedSlip(part.equations).at(x)
-    old, new = (part.before.contact.patches, part.state.contact.patches)
-    touches, touched = _within(x, new), _within(x, old)
-    gained = touches & ~touched
-    sticks = gained & _within(x, part.state.stick)  # since it touched
-    found[sticks], gained = 0.0, gained & ~sticks
-    if gained.any():
-        found[gained] -= _slip_at_touch(part, step, x[gained])
-    return np.where(touches, found, 0.0) * (2.0 / step.contacts.scene.Estar)
-
-
 def drag(part: Part) -> float:
     """π E*/2 times the shift of the indenter, but for a multiple of ΔQ that is always the same.
 
@@ -168,68 +136,9 @@ def drag(part: Part) -> float:
     return float(-(change @ log) + math.pi * (new.tau - old.tau) * x_s)
 
 
-def _within(x: Array, patches: tuple[tuple[float, float], ...]) -> NDArray[np.bool_]:
-    out = np.zeros(x.shape, dtype=bool)
-    for lo, hi in patches:
-        out |= (x >= lo) & (x <= hi)
-    return out
-
-
 def _stuck_all_along(part: Part) -> float:
     """The middle of the longest zone that stuck all along."""
     if not part.stuck:
         raise ContactError("no point stuck all along: how far slip shifts is not covered")
     lo, hi = max(part.stuck, key=lambda zone: zone[1] - zone[0])
-    return 0.5 * (lo + hi)
-
-
-# -- places that come into contact -----------------------------------------------------------------
-
-
-def _slip_at_touch(part: Part, step: LoadStep, x: Array) -> Array:
-    """(E*/2) Δg at places when they come into contact, at an edge that grows steadily.
-
-    The place of the edge and the slip there are series in τ, t = t0 + T τ².
-    """
-    old, new = part.before.contact.patches, part.state.contact.patches
-    if len(old) != len(new):
-        raise ContactError("the slip of a patch that appears or merges is not covered")
-    found = np.zeros(x.shape)
-    moments = _moments(part, step)
-    for k, (was, now) in enumerate(zip(old, new, strict=True)):
-        for side in (0, 1):
-            a, b = sorted((was[side], now[side]))
-            gained = (x >= a) & (x <= b)
-            outward = (b == now[side]) == (side == 1)
-            if outward and gained.any():
-                edges = [equations.after.patches[k][side] for equations in moments]
-                slips = [
-                    GainedSlip(equations).at(np.array([e]))[0]
-                    for equations, e in zip(moments, edges)
-                ]
-                tau = _time_at(_series([was[side], *edges]), x[gained], side == 1)
-                found[gained] = chebval(2.0 * tau - 1.0, _series([0.0, *slips]))
-    return found
-
-
-def _moments(part: Part, step: LoadStep) -> list[Equations]:
-    """The equations at the moments of a part."""
-    if part.panel is not None:
-        return list(part.panel.equations)
-    way = ZonesBetween.back(part, step)
-    shares = part.begun + (part.until - part.begun) * TAU[1:] ** 2
-    return [way.equations(float(share)) for share in shares[::-1]][::-1]
-
-
-def _series(values: list[float]) -> Array:
-    return np.linalg.solve(chebvander(2.0 * TAU - 1.0, len(TAU) - 1), np.array(values))
-
-
-def _time_at(series: Array, x: Array, rises: bool) -> Array:
-    """The τ at which an edge is at places, by halving."""
-    lo, hi = np.zeros(x.shape), np.ones(x.shape)
-    for _ in range(HALVINGS):
-        middle = 0.5 * (lo + hi)
-        later = (chebval(2.0 * middle - 1.0, series) < x) == rises
-        lo, hi = np.where(later, middle, lo), np.where(later, hi, middle)
     return 0.5 * (lo + hi)

@@ -19,9 +19,8 @@ from numpy.typing import NDArray
 from sie.errors import ContactError
 from sie.numerics.root_finding import false_position
 
-from .equations import Zones
 from .rates import LoadRates, Rates
-from .state import State
+from .state import State, Zones
 
 Array = NDArray[np.float64]
 

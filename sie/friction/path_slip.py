@@ -19,13 +19,14 @@ from sie.numerics.zones import left_over, within
 from sie.traction.base import Density
 from sie.traction.combination import ZERO, superposed
 
-from .gained_slip import drag, slip
+from .gained_slip import drag
 from .load_steps import Followable, TurningPoint
 from .loading import Loads, contact_under
 from .slip_state import Slip
 from .state import SAME, State, intervals
 from .state_slip import StateSlip
 from .step_energy import work
+from .zones_between import slip
 
 Array = NDArray[np.float64]
 

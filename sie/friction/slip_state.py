@@ -5,18 +5,20 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Collection
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from sie.contact.known_contact import Normal
-from sie.numerics.interval import Interval
-from sie.problem.scene import Scene
-from sie.profiles.slope import Slope
-from sie.traction.base import Density
 from sie.traction.combination import ZERO
-from sie.traction.of_slope import SlopeDensity
+
+if TYPE_CHECKING:
+    from sie.contact.known_contact import Normal
+    from sie.numerics.interval import Interval
+    from sie.problem.scene import Scene
+    from sie.profiles.slope import Slope
+    from sie.traction.base import Density
+    from sie.traction.of_slope import SlopeDensity
 
 Array = NDArray[np.float64]
 

@@ -53,6 +53,14 @@ class Contact:
         return float(self.limit(x).max())
 
 
+@dataclass(frozen=True)
+class Zones:
+    """Stick zones, and the direction of slip on each part of the patches beside them."""
+
+    stick: Ends
+    signs: tuple[float, ...]
+
+
 @dataclass(frozen=True, eq=False)
 class State:
     """Zones of stick and slip, and q.

@@ -29,12 +29,11 @@ from sie.numerics.root_finding import false_position
 from sie.traction.combination import superposed
 
 from .cells import zones_on_cells
-from .equations import Zones
 from .finite_step import Part, newton
 from .gained_slip import GainedSlip, drag
 from .loading import limit_on
 from .slip_state import Slip, Step
-from .state import SAME, Contact, State, intervals, refuse_inadmissible
+from .state import SAME, Contact, State, Zones, intervals, refuse_inadmissible
 
 if TYPE_CHECKING:
     from sie.traction.base import Density
@@ -142,12 +141,7 @@ def two_signed(step: Step) -> TwoSignedSlip:
     patches = (step.pressure.interval,)
     limit = limit_on(step.scene, patches, step.pressure, MARKED)
     infinite = limit.marks[np.isinf(step.pressure(limit.marks))]
-    if infinite.size:
-        raise ContactError(
-            "the bulk stress makes the two edges slip in opposite directions, which is not covered "
-            f"with an infinite pressure at x = {infinite[0]:.6g}: round the profile there, or "
-            "lower the bulk stress"
-        )
+    _refuse_slip_at(infinite, patches[0])
     before = State.untouched(Contact(patches, limit, 0.0, 0.0))
     after = Contact(patches, limit, step.Q, step.tau)
     guess = _zones(after)
@@ -156,7 +150,19 @@ def two_signed(step: Step) -> TwoSignedSlip:
     except ContactError:
         found = newton(before, after, zones_on_cells(before, after)[0])
     refuse_inadmissible(before, found.state, found.state.stick)
+    _refuse_slip_at(infinite, found.state.stick[0])
     return TwoSignedSlip(step, Part(found, found.state, 0.0, 1.0))
+
+
+def _refuse_slip_at(infinite: Array, stick: tuple[float, float]) -> None:
+    """Refuse an infinite pressure outside of the stick zone."""
+    slips = infinite[(infinite <= stick[0]) | (infinite >= stick[1])]
+    if slips.size:
+        raise ContactError(
+            "the bulk stress makes the two edges slip in opposite directions, which is not covered "
+            f"where a point of infinite pressure slips, x = {slips[0]:.6g}: round the profile "
+            "there, or lower the bulk stress"
+        )
 
 
 def _zones(after: Contact) -> Zones:

@@ -30,12 +30,12 @@ from numpy.typing import NDArray
 from sie.errors import ContactError
 from sie.numerics.root_finding import false_position
 
-from .equations import Equations, Zones
+from .equations import Equations
 from .finite_step import Part, balanced
 from .gained_slip import GainedSlip
 from .loading import LoadStep
 from .rates import Rates
-from .state import State
+from .state import State, Zones
 from .strips import TAU, Panel
 from .zones_between import ZonesBetween
 

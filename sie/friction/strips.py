@@ -29,10 +29,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie.errors import ContactError
+from sie.inheritance import override
 from sie.numerics import chebyshev
+from sie.numerics.graded_panels import Pieces
 
-from .equations import Equations, Zones
+from .equations import Equations
 from .onset import Motion, Onset
+from .state import Zones
 
 if TYPE_CHECKING:
     from sie.numerics.graded_panels import Rule
@@ -96,6 +99,19 @@ class StripEquations(Equations):
         """The intervals beside the stick zones, then the strips."""
         ends = [strip.reaches(self.stick.ravel()[strip.j]) for strip in self.strips]
         return np.concatenate((self.beside, np.array(ends).reshape(-1, 2)))
+
+    @property
+    @override
+    def slipped_strips(self) -> list[tuple[float, float, Pieces]]:
+        found = []
+        for strip, c in zip(self.strips, self.series, strict=True):
+            lo, hi = strip.reaches(float(self.stick.ravel()[strip.j]))
+            places = Pieces.places(np.array([[lo, hi]]))
+            whole = Pieces.integral(places, c @ strip.basis(places))
+            if strip.outward < 0.0:
+                whole.series[..., 0] -= whole.last
+            found.append((lo, hi, whole))
+        return found
 
     @property
     def begins(self) -> Array:

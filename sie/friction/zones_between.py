@@ -13,14 +13,18 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Self
 
 import numpy as np
+from numpy.polynomial.chebyshev import chebval, chebvander
 from numpy.typing import NDArray
 
 from sie.errors import ContactError
 
 from .cells import zones_on_cells
-from .equations import Equations, Zones
+from .equations import Equations
 from .finite_step import Part, newton
+from .gained_slip import GainedSlip
 from .onset import onset
+from .state import Zones
+from .strips import TAU
 
 if TYPE_CHECKING:
     from .loading import LoadStep
@@ -28,6 +32,7 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
+HALVINGS = 52  # of the time at which a place comes into contact
 GOES_ON = -1e-5  # of the largest K, and of the largest rate of slip
 
 
@@ -150,3 +155,75 @@ def _zones_at(
     if not inside or not (np.diff(ends) > 0.0).all():
         return None
     return Zones(tuple((float(a), float(b)) for a, b in ends.reshape(-1, 2)), tuple(signs))
+
+
+# -- the slip of a part, and of places that come into contact on the way ---------------------------
+
+
+def slip(part: Part, step: LoadStep, x: Array) -> Array:
+    """The slip at places (1-d); at one that came into contact in the part, since then."""
+    found = GainedSlip(part.equations).at(x)
+    old, new = (part.before.contact.patches, part.state.contact.patches)
+    touches, touched = _within(x, new), _within(x, old)
+    gained = touches & ~touched
+    sticks = gained & _within(x, part.state.stick)  # since it touched
+    found[sticks], gained = 0.0, gained & ~sticks
+    if gained.any():
+        found[gained] -= _slip_at_touch(part, step, x[gained])
+    return np.where(touches, found, 0.0) * (2.0 / step.contacts.scene.Estar)
+
+
+def _within(x: Array, patches: tuple[tuple[float, float], ...]) -> NDArray[np.bool_]:
+    out = np.zeros(x.shape, dtype=bool)
+    for lo, hi in patches:
+        out |= (x >= lo) & (x <= hi)
+    return out
+
+
+def _slip_at_touch(part: Part, step: LoadStep, x: Array) -> Array:
+    """(E*/2) Δg at places when they come into contact, at an edge that grows steadily.
+
+    The place of the edge and the slip there are series in τ, t = t0 + T τ².
+    """
+    old, new = part.before.contact.patches, part.state.contact.patches
+    if len(old) != len(new):
+        raise ContactError("the slip of a patch that appears or merges is not covered")
+    found = np.zeros(x.shape)
+    moments = _moments(part, step)
+    for k, (was, now) in enumerate(zip(old, new, strict=True)):
+        for side in (0, 1):
+            a, b = sorted((was[side], now[side]))
+            gained = (x >= a) & (x <= b)
+            outward = (b == now[side]) == (side == 1)
+            if outward and gained.any():
+                edges = [equations.after.patches[k][side] for equations in moments]
+                slips = [
+                    GainedSlip(equations).at(np.array([e]))[0]
+                    for equations, e in zip(moments, edges)
+                ]
+                tau = _time_at(_series([was[side], *edges]), x[gained], side == 1)
+                found[gained] = chebval(2.0 * tau - 1.0, _series([0.0, *slips]))
+    return found
+
+
+def _moments(part: Part, step: LoadStep) -> list[Equations]:
+    """The equations at the moments of a part."""
+    if part.panel is not None:
+        return list(part.panel.equations)
+    way = ZonesBetween.back(part, step)
+    shares = part.begun + (part.until - part.begun) * TAU[1:] ** 2
+    return [way.equations(float(share)) for share in shares[::-1]][::-1]
+
+
+def _series(values: list[float]) -> Array:
+    return np.linalg.solve(chebvander(2.0 * TAU - 1.0, len(TAU) - 1), np.array(values))
+
+
+def _time_at(series: Array, x: Array, rises: bool) -> Array:
+    """The τ at which an edge is at places, by halving."""
+    lo, hi = np.zeros(x.shape), np.ones(x.shape)
+    for _ in range(HALVINGS):
+        middle = 0.5 * (lo + hi)
+        later = (chebval(2.0 * middle - 1.0, series) < x) == rises
+        lo, hi = np.where(later, middle, lo), np.where(later, hi, middle)
+    return 0.5 * (lo + hi)

@@ -13,12 +13,12 @@ from sie.contact.small_strains import notes
 from sie.errors import ContactError
 from sie.problem.request import NEED_SHEAR, UNASKED, energy_costs
 from sie.profiles.placed_traces import traces_in
-from sie.profiles.trace_units import Reading
-
-from .scene_file import SceneFile
 
 if TYPE_CHECKING:
-    from sie.solution import Solution
+    from sie.profiles.trace_units import Reading
+
+    from .answer import Answer
+    from .scene_file import SceneFile
 
 Array = NDArray[np.float64]
 
@@ -30,13 +30,13 @@ def wanted(file: SceneFile) -> tuple[str, ...]:
     return file.want or UNASKED
 
 
-def readings_of(solution: Solution) -> list[Reading]:
+def readings_of(solution: Answer) -> list[Reading]:
     """How the columns of each trace from a file were read: their units, and what is material."""
     readings = (placed.trace.reading for placed in traces_in(solution.scene.profile))
     return [reading for reading in readings if reading.file]
 
 
-def notes_of(solution: Solution, file: SceneFile) -> tuple[str, ...]:
+def notes_of(solution: Answer, file: SceneFile) -> tuple[str, ...]:
     """The notes on what is neglected, and on slip where a wanted quantity depends on it.
 
     If only the edges are wanted, the pressure is not computed, and its mean stands for it.
@@ -51,7 +51,7 @@ def notes_of(solution: Solution, file: SceneFile) -> tuple[str, ...]:
     return *strains, *solution.coupling_notes, *_yield_notes(solution, file), *slip
 
 
-def _yield_notes(solution: Solution, file: SceneFile) -> tuple[str, ...]:
+def _yield_notes(solution: Answer, file: SceneFile) -> tuple[str, ...]:
     """A sentence where the yield stress is exceeded at a point of a path, not between them."""
     strength, unit = file.fatigue.yield_stress, file.units.stress
     mises = max(map(_mises, solution.history or (solution,))) if strength else 0.0
@@ -64,14 +64,14 @@ def _yield_notes(solution: Solution, file: SceneFile) -> tuple[str, ...]:
     )
 
 
-def _mises(solution: Solution) -> float:
+def _mises(solution: Answer) -> float:
     """The largest Mises stress in the body; 0 where it is not known."""
     with suppress(ContactError, ValueError):
         return math.sqrt(3.0) * solution.elastic_limit().stress
     return 0.0
 
 
-def slip_of(solution: Solution, x: Array) -> dict[str, Array]:
+def slip_of(solution: Answer, x: Array) -> dict[str, Array]:
     """The slip at x; {} where it is not known.
 
     A path does not determine it for points that came into contact while the bodies slipped.
@@ -81,14 +81,14 @@ def slip_of(solution: Solution, x: Array) -> dict[str, Array]:
     return {}
 
 
-def energy_of(solution: Solution) -> dict[str, float]:
+def energy_of(solution: Answer) -> dict[str, float]:
     """The dissipated energy; {} where it is a sum over states, or not known (full sliding)."""
     with suppress(ContactError):
         return {} if energy_costs(solution.scene) else {"energy_lost": solution.energy_lost}
     return {}
 
 
-def slipping(solution: Solution) -> tuple[tuple[float, float, float], ...]:
+def slipping(solution: Answer) -> tuple[tuple[float, float, float], ...]:
     """The zones that slip or have slipped, (lo, hi, sign of q)."""
     if solution.scene.epsilon:
         return ((*solution.edges, float(solution.scene.slides)),)

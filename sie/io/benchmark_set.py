@@ -13,14 +13,13 @@ from __future__ import annotations
 
 import hashlib
 import math
+from collections.abc import Callable
 from dataclasses import replace
 from importlib import resources
 from typing import Any, NamedTuple
 
 from sie import __version__
-from sie.paths.history import follow
 from sie.progress_bar import counted
-from sie.solution import Solution, solve
 
 from .answers import energy_of
 from .calculix_deck import deck
@@ -37,19 +36,22 @@ ROUNDING = 1e-12  # half-widths
 WITHOUT_FRICTION: dict[str, Any] = {"friction": 0.0, "sliding": 0, "tangential_load": 0.0}
 WANT = ("edges", "pressure", "gap", "shear", "check", "stress", "yield", "tension")
 
+# the solution of a scene file; of a path that of its last point
+Solver = Callable[[SceneFile], Any]
+
 
 def case_names() -> tuple[str, ...]:
     """The names of the cases, in the order of the alphabet."""
     return tuple(sorted(file.name[:-5] for file in SET.iterdir() if file.name.endswith(".toml")))
 
 
-def benchmark_set() -> dict[str, bytes]:
+def benchmark_set(solved: Solver) -> dict[str, bytes]:
     """The content of every file of the set, by its path in the folder."""
     names = case_names()
     contents: dict[str, bytes] = {}
     rows = ["| case | what | files |", "| --- | --- | --- |"]
     for name in counted("cases", names, len(names)):
-        case = case_files(name)
+        case = case_files(name, solved)
         title = parse(case["scene.toml"], name).title
         hashes = [f"{hashlib.sha256(data).hexdigest()}  {file}\n" for file, data in case.items()]
         case["SHA256SUMS"] = "".join(hashes).encode()
@@ -60,11 +62,11 @@ def benchmark_set() -> dict[str, bytes]:
     return contents | {"README.md": (readme + index).encode()}
 
 
-def case_files(name: str) -> dict[str, bytes]:
+def case_files(name: str, solved: Solver) -> dict[str, bytes]:
     """The content of the files of one case."""
     scene = (SET / f"{name}.toml").read_bytes()
     file = replace(parse(scene, f"{name}.toml"), want=WANT)
-    states = _states(file)
+    states = _states(solved(file))
     solution = states[-1]
     curves, answer = csv_text(solution, file), json_text(solution, file)
     r = max(map(abs, solution.edges))
@@ -93,15 +95,15 @@ def case_files(name: str) -> dict[str, bytes]:
     return encoded | _picture(solution, file)
 
 
-def _states(file: SceneFile) -> list[Solution]:
+def _states(solution: Any) -> list[Any]:
     """The states that a code has to lead through: bodies of one material press without friction."""
-    scene = file.scene
-    history = list(follow(scene, file.load_path)) if file.load_path else [solve(scene)]
+    scene, history = solution.scene, list(solution.history or [solution])
     if not scene.friction or scene.coupled:
         return history
-    P = history[0].normal_load
-    pressed = replace(scene, normal_load=P, half_width=None, bulk_stress=0.0, **WITHOUT_FRICTION)
-    return [solve(pressed), *history]
+    pressed = history[0].with_(
+        normal_load=history[0].normal_load, bulk_stress=0.0, **WITHOUT_FRICTION
+    )
+    return [pressed, *history]
 
 
 def _page(name: str, title: str, rows: list[tuple[str, str, str]], certificate: float) -> str:
@@ -127,7 +129,7 @@ Certified relative error of the pressure: {certificate:.1e} of its peak.
 """
 
 
-def _picture(solution: Solution, file: SceneFile) -> dict[str, bytes]:
+def _picture(solution: Any, file: SceneFile) -> dict[str, bytes]:
     """The picture, where Matplotlib is installed."""
     try:
         from sie.plots import contact_plot, style  # noqa: PLC0415 -- needs Matplotlib
@@ -148,7 +150,7 @@ class Target(NamedTuple):
     unit: str
 
 
-def targets(solution: Solution) -> list[Target]:
+def targets(solution: Any) -> list[Target]:
     """All that the scene determines; of a symmetric contact the places on x > 0."""
     (lo, hi), (height, places) = solution.patches[-1], peak(solution)
     found = [
@@ -170,12 +172,12 @@ def targets(solution: Solution) -> list[Target]:
     return [t._replace(value=_place(solution, t.value)) if t.unit == "length" else t for t in found]
 
 
-def _place(solution: Solution, x: float) -> float:
+def _place(solution: Any, x: float) -> float:
     """The place, 0 where it is 0 to rounding."""
     return x if abs(x) > ROUNDING * solution.half_width else 0.0
 
 
-def _of_shear(solution: Solution) -> list[Target]:
+def _of_shear(solution: Any) -> list[Target]:
     found = [Target("Q", solution.tangential_load, "force")]
     for lo, hi in solution.stick[-1:]:
         found += [Target("stick from", lo, "length"), Target("stick to", hi, "length")]
@@ -184,7 +186,7 @@ def _of_shear(solution: Solution) -> list[Target]:
     return found + [Target("energy lost", v, "force") for v in energy_of(solution).values()]
 
 
-def _of_stress(solution: Solution) -> list[Target]:
+def _of_stress(solution: Any) -> list[Target]:
     """The largest stresses of the body, and their places."""
     tension, yielding = solution.peak_tension(), solution.elastic_limit()
     x, y = yielding.places[-1]
@@ -197,10 +199,10 @@ def _of_stress(solution: Solution) -> list[Target]:
     ]
 
 
-def _without_friction(solution: Solution) -> list[Target]:
+def _without_friction(solution: Any) -> list[Target]:
     """The largest stresses of the same contact before it slides."""
     scene = solution.scene
     if not scene.slides or scene.beta:
         return []
-    plain = _of_stress(solve(replace(scene, **WITHOUT_FRICTION)))
+    plain = _of_stress(solution.with_(**WITHOUT_FRICTION))
     return [t._replace(name=f"{t.name}, without friction") for t in plain]

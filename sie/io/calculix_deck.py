@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from sie.problem.material import Elastic
 
 if TYPE_CHECKING:
-    from sie.solution import Solution
+    from .answer import Answer
 
 Array = NDArray[np.float64]
 
@@ -33,7 +33,7 @@ INCREMENT = 0.1  # of a step with friction
 BEYOND = 1.0  # f P / E* that sliding bodies move beyond incipient sliding
 
 
-def deck(states: Sequence[Solution], per_half_width: int) -> str:
+def deck(states: Sequence[Any], per_half_width: int) -> str:
     """The deck that leads through the states of a contact of two bodies, one after the other."""
     last, friction = states[-1], [state.scene.friction for state in states]
     blocks = Blocks.around(last, per_half_width)
@@ -69,7 +69,7 @@ class Blocks:
     @classmethod
     def around(
         cls,
-        solution: Solution,
+        solution: Answer,
         per_half_width: int,
         *,
         reach: float = REACH,
@@ -122,7 +122,7 @@ class Blocks:
         return ends
 
 
-def _exact_ends(state: Solution, outer: dict[str, tuple[Any, Array]]) -> list[str]:
+def _exact_ends(state: Any, outer: dict[str, tuple[Any, Array]]) -> list[str]:
     """The lines that move the outer nodes as those of half-planes."""
     scene, lines = state.scene, []
     for (labels, places), body in zip(outer.values(), ("body", "indenter"), strict=True):

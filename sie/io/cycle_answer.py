@@ -16,7 +16,6 @@ from numpy.typing import NDArray
 from sie.arguments import named_rows
 from sie.cracks.stress_intensity import stress_intensity
 from sie.errors import ContactError
-from sie.paths.history import History, follow
 from sie.problem.material import Elastic
 from sie.progress_bar import reported
 from sie.stress.fretting import Cycle
@@ -26,10 +25,11 @@ from .scene_keys import EDGES
 
 if TYPE_CHECKING:
     from sie.problem.load_path import Path
-    from sie.solution import Solution
     from sie.stress.half_plane import Tractions
 
-    from .scene_file import Fatigue, SceneFile, Units
+    from .answer import Answer
+    from .beside_scene import Fatigue, Units
+    from .scene_file import SceneFile
 
 Array = NDArray[np.float64]
 
@@ -76,7 +76,7 @@ def _earlier(path: Path) -> int:
 
 
 @reported("cycle")
-def cycle_of(solution: Solution, file: SceneFile) -> dict[str, Any]:
+def cycle_of(solution: Answer, file: SceneFile) -> dict[str, Any]:
     """What JSON and the report say of the last cycle of a path."""
     start = start_of_cycle(file.load_path)
     assert solution.history is not None
@@ -96,15 +96,14 @@ def cycle_of(solution: Solution, file: SceneFile) -> dict[str, Any]:
     return answer | _parameters(cycle, file.fatigue, (0.0, *depths), known)
 
 
-def _states(history: History, start: int, parts: int) -> Sequence[Solution]:
+def _states(history: Any, start: int, parts: int) -> Sequence[Answer]:
     """The solutions over the cycle; steps that are followed part by part are not divided."""
     if parts == 1 or any(point.parts for point in history.turning_points):
         return history[start:]
-    divided = follow(history.scene, history.path.subdivided(parts), history.tol, history.economy)
-    return divided[start * parts :]
+    return history.subdivided(parts)[start * parts :]
 
 
-def _energy(history: History, start: int) -> dict[str, float]:
+def _energy(history: Any, start: int) -> dict[str, float]:
     """The energy that one cycle dissipates; {} where it is not known."""
     try:
         return {"energy": history[-1].energy_lost - history[start].energy_lost}
@@ -112,7 +111,7 @@ def _energy(history: History, start: int) -> dict[str, float]:
         return {}
 
 
-def _slip(turning: Cycle, tractions: Sequence[Tractions], widest: Solution) -> dict[str, Any]:
+def _slip(turning: Cycle, tractions: Sequence[Tractions], widest: Answer) -> dict[str, Any]:
     """The largest slip amplitude and Ruiz' parameters, by the states at the turning points.
 
     In each step a point slips in one direction, so that no other states are needed; the slip of
@@ -193,7 +192,7 @@ def _at_depth(find: Callable[[float], Any], y: float) -> dict[str, Any]:
 
 
 @reported("crack")
-def crack_answer(solution: Solution, file: SceneFile) -> dict[str, Any]:
+def crack_answer(solution: Answer, file: SceneFile) -> dict[str, Any]:
     """What JSON and the report say of the cracks."""
     assert file.crack is not None
     states, crack = _of_cracks(solution, file), file.crack
@@ -214,7 +213,7 @@ def crack_answer(solution: Solution, file: SceneFile) -> dict[str, Any]:
     return answer
 
 
-def _of_cracks(solution: Solution, file: SceneFile) -> Sequence[Solution]:
+def _of_cracks(solution: Answer, file: SceneFile) -> Sequence[Answer]:
     """The turning points of the last cycle, all points of another path, or the one state."""
     history = solution.history
     if history is None or file.load_path is None:
@@ -222,7 +221,7 @@ def _of_cracks(solution: Solution, file: SceneFile) -> Sequence[Solution]:
     return history[max(_earlier(file.load_path), 0) :]
 
 
-def _edge(states: Sequence[Solution], name: str) -> float:
+def _edge(states: Sequence[Answer], name: str) -> float:
     """The edge of the contact under the largest tangential load."""
     pushed = max(states, key=lambda state: abs(state.tangential_load))
     Q = pushed.tangential_load

@@ -66,12 +66,12 @@ from sie.progress_bar import counted
 from .answers import energy_of, notes_of, readings_of, slip_of, slipping, wanted
 from .sample_points import abscissae, beside, inside, peak
 from .scene_file import SceneFile
-from .scene_writing import tables_of
+from .scene_tables import tables_of
 
 if TYPE_CHECKING:
-    from sie.paths.history import History
-    from sie.solution import Solution
     from sie.traction.base import Density
+
+    from .answer import Answer
 
 Array = NDArray[np.float64]
 
@@ -79,7 +79,7 @@ TRACTIONS = ("x", "p", "gap", "q", "slip")  # columns of CSV, those of ...
 STRESSES, LENGTHS = ("p", "q"), ("x", "gap", "slip")
 
 
-def csv_text(solution: Solution, file: SceneFile, points: int = POINTS) -> str:
+def csv_text(solution: Answer, file: SceneFile, points: int = POINTS) -> str:
     """x, pressure and gap, always, as the module's docstring describes; of a path at each point."""
     units, history = file.units, solution.history
     if history is None:
@@ -101,7 +101,7 @@ def csv_text(solution: Solution, file: SceneFile, points: int = POINTS) -> str:
     return table_of_columns(head, columns)
 
 
-def _along_path(history: History, points: int) -> dict[str, Array]:
+def _along_path(history: Any, points: int) -> dict[str, Array]:
     """The tractions, the gap and the slip at every turning point of a load path with P > 0."""
     turned = [name for name in ("tilt", "moment") if getattr(history.path, name)]
     names = ("P", "Q", "sigma", *turned)
@@ -118,7 +118,7 @@ def _along_path(history: History, points: int) -> dict[str, Array]:
     return {name: np.concatenate([table[name] for table in tables]) for name in tables[0]}
 
 
-def _columns(solution: Solution, points: int) -> dict[str, Array]:
+def _columns(solution: Answer, points: int) -> dict[str, Array]:
     x = abscissae(solution, points)
     columns = {"x": x, "p": solution.pressure(x), "gap": solution.gap(x)}
     if solution.carries_shear:
@@ -127,7 +127,10 @@ def _columns(solution: Solution, points: int) -> dict[str, Array]:
 
 
 def json_text(
-    solution: Solution, file: SceneFile, points: int = POINTS, more: Mapping[str, Any] | None = None
+    solution: Answer,
+    file: SceneFile,
+    points: int = POINTS,
+    more: Mapping[str, Any] | None = None,
 ) -> str:
     """All wanted quantities, as the module's docstring describes."""
     return strict_json(as_dict(solution, file, points, more))
@@ -139,7 +142,10 @@ def strict_json(value: Any) -> str:
 
 
 def as_dict(
-    solution: Solution, file: SceneFile, points: int = POINTS, more: Mapping[str, Any] | None = None
+    solution: Answer,
+    file: SceneFile,
+    points: int = POINTS,
+    more: Mapping[str, Any] | None = None,
 ) -> dict[str, Any]:
     """The content of `json_text`, with infinities as floats; `more` as of `summary`."""
     units, scene, asked = file.units, solution.scene, wanted(file)
@@ -166,7 +172,7 @@ def as_dict(
     return out | {name: of(solution, points) for name, of in SECTIONS.items() if name in asked}
 
 
-def _patches(solution: Solution) -> dict[str, Any]:
+def _patches(solution: Answer) -> dict[str, Any]:
     """The patches, their loads, length and gaps, where there are several or the contact repeats."""
     period = solution.scene.profile.period
     if len(solution.patches) < 2 and math.isinf(period):
@@ -190,18 +196,18 @@ def _totals(density: Density) -> dict[str, float]:
     return {"resultant": density.resultant, "moment": density.moment}
 
 
-def _pressure(solution: Solution, points: int) -> dict[str, Any]:
+def _pressure(solution: Answer, points: int) -> dict[str, Any]:
     p, x, (largest, where) = solution.pressure, inside(solution, points), peak(solution)
     return {"peak": {"p": largest, "x": list(where)}, **_totals(p), **_lists(x=x, p=p(x))}
 
 
-def _gap(solution: Solution, points: int) -> dict[str, Any]:
+def _gap(solution: Answer, points: int) -> dict[str, Any]:
     left, right = beside(solution, points)
     x = np.concatenate((left, solution.edges, right))
     return _lists(x=x, gap=solution.gap(x))
 
 
-def _shear(solution: Solution, points: int) -> dict[str, Any]:
+def _shear(solution: Answer, points: int) -> dict[str, Any]:
     x, q = inside(solution, points), solution.shear
     zones = {"stick": solution.stick, "slipping": slipping(solution)}
     return {
@@ -213,13 +219,13 @@ def _shear(solution: Solution, points: int) -> dict[str, Any]:
     }
 
 
-def _stress(solution: Solution, points: int) -> dict[str, Any]:
+def _stress(solution: Answer, points: int) -> dict[str, Any]:
     x = abscissae(solution, points)
     s = solution.surface_stress(x)
     return _lists(x=x, xx=s.xx, yy=s.yy, xy=s.xy)
 
 
-def _yield(solution: Solution, _points: int) -> dict[str, Any]:
+def _yield(solution: Answer, _points: int) -> dict[str, Any]:
     limit = solution.elastic_limit()
     return {
         "ratio": limit.ratio,
@@ -230,7 +236,7 @@ def _yield(solution: Solution, _points: int) -> dict[str, Any]:
     }
 
 
-SECTIONS: dict[str, Callable[[Solution, int], dict[str, Any]]] = {
+SECTIONS: dict[str, Callable[[Answer, int], dict[str, Any]]] = {
     "pressure": _pressure,
     "gap": _gap,
     "shear": _shear,

@@ -32,7 +32,7 @@ from .mesh_result import Mesh, Points, joined
 from .sample_points import inside, peak
 
 if TYPE_CHECKING:
-    from sie.solution import Solution
+    from .answer import Answer
 
 Array = NDArray[np.float64]
 Exact = Callable[[Any, Array, Array], Array]  # of a solution at x, y
@@ -153,7 +153,7 @@ class Comparison:
         return "\n".join([*lines, verdict])
 
 
-def compare(solution: Solution, mesh: Mesh, tol: float) -> Comparison:
+def compare(solution: Answer, mesh: Mesh, tol: float) -> Comparison:
     """Every quantity of the mesh against the exact one. ValueError if no point is in contact."""
     _refuse_elsewhere(solution, mesh)
     for step in (_known, _near_contact, _mirrored, _with_sign_of_shear):
@@ -162,7 +162,7 @@ def compare(solution: Solution, mesh: Mesh, tol: float) -> Comparison:
     return Comparison(mesh, tol, differences, _peaks(solution, mesh))
 
 
-def _difference(name: str, solution: Solution, mesh: Mesh) -> Difference:
+def _difference(name: str, solution: Answer, mesh: Mesh) -> Difference:
     (x, y, values), weight = mesh.fields[name], mesh.weights(name)
     exact = EXACT[name](solution, x, y)
     finite = np.isfinite(exact)
@@ -183,7 +183,7 @@ def _difference(name: str, solution: Solution, mesh: Mesh) -> Difference:
     )
 
 
-def _peaks(solution: Solution, mesh: Mesh) -> tuple[Peak, ...]:
+def _peaks(solution: Answer, mesh: Mesh) -> tuple[Peak, ...]:
     """The peaks of what the mesh has: p, q, σ_xx on its surface, Mises; finite ones."""
     fields = mesh.fields
     rows: list[tuple[str, float, float]] = []
@@ -200,7 +200,7 @@ def _peaks(solution: Solution, mesh: Mesh) -> tuple[Peak, ...]:
     return tuple(Peak(*row) for row in rows if row[1] > 0.0 and math.isfinite(row[1]))
 
 
-def largest_shear(solution: Solution) -> tuple[float, float]:
+def largest_shear(solution: Answer) -> tuple[float, float]:
     """The shear of the largest size, and its place: among sample points and the ends of stick."""
     x = np.concatenate((inside(solution), *solution.stick[-1:]))
     q = solution.shear(x)
@@ -223,7 +223,7 @@ def _mises(mesh: Mesh) -> float:
 # -- what is compared ------------------------------------------------------------------------------
 
 
-def _refuse_elsewhere(solution: Solution, mesh: Mesh) -> None:
+def _refuse_elsewhere(solution: Answer, mesh: Mesh) -> None:
     x1, x2 = solution.edges
     x = np.concatenate([field.x for field in mesh.fields.values()])
     count = np.count_nonzero((x > x1) & (x < x2))
@@ -237,7 +237,7 @@ def _refuse_elsewhere(solution: Solution, mesh: Mesh) -> None:
     )
 
 
-def _known(solution: Solution, mesh: Mesh) -> Mesh:
+def _known(solution: Answer, mesh: Mesh) -> Mesh:
     """The mesh without what the scene does not determine. ValueError if nothing remains."""
     fields, notes = dict(mesh.fields), list(mesh.notes)
     for name, (x, y, _) in mesh.fields.items():
@@ -251,7 +251,7 @@ def _known(solution: Solution, mesh: Mesh) -> Mesh:
     return replace(mesh, fields=fields, notes=tuple(notes))
 
 
-def _near_contact(solution: Solution, mesh: Mesh) -> Mesh:
+def _near_contact(solution: Answer, mesh: Mesh) -> Mesh:
     """The mesh with those points of stresses that are near the contact."""
     (x1, x2), reach = solution.edges, NEAR * solution.half_width
     fields, notes = dict(mesh.fields), dict.fromkeys(mesh.notes)
@@ -270,7 +270,7 @@ def _near_contact(solution: Solution, mesh: Mesh) -> Mesh:
     return replace(mesh, fields=fields, notes=tuple(notes))
 
 
-def _mirrored(solution: Solution, mesh: Mesh) -> Mesh:
+def _mirrored(solution: Answer, mesh: Mesh) -> Mesh:
     """The whole of a symmetric contact, of which the mesh has half."""
     r, centre = solution.half_width, 0.5 * sum(solution.edges)
     traction = next((name for name in TRACTIONS if name in mesh.fields), None)
@@ -301,7 +301,7 @@ def _with_image(name: str, field: Points, centre: float) -> Points:
     return joined([image.chosen(np.abs(x - centre) > SAME * np.ptp(x)), field])
 
 
-def _with_sign_of_shear(solution: Solution, mesh: Mesh) -> Mesh:
+def _with_sign_of_shear(solution: Answer, mesh: Mesh) -> Mesh:
     """The mesh with q turned over where that is nearer to the exact one."""
     if "q" not in mesh.fields:
         return mesh

@@ -10,6 +10,7 @@ columns = ["P", "Q", "sigma", ...]   what the numbers of each row or line are, i
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -17,8 +18,10 @@ from sie.arguments import suggestion
 from sie.problem.load_path import Path
 from sie.profiles.trace_files import read_table
 
-from .profile_tables import Files
 from .toml_values import refuse_unread
+
+if TYPE_CHECKING:
+    from .profile_tables import Files
 
 # Each point is solved and listed, all of them within seconds.
 MOST_POINTS = 2000

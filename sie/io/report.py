@@ -17,10 +17,9 @@ from .answers import energy_of, notes_of, readings_of, slipping, wanted
 from .sample_points import SAME_PEAK, ceiling, full, peak, reach
 
 if TYPE_CHECKING:
-    from sie.paths.history import History
-    from sie.solution import Solution
-
-    from .scene_file import SceneFile, Units
+    from .answer import Answer
+    from .beside_scene import Units
+    from .scene_file import SceneFile
 
 NONE: Mapping[str, Any] = {}
 SAME_PLACE = 1e-7  # of the half-width: rounding of p leaves a smooth peak uncertain by as much
@@ -32,7 +31,7 @@ BETWEEN = "  "  # what stands between the columns of a table
 
 
 def summary(
-    solution: Solution, file: SceneFile, more: Mapping[str, Any] = NONE, width: int = WIDE
+    solution: Answer, file: SceneFile, more: Mapping[str, Any] = NONE, width: int = WIDE
 ) -> str:
     """All wanted quantities, section by section, with a picture of so many columns.
 
@@ -72,7 +71,7 @@ def summary(
 class Rows:
     """The rows of each quantity, in words with units."""
 
-    solution: Solution
+    solution: Answer
     units: Units
 
     def edges(self) -> list[Row]:
@@ -254,7 +253,7 @@ def _number(value: float, scale: float = 0.0, nothing: float = NOTHING) -> str:
 # -- tables and pictures ---------------------------------------------------------------------------
 
 
-def _path_table(history: History, units: Units) -> str:
+def _path_table(history: Any, units: Units) -> str:
     """The turning points, as wide as a terminal at most."""
     rows = history.rows()
     turned = [name for name in ("tilt", "moment") if name in rows[0]]
@@ -287,7 +286,7 @@ def table(head: Sequence[str], rows: Sequence[Sequence[float | str]]) -> str:
     return "\n".join(lines)
 
 
-def text_picture(solution: Solution, units: Units, width: int = WIDE) -> str:
+def text_picture(solution: Answer, units: Units, width: int = WIDE) -> str:
     """The pressure over the contact as columns of blocks; ↑ where it rises above the picture."""
     (x1, x2), r, top = solution.edges, solution.half_width, ceiling(solution)
     margin = len(_number(top))

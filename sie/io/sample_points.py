@@ -11,7 +11,7 @@ from sie.numerics.interval import EPS
 from sie.problem.request import POINTS
 
 if TYPE_CHECKING:
-    from sie.solution import Solution
+    from .answer import Answer
 
 Array = NDArray[np.float64]
 
@@ -33,7 +33,7 @@ SPIKE = 3.0
 ABOVE_ORDINARY = 1.4
 
 
-def inside(solution: Solution, points: int = POINTS) -> Array:
+def inside(solution: Answer, points: int = POINTS) -> Array:
     """About `points` positions from x1 to x2, ascending, with the edges and the breaks.
 
     Between breaks the points are Chebyshev's, dense at both ends. Half of all points are shared out
@@ -55,7 +55,7 @@ def inside(solution: Solution, points: int = POINTS) -> Array:
     return np.unique(np.concatenate([*parts, ends]))
 
 
-def beside(solution: Solution, points: int = POINTS) -> tuple[Array, Array]:
+def beside(solution: Answer, points: int = POINTS) -> tuple[Array, Array]:
     """Positions left and right of the contact, ascending, without the edges.
 
     They end at a distance `reach`, or where the indenter ends.
@@ -68,23 +68,23 @@ def beside(solution: Solution, points: int = POINTS) -> tuple[Array, Array]:
     return x[(x >= left) & (x < x1)], x[(x > x2) & (x <= right)]
 
 
-def reach(solution: Solution) -> float:
+def reach(solution: Answer) -> float:
     """REACH half-widths, or half the way to the contact of the next period if that is less."""
     (x1, x2), period = solution.edges, solution.scene.profile.period
     return min(REACH * solution.half_width, max(0.5 * (period - (x2 - x1)), 0.0))
 
 
-def full(solution: Solution) -> bool:
+def full(solution: Answer) -> bool:
     """Whether all of a period is in contact, so that the contact has no edges."""
     return solution.contact_length >= solution.scene.profile.period
 
 
-def _corners(solution: Solution, points: int) -> tuple[float, ...]:
+def _corners(solution: Answer, points: int) -> tuple[float, ...]:
     breaks = solution.scene.profile.breaks
     return breaks if len(breaks) <= points // PER_BREAK else ()
 
 
-def abscissae(solution: Solution, points: int = POINTS) -> Array:
+def abscissae(solution: Answer, points: int = POINTS) -> Array:
     """Left of the contact, in it, and right of it."""
     left, right = beside(solution, points)
     return np.concatenate((left, inside(solution, points), right))
@@ -102,7 +102,7 @@ class Summit(NamedTuple):
     p: float
 
 
-def summits(solution: Solution) -> tuple[Summit, ...]:
+def summits(solution: Answer) -> tuple[Summit, ...]:
     """The local maxima of the pressure, from left to right; only the highest are narrowed down."""
     x = np.union1d(inside(solution), [solution.centre])
     if len(solution.patches) > 1:
@@ -116,7 +116,7 @@ def summits(solution: Solution) -> tuple[Summit, ...]:
     return tuple(map(Summit, x[top].tolist(), p[top].tolist()))
 
 
-def peak(solution: Solution) -> tuple[float, tuple[float, ...]]:
+def peak(solution: Answer) -> tuple[float, tuple[float, ...]]:
     """(largest pressure, where): at more than one x if the pressure is as large there."""
     maxima = summits(solution)
     largest = max(s.p for s in maxima)
@@ -124,7 +124,7 @@ def peak(solution: Solution) -> tuple[float, tuple[float, ...]]:
     return largest, tuple(s.x for s in maxima if s.p == largest or s.p >= least)
 
 
-def ceiling(solution: Solution) -> float:
+def ceiling(solution: Answer) -> float:
     """The largest pressure that a picture shows: the peak, unless it is infinite or narrow."""
     starts, stops = np.transpose(solution.patches)
     before = np.cumsum(stops - starts) - (stops - starts)
@@ -136,7 +136,7 @@ def ceiling(solution: Solution) -> float:
     return largest if largest <= SPIKE * ordinary else ABOVE_ORDINARY * ordinary
 
 
-def _narrowed(solution: Solution, x: Array, lo: Array, hi: Array) -> tuple[Array, Array]:
+def _narrowed(solution: Answer, x: Array, lo: Array, hi: Array) -> tuple[Array, Array]:
     """(x, value) of the largest pressures in [lo, hi]; x moves only for a gain beyond rounding."""
     p, every = solution.pressure(x), np.arange(len(x))
     for _ in range(ZOOMS):

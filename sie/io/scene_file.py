@@ -56,107 +56,20 @@ from typing import Any
 from sie import files
 from sie.arguments import suggestion, with_short_words
 from sie.problem.load_path import Path
-from sie.problem.material import RIGID, Body, Elastic
 from sie.problem.request import WANTS
 from sie.problem.scene import Scene
 from sie.profiles.kinds import KINDS
 
+from .beside_scene import UNITS, Crack, Fatigue, Units
 from .path_table import path_of
-from .profile_tables import Files, profile_of
-from .scene_keys import LOADS, TOP, naming, remedy, require, values_of
+from .profile_tables import Files
+from .scene_keys import LOADS, naming, values_of
+from .scene_tables import indenter_and_bodies, refuse_no_question
 from .toml_values import TEXT, TEXTS
 
 
 class SceneFileError(ValueError):
     """A scene file that cannot be read, or that does not make a contact problem."""
-
-
-@dataclass(frozen=True)
-class Units:
-    """Labels of consistent units, force = stress × length."""
-
-    length: str = "mm"
-    force: str = "N/mm"
-    stress: str = "MPa"
-
-    @property
-    def moment(self) -> str:
-        """The unit of ∫p x dx: N/mm times mm is N.
-
-        >>> Units().moment, Units(force="kN").moment
-        ('N', 'kN mm')
-        """
-        per_length = "/" + self.length
-        return (
-            self.force.removesuffix(per_length)
-            if self.force.endswith(per_length)
-            else f"{self.force} {self.length}"
-        )
-
-
-UNITS = Units()
-PARTS, MOST_PARTS = 4, 100
-
-
-@dataclass(frozen=True)
-class Fatigue:
-    """The content of [fatigue]; 0 stands for a constant that is not given.
-
-    Parameters
-    ----------
-    findley_k : float
-        Weight of the normal stress in Findley's parameter.
-    shear_limit : float
-        What Findley's parameter may reach, in units of stress.
-    fatemi_socie_k : float
-        Weight of the normal stress in the parameter of Fatemi and Socie.
-    yield_stress : float
-        σ_y in the parameter of Fatemi and Socie.
-    depth : float or list of float
-        Where parameters are given beside the surface; without it 1 % and 10 % of the largest
-        half-width.
-    parts : int
-        At how many states each step of the cycle is examined, 4 if it is not given.
-    """
-
-    findley_k: float = 0.0
-    shear_limit: float = 0.0
-    fatemi_socie_k: float = 0.0
-    yield_stress: float = 0.0
-    depth: float | tuple[float, ...] = ()
-    parts: int = PARTS
-
-    def __post_init__(self) -> None:
-        if not 1 <= self.parts <= MOST_PARTS:
-            raise ValueError(
-                f"[fatigue] parts = {self.parts} is not a number from 1 to {MOST_PARTS}"
-            )
-
-
-@dataclass(frozen=True)
-class Crack:
-    """The content of [crack].
-
-    Parameters
-    ----------
-    at : str or float
-        Where the cracks begin: "trailing edge" or "leading edge" of the contact under the largest
-        tangential load, or x.
-    depths : list of float
-        Depths of their tips, ascending.
-    threshold : float
-        ΔK0 of long cracks, stress times root of length.
-    fatigue_limit : float
-        Δσ0 of the smooth material, a range of stress.
-    friction : float
-        Friction between the faces of a crack: only 0.
-    """
-
-    at: str | float
-    depths: tuple[float, ...]
-    threshold: float = 0.0
-    fatigue_limit: float = 0.0
-    friction: float = 0.0
 
 
 EXAMPLES = resources.files("sie.examples")
@@ -292,22 +205,14 @@ def from_tables(top: dict[str, Any], folder: pathlib.Path = HERE) -> SceneFile:
 
     Files that they name are read from `folder`.
     """
-    for key in top:
-        if key not in TOP:
-            raise ValueError(f'there is no key or table "{key}": {remedy(key, TOP, "")}')
-    for name, content in (
-        ("profile", 'kind = "parabola" or another'),
-        ("load", "normal_load or half_width"),
-    ):
-        if name not in top:
-            raise ValueError(f"there is no [{name}]: give [{name}] with {content}")
+    refuse_no_question(top)
     units = Units(**values_of("units", top))
     beside = Files(folder, units.length)
     path, loads = _loads(top, beside)
-    profile, bodies = profile_of(top["profile"], beside), _bodies(top)
+    indenter = indenter_and_bodies(top, beside)
     fatigue, crack = Fatigue(**values_of("fatigue", top)), values_of("crack", top)
     return SceneFile(
-        scene=Scene(profile=profile, **bodies, **loads),
+        scene=Scene(**indenter, **loads),
         title=TEXT.read("title", top.get("title", "")),
         units=units,
         want=wants("want", TEXTS.read("want", top.get("want", []))),
@@ -334,43 +239,6 @@ def _loads(top: dict[str, Any], beside: Files) -> tuple[Path | None, dict[str, A
         path = path_of(loads.pop("path"), columns, beside)
     last = zip(("normal_load", "tangential_load", "bulk_stress"), path.points[-1], strict=True)
     return path, loads | dict(last)
-
-
-def _bodies(top: dict[str, Any]) -> dict[str, Any]:
-    """The scene's body and indenter, or modulus, dundurs and poisson."""
-    pair = values_of("pair", top)
-    named = [name for name in ("body", "indenter") if name in top]
-    if "pair" in top and named and not pair.keys() <= {"dundurs", "coupling"}:
-        raise ValueError(
-            f"both [pair] and [{named[0]}] are given: [pair] stands for both bodies, leave one "
-            "out; or give dundurs = 0 or coupling alone in it"
-        )
-    if "body" not in top:
-        if "pair" not in top:
-            raise ValueError(
-                "there is neither [body] nor [pair]: "
-                "give [body] with young and poisson, or [pair] with modulus"
-            )
-        require("[pair]", pair, ["modulus"])
-    return {name: _body(name, top) for name in named} | pair
-
-
-def _body(name: str, top: dict[str, Any]) -> Body:
-    if isinstance(top[name], str):
-        if top[name] != "rigid":
-            raise ValueError(
-                f'{name} = "{top[name]}" is not known: '
-                f'write {name} = "rigid", or a table [{name}] with young and poisson'
-            )
-        return RIGID
-    values = values_of(name, top)
-    if values.pop("rigid", False):
-        if values:
-            raise ValueError(f"[{name}] is rigid and has {', '.join(values)}: leave one out")
-        return RIGID
-    require(f"[{name}]", values, ("young", "poisson"))
-    with naming(f"[{name}]"):
-        return Elastic(**values)
 
 
 # -- names that are not known --------------------------------------------------------------------

@@ -17,10 +17,10 @@ from typing import Any, Literal, NamedTuple, get_args
 from numpy.typing import ArrayLike
 
 from sie.arguments import choices, nearest, suggestion
-from sie.problem.material import Plane
-from sie.problem.scene import COUPLINGS
-from sie.profiles.base import Parity, Profile
+from sie.problem.material import COUPLINGS, Plane
+from sie.profiles.base import Profile
 from sie.profiles.functions import Vectorised
+from sie.profiles.indenter import Parity
 from sie.profiles.kinds import KINDS
 from sie.profiles.sampled import Sampled
 from sie.profiles.trace_files import Column

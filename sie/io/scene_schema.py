@@ -25,7 +25,7 @@ from sie.profiles.kinds import KINDS
 from sie.profiles.row import Periodic
 from sie.profiles.sampled import Sampled
 
-from .scene_file import Crack, Fatigue
+from .beside_scene import Crack, Fatigue
 from .scene_keys import BESIDE, LOADS, MODIFIERS, PERIOD, REQUIRED, TABLES, Form, Keys, forms_of
 from .toml_values import TEXT, Json
 

@@ -17,12 +17,12 @@ from numpy.typing import NDArray
 from sie import __version__
 from sie.files import table_of_columns
 from sie.problem.request import GRID
-from sie.stress.half_plane import Stress
-
-from .scene_file import SceneFile
 
 if TYPE_CHECKING:
-    from sie.solution import Solution
+    from sie.stress.half_plane import Stress
+
+    from .answer import Answer
+    from .scene_file import SceneFile
 
 Array = NDArray[np.float64]
 
@@ -35,7 +35,7 @@ BESIDE, DEPTH = 1.0, 2.0
 class Grid:
     """The stress of a solution at nx × ny points around the contact, in arrays (ny, nx)."""
 
-    solution: Solution
+    solution: Answer
     nx: int = GRID[0]
     ny: int = GRID[1]
 

@@ -13,7 +13,7 @@ import numpy as np
 from sie import Solution
 from sie.arguments import with_short_words
 from sie.errors import ContactError
-from sie.io.scene_file import Units
+from sie.io.beside_scene import Units
 
 from . import teaching
 from .controls import NODES, ROUNDED, SAVED, SHAPES

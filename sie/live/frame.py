@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from sie import Scene, Solution
 from sie.errors import ContactError
-from sie.io.scene_file import Units
+from sie.io.beside_scene import Units
 
 from .controls import ACROSS, DEPTH, DOWN, OF_FILE, ROUNDED, WEDGE
 from .setting import Setting, sliders, solution_of

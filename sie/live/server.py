@@ -12,7 +12,7 @@ from typing import Any
 from urllib.parse import parse_qsl, urlsplit
 
 from sie.errors import ContactError
-from sie.io.scene_file import Units
+from sie.io.beside_scene import Units
 from sie.problem.scene import Scene
 
 from .answer import PARTS, answer

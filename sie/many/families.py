@@ -25,7 +25,6 @@ from sie.contact.pressure import pressure as pressure_on
 from sie.numerics.interval import EPS
 from sie.problem.scene import Scene
 from sie.profiles.base import Profile
-from sie.profiles.row import asks_for_patches
 from sie.profiles.shapes import Flat, Parabola, Power, RoundedFlat, Wedge
 
 from .newton import CLOSE, MOST_STEPS, Array, Contact, Integrals, newton
@@ -223,7 +222,7 @@ def families(profile: Any, names: tuple[str, ...]) -> tuple[Family | Smooth, ...
     if type(profile) in SHAPES:
         return SHAPES[type(profile)] or (power(profile.exponent),)  # type: ignore[attr-defined]
     inner = profile.pieces.breaks[1:-1]
-    if asks_for_patches(profile) or len(inner) > MOST_BREAKS:
+    if profile.of_several or len(inner) > MOST_BREAKS:
         return ()
     breaks, known = tuple(map(float, inner)), (profile.domain, profile.convex)
     return (Smooth(profile.pieces, (), profile.axis, breaks, *known),)

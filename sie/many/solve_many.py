@@ -17,11 +17,12 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from sie import arguments
+from sie.answers.sheared import Sheared
 from sie.errors import ContactError
+from sie.problem.coverage import refuse_uncovered
 from sie.problem.scene import Scene
 from sie.profiles.base import Profile
 from sie.profiles.from_function import FromFunction
-from sie.solution import Solution, solve
 
 from .families import SHAPES, families
 from .newton import Array, Contact
@@ -143,7 +144,7 @@ class Many:
         n, self._families = math.prod(shape), families(profile, tuple(own))
         self._family = np.full(n, ALONE, dtype=np.int8)
         self._found = Contact(*(np.full(n, np.nan) for _ in range(4)))
-        self._alone: dict[int, Solution] = {}
+        self._alone: dict[int, Sheared] = {}
         with np.errstate(all="ignore"):
             for some in _chunks(n, CHUNK):
                 for number in range(len(self._families)):
@@ -189,7 +190,9 @@ class Many:
                 profile = FromFunction(partial(profile, **own))
             elif own:
                 profile = type(profile)(*own.values())
-            solution = solve(Scene(profile=profile, **loads))
+            scene = Scene(profile=profile, **loads)
+            refuse_uncovered(scene)
+            solution = Sheared(scene)
             m, P, M = solution.centre, solution.normal_load, solution.moment
             _ = solution.stick
         except (ContactError, ValueError) as problem:

@@ -211,3 +211,19 @@ def gauss_legendre(n: int) -> tuple[Array, Array]:
     w = np.asarray((1 - x * x) / (n * before) ** 2, dtype=float)
     g.flags.writeable = w.flags.writeable = False
     return g, w
+
+
+@lru_cache(maxsize=8)
+def legendre(n: int) -> Array:
+    """Values at the n Gauss nodes to Legendre coefficients, as a matrix (n, n)."""
+    g, w = gauss_legendre(n)
+    P = np.polynomial.legendre.legvander(2.0 * g - 1.0, n - 1)
+    matrix = P * w[:, None] * (2.0 * np.arange(n) + 1.0)
+    matrix.flags.writeable = False
+    return matrix
+
+
+def lower_bound(values: Array) -> Array:
+    """Below all of a polynomial that has these values (m, n) at Gauss nodes."""
+    c = values @ legendre(values.shape[1])
+    return np.asarray(c[:, 0] - np.abs(c[:, 1:]).sum(axis=1))

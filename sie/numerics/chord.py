@@ -56,7 +56,7 @@ class Chord:
 
     def __call__(self, step: Any) -> Any:
         """d of differences shorter than a period, which may be complex."""
-        return self._both(0.0, step)[0] if self.periodic else step
+        return self.both(0.0, step)[0]
 
     def logarithm(self, step: Any) -> Any:
         """ln|d| of such differences."""
@@ -64,14 +64,16 @@ class Chord:
 
     def apart(self, step: Any, offset: Any = 0.0) -> Any:
         """d for a difference of anchors and one of offsets. Whole periods go into the sign."""
-        return self._both(step, offset)[0] if self.periodic else step + offset
+        return self.both(step, offset)[0] if self.periodic else step + offset
 
     def cosine(self, step: Any, offset: Any = 0.0) -> Any:
         """cos(π(x - y)/λ); 1 on the line."""
-        return self._both(step, offset)[1] if self.periodic else np.ones_like(step + offset)
+        return self.both(step, offset)[1]
 
-    def _both(self, step: Any, offset: Any) -> tuple[Any, Any]:
-        """d and cos(π(x - y)/λ), per period λ."""
+    def both(self, step: Any, offset: Any = 0.0) -> tuple[Any, Any]:
+        """d and cos(π(x - y)/λ), with which d of a sum of differences is that of a sine."""
+        if not self.periodic:
+            return step + offset, np.ones_like(step + offset)
         turns = np.rint(step / self.period)
         angle = (np.pi / self.period) * ((step - turns * self.period) + offset)
         cosine, sine = _cosine_and_sine(angle)
@@ -87,7 +89,7 @@ class Chord:
         step = t.anchor - x.anchor
         if not self.periodic:
             return (step - x.offset)[:, :, None] + t.offset[:, None, :]
-        far = np.stack(self._both(step, -x.offset), axis=2)
+        far = np.stack(self.both(step, -x.offset), axis=2)
         cosine, sine = _cosine_and_sine((np.pi / self.period) * t.offset)
         return far @ np.stack((cosine, (self.period / np.pi) * sine), axis=1)
 

@@ -19,13 +19,15 @@ from __future__ import annotations
 
 import math
 from functools import lru_cache
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .interval import EPS
-from .jacobi_weight import Exponent, Weight, sin_pi
+
+if TYPE_CHECKING:
+    from .jacobi_weight import Exponent, Weight
 
 Array = NDArray[Any]
 
@@ -267,7 +269,7 @@ def faint_principal(weight: Weight, c: Array, right: Array, left: Array) -> Arra
 
     The points are given by their distances from both ends.
     """
-    power, half = weight.alpha * np.log(right / left), sin_pi(0.5 * weight.alpha)
+    power, half = weight.alpha * np.log(right / left), weight.sine_of_half
     return _faint(
         weight, c, 0.5 * (left - right), 2.0 * half * half * np.exp(power) - np.expm1(power)
     )

@@ -76,6 +76,11 @@ class Weight(NamedTuple):
         return sin_pi(self.alpha + 0.5) / self.sine
 
     @property
+    def sine_of_half(self) -> Exponent:
+        """sin πα/2."""
+        return sin_pi(0.5 * self.alpha)
+
+    @property
     def total(self) -> Exponent:
         """∫ w ds, by the reflection formula of Γ."""
         if self.kappa == 1:

@@ -14,16 +14,14 @@ from sie import arguments
 from sie.contact.known_contact import Edges, refuse_narrow
 from sie.errors import ContactError, LoadError
 from sie.numerics.interval import Interval
-from sie.profiles.row import Periodic
 
-from .certificate import certificate
+from .certificate import certificate, unseen
 from .density import PatchPressure
 from .full import FullContact, full_contact
 from .gap import gap, gap_volume
 from .of_scene import Problem, problem_of
 from .operator import Found, Operator
 from .solver import contact
-from .unknown import unseen
 
 if TYPE_CHECKING:
     from sie.problem.scene import Scene
@@ -147,7 +145,7 @@ def answered(problem: Problem, found: Found, scene: Scene) -> SeveralPatches:
         found.steps,
     )
     profile = scene.profile
-    notes = (profile.joint,) if isinstance(profile, Periodic) and profile.joint else ()
+    notes = (profile.joint,) if profile.joint else ()
     return SeveralPatches(edges, pressure, problem, found, notes)
 
 

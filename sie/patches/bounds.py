@@ -13,8 +13,6 @@ that of D sin²(φ/2), of D times the distance from that edge over the width of 
 
 from __future__ import annotations
 
-from functools import lru_cache
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -22,61 +20,35 @@ from sie.numerics import chebyshev
 from sie.numerics.chord import Points
 
 from .operator import Operator, intensities, on_patches
+from .panels import CLEARLY, DEEPEST, FIRST, NODES, halves
 from .state import CLOSED, Tension
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
 
-NODES = 8  # on a part of a panel
-DEEPEST = 30  # halvings
 TENSION = 1e-13  # of the largest D: rounding
 MANY = 1 << 14  # parts more than panels: where D is next to nothing but for one place they are few
 HALVED = 42  # times the distance from a concave corner is
 
 
-@lru_cache(maxsize=8)
-def legendre(n: int) -> Array:
-    """Values at the n Gauss nodes to Legendre coefficients, as a matrix (n, n)."""
-    g, w = chebyshev.gauss_legendre(n)
-    P = np.polynomial.legendre.legvander(2.0 * g - 1.0, n - 1)
-    matrix = P * w[:, None] * (2.0 * np.arange(n) + 1.0)
-    matrix.flags.writeable = False
-    return matrix
-
-
-def halves(lo: Array, hi: Array) -> tuple[Array, Array]:
-    """The ends of the left halves of parts, then those of the right ones."""
-    middle = 0.5 * (lo + hi)
-    return np.concatenate((lo, middle)), np.concatenate((middle, hi))
-
-
-def lower_bound(values: Array) -> Array:
-    """Below all of a polynomial that has these values (m, n) at Gauss nodes."""
-    c = values @ legendre(values.shape[1])
-    return np.asarray(c[:, 0] - np.abs(c[:, 1:]).sum(axis=1))
-
-
-# -- tension ---------------------------------------------------------------------------------------
-
-
 def tensions(o: Operator) -> tuple[tuple[Tension, ...], float]:
     """Where the patches are in tension, and the lowest bound of D over the largest D."""
     k = o.panels
-    lo, hi = k.lo, k.hi
-    panel = np.arange(len(k.lo))
     # a charge that pulls is an event of its own
     sharp = np.where(k.right, 1.0, -1.0) * o.Y[2 * k.patch + k.right] > 0.0
-    scale, lowest = 0.0, np.inf
+    panel, scale = _open(o, sharp)
+    lo, hi, lowest = k.lo[panel], k.hi[panel], np.inf
     bad: list[tuple[int, float, float, float, float]] = []
     g, _ = chebyshev.gauss_legendre(NODES)
-    for depth in range(DEEPEST):
+    for depth in range(DEEPEST if panel.size else 0):
         angle = lo[:, None] + (hi - lo)[:, None] * g
         D, x = intensities(o, panel, angle)
         finite = D[np.isfinite(D)]
         scale = max(scale, float(finite.max(initial=0.0)))
         least = -TENSION * scale
         distance = np.where(sharp[panel, None], np.sin(0.5 * angle) ** 2, 1.0)
-        bound = lower_bound((np.where(np.isfinite(D), D, scale) - least) * distance) + least
+        above = (np.where(np.isfinite(D), D, scale) - least) * distance
+        bound = chebyshev.lower_bound(above) + least
         negative = least > D
         for j in np.flatnonzero(negative.any(axis=1)):
             bad += [(int(k.patch[panel[j]]), *run) for run in _runs(x[j], negative[j])]
@@ -96,6 +68,20 @@ def tensions(o: Operator) -> tuple[tuple[Tension, ...], float]:
     return tuple(_joined(bad)), lowest / scale if scale else 0.0
 
 
+def _open(o: Operator, sharp: NDArray[np.bool_]) -> tuple[Index, float]:
+    """The panels on which a first look leaves open whether D is positive, and the largest D."""
+    k, every = o.panels, np.arange(len(o.panels.lo))
+    g, _ = chebyshev.gauss_legendre(FIRST)
+    D, _ = intensities(o, every, k.lo[:, None] + (k.hi - k.lo)[:, None] * g)
+    with np.errstate(invalid="ignore"):
+        clear = (
+            (chebyshev.lower_bound(D) > CLEARLY * D.mean(axis=1))
+            & np.isfinite(D).all(axis=1)
+            & ~sharp
+        )
+    return np.flatnonzero(~clear), float(D[np.isfinite(D)].max(initial=0.0))
+
+
 def _at_corners(o: Operator) -> tuple[list[tuple[int, float, float, float, float]], float]:
     """Runs of tension at the concave corners on patches, as `_runs` has them, and the lowest D."""
     P, pieces = o.patches, o.pieces
@@ -110,9 +96,10 @@ def _at_corners(o: Operator) -> tuple[list[tuple[int, float, float, float, float
     ahead = np.minimum(pieces.breaks[after + 1] - corners, P.b[patch] - corners)
     halved = 0.5 ** np.arange(1.0, HALVED)
     offset = np.concatenate((-behind[:, None] * halved, ahead[:, None] * halved), axis=1)
-    corner = np.broadcast_to(corners[:, None], offset.shape)
     piece = np.where(offset < 0.0, before[:, None], after[:, None])
-    D = on_patches(o, patch, Points(corner, offset), piece)
+    places = Points(np.repeat(corners, offset.shape[1]), offset.ravel())
+    _, D = on_patches(o, np.repeat(patch, offset.shape[1]), places, piece.ravel())
+    D = D.reshape(offset.shape)
     deepest, pulls = D.min(axis=1), np.where(D < 0.0, offset, 0.0)
     left, right = -pulls.min(axis=1), pulls.max(axis=1)
     # D < 0 on half of the gap that opens there, of which a quarter at least is found

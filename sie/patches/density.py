@@ -139,14 +139,9 @@ class PatchPressure(Density):
 
     def at_points(self, points: Points, k: Index, piece: Index) -> Array:
         """p at points (m,) on patches k and pieces of the slope; no place is rounded."""
-        o = self.operator
-        at = blocks(k, points.x)
-        T, _ = o.root(k[at[:, 0]], points[at])
-        p = np.empty(points.offset.shape)
         with np.errstate(divide="ignore", invalid="ignore"):
-            D = on_patches(o, k[at[:, 0]], points[at], piece[at])
-            p[at] = (self.half_modulus / np.pi) * np.abs(T) * D
-        return p
+            T, D = on_patches(self.operator, k, points, piece)
+            return (self.half_modulus / np.pi) * T * D
 
     @cached_property
     def rules(self) -> tuple[Rule, Rule]:

@@ -28,8 +28,9 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from sie.numerics.tree import CHARGES, FAR, FEWEST, POINTS, add, gathered, parts, ranges
+
 from .panels import GapPanels, Patches
-from .sums import add, parts
 
 Array = NDArray[np.float64]
 
@@ -112,13 +113,29 @@ def across_gaps(P: Patches, k: GapPanels, weight: Array) -> Array:
 
         A_ik = Σ_{x in gap i} w(x) κ(x - c_k),    B_ik = Σ_{x in gap i} w(x)/d(x, c_k)²
 
-    for weights w on the nodes of the gaps.
+    for weights w on the nodes of the gaps, which charges stand for where a centre is far.
     """
+    half, gaps = 0.5 * P.gaps[: P.number - 1], np.arange(P.number - 1)
+    middle = P.b[: P.number - 1] + half
     out = np.zeros((2, P.number - 1, P.number))
-    for some in parts(len(k.gap), k.dx.shape[1] * P.number):
-        step = P.chord.difference(
-            k.points.anchor[some, :, None] - P.c[:, None], k.points.offset[some, None, :]
+    apart = P.chord.difference(middle[:, None] - P.c)
+    near = np.abs(apart) < FAR * half[:, None] if P.number >= FEWEST else np.ones_like(apart, bool)
+    if not near.all():
+        charges, (anchor, offset) = (
+            np.zeros((len(gaps), CHARGES)),
+            (k.points.anchor, k.points.offset),
         )
-        for sums, kernel in zip(out, P.chord.poles(step), strict=True):
-            add(sums, k.gap[some], (kernel @ weight[some, :, None])[..., 0])
+        u = ((anchor - middle[k.gap, None]) + offset) / half[k.gap, None]
+        add(charges, k.gap, gathered(u, weight[None])[0])
+        for some in parts(len(gaps), CHARGES * P.number):
+            step = apart[some, :, None] + half[some, None, None] * POINTS
+            for sums, kernel in zip(out, P.chord.poles(step), strict=True):
+                sums[some] = (kernel @ charges[some, :, None])[..., 0]
+    gap, centre = np.nonzero(near)
+    first, last = (np.searchsorted(k.gap, gap, side) for side in ("left", "right"))
+    pair = np.repeat(np.arange(len(gap)), last - first)
+    panel, c = ranges(first, last - first), P.c[centre[pair], None]
+    step = P.chord.difference(k.points.anchor[panel] - c, k.points.offset[panel])
+    for sums, kernel in zip(out, P.chord.poles(step), strict=True):
+        sums[gap, centre] = np.bincount(pair, (kernel * weight[panel]).sum(axis=1), len(gap))
     return out

@@ -29,10 +29,10 @@ from sie.numerics.interval import EPS, Interval
 from sie.profiles.pieces import Pieces
 from sie.traction.base import Density, refuse_side
 
-from .bounds import DEEPEST, NODES, TENSION, halves, lower_bound
+from .bounds import TENSION
 from .density import PatchPressure
 from .operator import Operator
-from .panels import Patches
+from .panels import DEEPEST, NODES, Patches, halves
 from .result import CLOSE, LEAST, PatchCertificate
 from .rule import Rule, principal_value
 
@@ -211,7 +211,7 @@ class FullPressure(Density):
             p = self(lo[:, None] + (hi - lo)[:, None] * g)
             if (p < -TENSION * self.mean).any():
                 return float(p.min()) / self.mean
-            bound, least = lower_bound(p), min(least, float(p.min()))
+            bound, least = chebyshev.lower_bound(p), min(least, float(p.min()))
             enough = bound >= CLOSE_BELOW * least - TENSION * self.mean
             lowest = min(lowest, float(bound[enough].min(initial=np.inf)))
             if enough.all():

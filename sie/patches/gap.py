@@ -7,7 +7,7 @@ g'/root >= 0 all the way from the edge, or g >= 0, is verified by bounds and not
 from __future__ import annotations
 
 from operator import itemgetter
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,10 +15,20 @@ from numpy.typing import NDArray
 from sie.errors import ResolutionError
 from sie.numerics import chebyshev
 from sie.numerics.interval import EPS
+from sie.numerics.tree import parts as portions
 
-from .bounds import DEEPEST, NODES, legendre, lower_bound
 from .operator import Operator, gap_values
-from .panels import FARTHEST, GapPanels, distance_of, gap_panels, parameter_of
+from .panels import (
+    CLEARLY,
+    DEEPEST,
+    FARTHEST,
+    FIRST,
+    NODES,
+    GapPanels,
+    distance_of,
+    gap_panels,
+    parameter_of,
+)
 from .state import Findings, Overlap
 
 Array = NDArray[np.float64]
@@ -43,17 +53,14 @@ def overlaps(o: Operator, tilt: float, load: float) -> Findings:
     panels = gap_panels(o.patches, o.pieces, outside=True, farthest=max(FARTHEST, beyond))
     if not len(panels.gap):
         return Findings()
-    side, parts = sides(o, panels), _parts(o, panels)
-    largest = np.zeros(o.patches.number + 1)
+    side = sides(o, panels)
+    parts, largest = _left_open(o, tilt, side, _parts(o, panels))
     bad: list[tuple[int, float, float, float]] = []
     doubts = [(0.0, 0.0)]
     for depth in range(DEEPEST):
         last = depth == DEEPEST - 1
         seen = _judged(o, (tilt, load), side, parts, last)
         gap, value, x = panels.gap[parts.panel], seen.value, seen.x
-        if depth == 0:
-            beside = np.where(np.isfinite(value) & seen.near, value, 0.0)
-            np.maximum.at(largest, gap + 1, beside.max(axis=1))
         wide = np.ptp(x, axis=1)
         for j, m in zip(*np.nonzero(seen.negative), strict=True):
             bad.append((int(gap[j]), float(x[j, m]), float(value[j, m]), float(wide[j])))
@@ -84,11 +91,13 @@ class Parts(NamedTuple):
 
     def halved(self, kept: Bool) -> Parts:
         """The halves of those that are kept."""
-        lo, hi = np.repeat(self.lo[kept], 2), np.repeat(self.hi[kept], 2)
-        lo[1::2] = hi[::2] = 0.5 * (lo + hi)[::2]
-        opened = np.repeat(self.opened[kept], 2)
-        opened[1::2] = False
-        return Parts(np.repeat(self.panel[kept], 2), lo, hi, opened)
+        twice = self.among(np.repeat(np.flatnonzero(kept), 2))
+        twice.lo[1::2] = twice.hi[::2] = 0.5 * (twice.lo + twice.hi)[::2]
+        twice.opened[1::2] = False
+        return twice
+
+    def among(self, some: Any) -> Parts:
+        return Parts(self.panel[some], self.lo[some], self.hi[some], self.opened[some])
 
     def followed(self, run: Index, rising: Bool) -> Bool:
         """`opened` of these parts, by the side (run) of each panel and what rises all over."""
@@ -99,12 +108,39 @@ class Parts(NamedTuple):
         return np.asarray(self.opened[first] & (before == before[first]))
 
 
+def _left_open(o: Operator, tilt: float, side: Side, parts: Parts) -> tuple[Parts, Array]:
+    """The parts on which a first look does not tell that the bodies are apart.
+
+    With them come the largest gaps (N + 1,), no farther from an edge than the contact is wide.
+    """
+    k, (g, _) = side.panels, chebyshev.gauss_legendre(FIRST)
+    anchor, sign = k.points.anchor[:, 0], side.sign
+    far = anchor + sign * distance_of(k.hi, k.width)[0]
+    tolerance = _tolerances(o, tilt, np.minimum(anchor, far), np.maximum(anchor, far))[1]
+    open_, largest = np.ones(len(parts.lo), dtype=bool), np.zeros(o.patches.number + 1)
+    for some in portions(len(parts.lo), FIRST):
+        panel, lo, hi, _ = parts.among(some)
+        value, x = opening(o, side, panel, lo[:, None] + (hi - lo)[:, None] * g)
+        open_[some] = ~(
+            chebyshev.lower_bound(value) > np.maximum(CLEARLY * value.mean(1), tolerance[panel])
+        )
+        last = (value @ chebyshev.legendre(FIRST)).sum(axis=1)  # at hi, such as the middle of a gap
+        near = np.isfinite(last) & (np.abs(x[:, -1] - anchor[panel]) <= o.patches.hull)
+        np.maximum.at(largest, k.gap[panel] + 1, np.where(near, last, 0.0))
+    return parts.among(open_), largest
+
+
+def _tolerances(o: Operator, tilt: float, lo: Array, hi: Array) -> tuple[Array, Array]:
+    """The rounding of h on intervals that begin or end at an edge, and that of the gap."""
+    rounding = o.pieces.rounding(lo, hi) + EPS * abs(tilt) * (hi - lo)
+    return rounding, rounding + ROUNDING * float(np.abs(o.H).max()) * (hi - lo)
+
+
 class Judged(NamedTuple):
     """What the gap at points (m, n) of parts (m,) tells.
 
     value      the gap
     x          its places
-    near       whether a place is no farther from its edge than the whole contact is wide
     negative   where the gap is negative for sure
     rounding   a bound of the rounding of h (m,)
     unsure     whether that rounding hides what the gap is
@@ -114,7 +150,6 @@ class Judged(NamedTuple):
 
     value: Array
     x: Array
-    near: Bool
     negative: Bool
     rounding: Array
     unsure: Bool
@@ -130,13 +165,11 @@ def _judged(
     anchor = side.panels.points.anchor[parts.panel]
     g, _ = chebyshev.gauss_legendre(NODES)
     t = parts.lo[:, None] + (parts.hi - parts.lo)[:, None] * g
-    value, x, phi = opening(o, side, parts.panel, t)
-    away = np.abs(x - anchor)
+    value, x = opening(o, side, parts.panel, t)
     lo, hi = np.minimum(anchor[:, 0], x.min(axis=1)), np.maximum(anchor[:, 0], x.max(axis=1))
-    rounding = o.pieces.rounding(lo, hi) + EPS * abs(tilt) * (hi - lo)
-    tolerance = rounding + ROUNDING * float(np.abs(o.H).max()) * away.max(axis=1)
-    bound = lower_bound(value)
-    rising = lower_bound(phi) >= 0.0
+    rounding, tolerance = _tolerances(o, tilt, lo, hi)
+    bound = chebyshev.lower_bound(value)
+    rising = chebyshev.lower_bound(_opens(o, side, parts.panel, t)) >= 0.0
     opened = parts.followed(np.cumsum(side.panels.lo == 0.0), rising)
     opens = opened & rising
     matters = (rounding > NEGLIGIBLE * load) & ~opens & (bound < tolerance)
@@ -145,9 +178,8 @@ def _judged(
     negative = (value < -tolerance[:, None]) & may_be[:, None]
     sure = negative.any(axis=1)
     unsure = matters & ~sure & (value < tolerance[:, None]).any(axis=1)
-    near = away <= o.patches.hull
     unknown = ~enough & ~sure & ~unsure
-    return Judged(value, x, near, negative, rounding, unsure, unknown, opened)
+    return Judged(value, x, negative, rounding, unsure, unknown, opened)
 
 
 def _undecided(count: int, x: Array) -> ResolutionError:
@@ -198,7 +230,7 @@ def sides(o: Operator, panels: GapPanels) -> Side:
     half = 0.5 * (panels.hi - panels.lo)
     _, _, derivative = distance_of(_nodes(panels), panels.width[:, None])
     integrand = half[:, None] * phi * panels.root * derivative
-    c = integrand @ legendre(n)
+    c = integrand @ chebyshev.legendre(n)
     primitive = np.asarray(np.polynomial.legendre.legint(c, lbnd=-1, axis=1), dtype=float)
     first = np.flatnonzero(panels.lo == 0.0)
     run = np.cumsum(panels.lo == 0.0) - 1
@@ -207,7 +239,7 @@ def sides(o: Operator, panels: GapPanels) -> Side:
     sums = np.zeros((len(first), int(position.max()) + 2))
     sums[run, position + 1] = primitive.sum(axis=1)
     start = np.cumsum(sums, axis=1)[run, position]
-    return Side(panels, sign, phi @ legendre(n), primitive, start)
+    return Side(panels, sign, phi @ chebyshev.legendre(n), primitive, start)
 
 
 def _nodes(panels: GapPanels) -> Array:
@@ -215,30 +247,35 @@ def _nodes(panels: GapPanels) -> Array:
     return np.asarray(panels.lo[:, None] + (panels.hi - panels.lo)[:, None] * g)
 
 
-def opening(o: Operator, side: Side, panel: Index, t: Array) -> tuple[Array, Array, Array]:
-    """(g, x, sign g'/root where the reference follows H) at parameters t (m, n) on panels (m,)."""
-    k, pieces = side.panels, o.pieces
-    s = (2.0 * t - (k.lo + k.hi)[panel, None]) / (k.hi - k.lo)[panel, None]
-    distance, root, _ = distance_of(t, k.width[panel, None])
-    anchor = np.broadcast_to(k.points.anchor[panel], distance.shape)
-    sign = side.sign[panel, None]
-    x = anchor + sign * distance
-    phi = _series(side.phi, panel, s)
-    bent = side.start[panel, None] + _series(side.primitive, panel, s)
+def opening(o: Operator, side: Side, panel: Index, t: Array) -> tuple[Array, Array]:
+    """g and x at parameters t (m, n) on panels (m,)."""
+    distance, anchor, x, sign, s = _placed(side, panel, t)
     # ∫ (H - reference) from the edge
-    lower, upper = np.minimum(anchor, x), np.maximum(anchor, x)
-    shape = x.shape
-    rise = pieces.rises(lower.ravel(), upper.ravel(), walls=True).reshape(shape)
-    rise -= _referenced(o, k, panel, distance, sign)
-    here = pieces.value(pieces.locate(x), x, 0.0)
-    follows = k.follows[panel, None]
-    edge_value = pieces.value(k.piece[panel], k.points.anchor[panel, 0], 0.0)[:, None]
-    continued = pieces.value(k.piece[panel][:, None], anchor, sign * distance)
-    difference = np.where(follows, here - continued, here - edge_value)
-    same = follows & (pieces.locate(x) == k.piece[panel][:, None])
+    rise = o.pieces.rises(np.minimum(anchor, x).ravel(), np.maximum(anchor, x).ravel(), walls=True)
+    referenced = _referenced(o, side.panels, panel, distance, sign)
+    bent = side.start[panel, None] + _series(side.primitive, panel, s)
+    return sign * (rise.reshape(x.shape) - referenced) + bent, x
+
+
+def _opens(o: Operator, side: Side, panel: Index, t: Array) -> Array:
+    """g'/root, away from the edge, at the same places."""
+    k, pieces, (distance, anchor, x, sign, s) = side.panels, o.pieces, _placed(side, panel, t)
+    root = distance_of(t, k.width[panel, None])[1]
+    at, own, follows = pieces.locate(x), k.piece[panel][:, None], k.follows[panel, None]
+    reference = pieces.value(own, anchor, np.where(follows, sign * distance, 0.0))
     with np.errstate(divide="ignore", invalid="ignore"):
-        slope = phi + np.where(same, 0.0, sign * difference / root)
-    return sign * rise + bent, x, slope
+        beyond = sign * (pieces.value(at, x, 0.0) - reference) / root
+        beyond = np.where(follows & (at == own), 0.0, beyond)
+        return np.asarray(_series(side.phi, panel, s) + beyond)
+
+
+def _placed(side: Side, panel: Index, t: Array) -> tuple[Array, Array, Array, Array, Array]:
+    """Parameters t (m, n) of panels (m,): distance from the edge, edge, x, direction, s."""
+    k = side.panels
+    lo, hi, sign = k.lo[panel, None], k.hi[panel, None], side.sign[panel, None]
+    distance = distance_of(t, k.width[panel, None])[0]
+    anchor = np.broadcast_to(k.points.anchor[panel], distance.shape)
+    return distance, anchor, anchor + sign * distance, sign, (2.0 * t - (lo + hi)) / (hi - lo)
 
 
 def _referenced(o: Operator, k: GapPanels, panel: Index, distance: Array, sign: Array) -> Array:
@@ -285,7 +322,7 @@ def _parts(o: Operator, panels: GapPanels) -> Parts:
     panel, lo, hi = every[:-1][same], place[:-1][same], place[1:][same]
     middle = edge[panel] + sign[panel] * distance_of(0.5 * (lo + hi), panels.width[panel])[0]
     solid = ~pieces.void[pieces.locate(middle)]
-    return Parts(panel[solid], lo[solid], hi[solid], (lo == 0.0)[solid])
+    return Parts(panel, lo, hi, lo == 0.0).among(solid)
 
 
 def gap(o: Operator, x: Array) -> Array:
@@ -322,7 +359,7 @@ def gap(o: Operator, x: Array) -> Array:
     panel = first.copy()
     for _ in range(int((last - first).max(initial=0))):
         panel = np.where((panel < last) & (t > panels.hi[panel]), panel + 1, panel)
-    value, _, _ = opening(o, side, panel, t[:, None])
+    value, _ = opening(o, side, panel, t[:, None])
     out[finite[beside]] = np.maximum(value[:, 0], 0.0)
     return out
 
@@ -339,6 +376,6 @@ def gap_volume(o: Operator) -> float:
     panel, lo, length = panel[kept], lo[kept, None], (hi - lo)[kept, None]
     g, w = chebyshev.gauss_legendre(panels.dx.shape[1])
     t = lo + length * g
-    value, _, _ = opening(o, side, panel, t)
+    value, _ = opening(o, side, panel, t)
     _, _, derivative = distance_of(t, panels.width[panel, None])
     return float((value * derivative * length * w).sum())

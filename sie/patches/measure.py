@@ -26,16 +26,16 @@ from numpy.typing import NDArray
 
 from sie.numerics import chebyshev
 from sie.numerics.chord import Points
-from sie.numerics.tree import Level, Tree
+from sie.numerics.tree import Groups, Level, Tree, far_sums, multiply, parts
 
 from .panels import Patches, PatchPanels, patch_panels
-from .sums import Groups, far_sums, multiply, parts
 
 if TYPE_CHECKING:
     from sie.profiles.pieces import Pieces
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
+Mask = NDArray[np.bool_]
 
 # half-lengths of a panel, in its angle, from its middle: Gauss' rule resolves poles beyond
 NEAR = 2.5
@@ -85,8 +85,10 @@ class Measure:
         near = self._tree_of_roots.separated(chord, groups.i, extent, extent, x.offset.size)
         out *= np.exp(far_sums(chord, groups, near, x, self._logarithms)[..., 0])
         block, pair = groups.blocks(near.group)
+        offset = chord.both(0.0, x.offset)
         for some in parts(len(block), out.shape[1]):
-            multiply(out, block[some], self._factor(near.row[pair[some]], i, x, block[some]))
+            j, at = near.row[pair[some]], block[some]
+            multiply(out, at, self._factor(j, j == i[at], x.anchor[at], [v[at] for v in offset]))
         return out
 
     @cached_property
@@ -106,12 +108,11 @@ class Measure:
             np.abs(step, out=step)
         return np.log(step, out=step) @ level.charges[0, node, :, None]
 
-    def _factor(self, j: Index, i: Index, x: Points, block: Index) -> Any:
-        """What patch j contributes to S_i at blocks."""
-        P, d = self.patches, self.patches.chord.apart
-        own = j == i[block]
-        anchor, offset = x.anchor[block], x.offset[block]
-        left, right, middle = (d(anchor - v[j, None], offset) for v in (P.a, P.b, P.c))
+    def _factor(self, j: Index, own: Mask, anchor: Array, offset: list[Any]) -> Any:
+        """What patches j contribute to S at blocks, 1 where that is the block's own patch."""
+        P, chord = self.patches, self.patches.chord
+        steps = (chord.both(anchor - v[j, None]) for v in (P.a, P.b, P.c))
+        left, right, middle = (d * offset[1] + cosine * offset[0] for d, cosine in steps)
         middle[own] = 1.0
         ratio = (left / middle) * (right / middle)
         ratio[own] = 1.0
@@ -208,7 +209,7 @@ class Measure:
         lo = np.where(reach > middle, -size * beside, size * inner)
         return lo, size * np.sin(0.5 * np.minimum(middle + reach, np.pi)) ** 2
 
-    def follows(self, k: Index, x: Points) -> NDArray[np.bool_]:
+    def follows(self, k: Index, x: Points) -> Mask:
         """Whether the pieces k may be continued to places x.
 
         Off the line so far that the terms of a series grow LIFTED times: a pole that is left in a
@@ -299,7 +300,7 @@ def _inward(o: Measure, panel: Index, x: Points) -> Any:
     return np.where(k.right[panel, None], -inward, inward)
 
 
-def close(o: Measure, panel: Index, x: Points) -> NDArray[np.bool_]:
+def close(o: Measure, panel: Index, x: Points) -> Mask:
     """Whether places (m, n) are close to the panels (m,)."""
     k, P = o.panels, o.patches
     inward = _inward(o, panel, x)

@@ -24,6 +24,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie.numerics.interval import EPS
+from sie.numerics.tree import parts
 from sie.profiles.pieces import Pieces
 from sie.progress_bar import step_done
 
@@ -44,7 +45,6 @@ from .state import (
     moved,
     turning_smooth,
 )
-from .sums import parts
 
 Array = NDArray[np.float64]
 

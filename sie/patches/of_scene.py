@@ -1,27 +1,40 @@
 """The problem of a scene in units of E*/2, and the window in which its contact is looked for.
 
-A problem is a profile, a load, and a tilt or a moment, which many tilts may lead to.
+A problem is a profile, a load, and a tilt or a moment, which many tilts may lead to. It may have
+no answer. Beyond the end of a trace nothing is known. And doubles of h tell no difference of two
+depths below their rounding: where a load is so light that such a difference decides which valleys
+touch, or how they share it, there is no answer. Nor is there one where two patches are about to
+merge, and the search for them does not come to rest.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from sie.errors import LoadError
 from sie.numerics.chord import Chord
-from sie.problem.scene import Scene
-from sie.profiles.base import Profile
 from sie.profiles.look import closer, falls, may_touch, values
-from sie.profiles.pieces import Pieces, of_profile
-from sie.profiles.slope import Slope
+from sie.profiles.of_profile import of_profile
 
-from .panels import Patches
 from .start import Grid, grid_pressure
 from .state import Effort, Given
+
+if TYPE_CHECKING:
+    from sie.problem.scene import Scene
+    from sie.profiles.base import Profile
+    from sie.profiles.pieces import Pieces
+    from sie.profiles.slope import Slope
+
+    from .newton import Linear
+    from .operator import Found
+    from .panels import Patches
+    from .state import State
+
 
 Array = NDArray[np.float64]
 
@@ -243,3 +256,89 @@ def levels(problem: Problem, window: tuple[float, float]) -> tuple[float, float]
         now = excess(middle) * sign
         near, far = (middle, far) if now > 0.0 else (near, middle)
     return near, far
+
+
+UNKNOWN = 0.01  # part by which the rounding of h may change the load of a patch
+
+
+# -- what is not known of an indenter --------------------------------------------------------------
+
+
+def refuse_unknown_ends(state: State, problem: Problem) -> None:
+    """Raises LoadError where contact reaches an end beyond which the indenter is not known."""
+    edges = zip(
+        state.patches.edges[[0, -1]].tolist(),
+        problem.domain,
+        problem.profile.ends_are_corners,
+        strict=True,
+    )
+    for edge, end, corner in edges:
+        if edge != end or problem.chord.periodic:
+            continue
+        if not np.isfinite(float(problem.slope(np.array([end]))[0])):
+            raise LoadError(
+                f"the slope is infinite at the end x = {end:.6g} of its domain, which the "
+                "contact comes near: "
+                "narrow the domain"
+            )
+        if not corner:
+            raise LoadError(
+                f"the contact reaches the end of the trace at x = {end:.6g}, and what the indenter "
+                "is like beyond is not known: lower the load or the tilt, repeat the trace by "
+                "sie.Periodic(trace, period), or measure further out",
+                end=end,
+            )
+
+
+def refuse_unknown_depths(found: Found, problem: Problem) -> None:
+    """Raises LoadError where the rounding of h decides which valleys touch."""
+    P, seen = found.state.patches, found.findings
+    if seen.doubt:
+        k = int(np.argmin(np.abs(P.c - seen.place)))
+        _refuse_unknown(found, problem, k, (seen.place, seen.doubt, UNKNOWN))
+
+
+def refuse_unknown_shares(found: Found, problem: Problem, linear: Linear) -> None:
+    """Raises LoadError where the rounding of h decides how several patches share the load.
+
+    `linear` are the conditions at the answer.
+    """
+    P = found.state.patches
+    moved = linear.rounded_moves(found.state)  # by the rounding from patch to patch
+    if 2.0 * float(np.abs(moved / np.repeat(P.r, 2)).max()) > UNKNOWN:
+        k = int(np.argmax(linear.rounding))
+        _refuse_unknown(found, problem, k, (float(P.c[k + 1]), linear.rounding[k], 0.0))
+
+
+def _refuse_unknown(
+    found: Found, problem: Problem, k: int, valley: tuple[float, float, float]
+) -> None:
+    """Refuse where rounding decides between patch k and a valley (place, rounding, least part)."""
+    P, (place, known, least) = found.state.patches, valley
+    away = abs(place - P.c[k])
+    decides = found.given.load / np.pi * (np.log(max(2.0 * away / P.r[k], 1.0)) + 0.5)
+    if known > least * decides:
+        raise _unknown_depth(problem.load, (float(P.c[k]), place), known, decides)
+
+
+def _unknown_depth(
+    load: float, places: tuple[float, float], known: float, decides: float
+) -> LoadError:
+    x1, x2 = sorted(places)
+    return LoadError(
+        f"how the valleys at x = {x1:.6g} and {x2:.6g} share normal_load = {load:.6g} "
+        f"is decided by a difference of depths of {decides:.2g}, and doubles of h tell "
+        f"{known:.2g}: raise the load, or make one valley deeper",
+        valleys=(x1, x2),
+    )
+
+
+def unsettled(problem: Problem, patches: int) -> LoadError:
+    """The refusal of a load under which the search does not come to rest."""
+    other = problem.given.moment is not None
+    return LoadError(
+        f"the patches of contact do not settle at normal_load = {problem.load:.6g}: two "
+        "of them are about to merge, or one to appear; change the load"
+        f"{' or the moment' * other} a little",
+        patches=patches,
+    )

@@ -23,11 +23,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie.numerics.chord import Points
-from sie.numerics.tree import Level, Separation, Tree
+from sie.numerics.tree import Groups, Level, Separation, Tree, add, far_sums, parts, ranges
 
 from .measure import Measure, Targets, close, integrals
 from .panels import GapPanels, gap_panels
-from .sums import Groups, add, far_sums, parts, ranges
 
 if TYPE_CHECKING:
     from sie.profiles.pieces import Pieces
@@ -39,7 +38,7 @@ Index = NDArray[np.int64]
 
 
 BLOCK = 16  # places in a block
-SHARED = 16  # blocks of a patch that share their far sums
+SHARED = 16  # panels, about, on which the blocks share their far sums
 
 
 @dataclass(frozen=True, eq=False)
@@ -184,24 +183,27 @@ class Operator(Measure):
 def intensities(o: Operator, panel: Index, angle: Array) -> tuple[Array, Array]:
     """D at angles (m, n) on panels (m,), and where that is."""
     k, P = o.panels, o.patches
-    right = k.right[panel, None]
     inward = 2.0 * P.r[k.patch[panel], None] * np.sin(0.5 * angle) ** 2
-    x = Points(k.points.anchor[panel], np.where(right, -inward, inward))
-    piece = np.broadcast_to(k.piece[panel, None], inward.shape)
-    order = np.argsort(k.patch[panel], kind="stable")
-    D = np.empty(inward.shape)
-    D[order] = on_patches(o, k.patch[panel[order]], x[order], piece[order])
-    return D, x.x
+    anchor, offset = k.points.anchor[panel], np.where(k.right[panel, None], -inward, inward)
+    patch, piece = (np.repeat(v[panel], angle.shape[1]) for v in (k.patch, k.piece))
+    x = Points(np.repeat(anchor[:, 0], angle.shape[1]), offset.ravel())
+    return on_patches(o, patch, x, piece)[1].reshape(angle.shape), anchor + offset
 
 
-def on_patches(o: Operator, i: Index, x: Points, piece: Index) -> Array:
-    """D_i at blocks of points x (B, n) on patches i (B,), ascending, on these pieces of H."""
+def on_patches(o: Operator, i: Index, x: Points, piece: Index) -> tuple[Array, Array]:
+    """|T_i| and D_i at points x (m,) on patches i and on these pieces of H."""
+    at = blocks(i, x.x)
+    i, x, piece = i[at[:, 0]], x[at], piece[at]
     starts = np.flatnonzero(np.diff(i, prepend=-1))
     count = np.diff(np.append(starts, len(i)))
-    group = np.cumsum(ranges(np.zeros_like(count), count) % SHARED == 0)
-    owner = np.broadcast_to(i[:, None], x.offset.shape)
+    shared = -(-SHARED * len(i) // len(o.panels.lo))
+    group = np.cumsum(ranges(np.zeros_like(count), count) % shared == 0)
+    owner = np.broadcast_to(i[:, None], at.shape)
+    T, S = o.root(i, x, group)
     reference = o.pieces.value(piece, x.anchor, x.offset)
-    return np.asarray(o.D(Targets(i, group, x, reference, piece, owner, o.others(i, x, group))))
+    out = np.empty((2, int(at.max(initial=-1)) + 1))
+    out[:, at] = np.abs(T), o.D(Targets(i, group, x, reference, piece, owner, S))
+    return out[0], out[1]
 
 
 def at_edges(o: Operator) -> Array:

@@ -48,6 +48,11 @@ MANY = 6.0  # breaks on a patch, on average: short panels from there on
 # half-widths of the whole contact: how far out the gap is tested where the indenter does not end
 FARTHEST = 1e4
 LITTLE = 0.25  # of a period
+# parts of panels, on which bounds are found: the nodes of one, and how often it is halved
+NODES, DEEPEST = 8, 30
+# at a first look: the nodes of a panel, on which what varies by no more than this part of its mean
+# is positive
+FIRST, CLEARLY = 4, 0.5
 
 
 @dataclass(frozen=True, eq=False)
@@ -301,3 +306,9 @@ def gap_panels(
     return GapPanels(
         number[row], right, piece[row], lo == 0.0, lo, hi, width[row], points, root, dx
     )
+
+
+def halves(lo: Array, hi: Array) -> tuple[Array, Array]:
+    """The ends of the left halves of parts, then those of the right ones."""
+    middle = 0.5 * (lo + hi)
+    return np.concatenate((lo, middle)), np.concatenate((middle, hi))

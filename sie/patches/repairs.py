@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 from numpy.typing import NDArray
 
 from sie.errors import LoadError
-from sie.numerics.chord import Chord
-from sie.profiles.pieces import Pieces
 
 from .panels import Patches
 from .state import Event, Findings, Overlap, State
+
+if TYPE_CHECKING:
+    from sie.numerics.chord import Chord
+    from sie.profiles.pieces import Pieces
 
 Array = NDArray[np.float64]
 

@@ -13,10 +13,10 @@ from numpy.typing import NDArray
 
 from sie.numerics import chebyshev
 from sie.numerics.chord import Points
+from sie.numerics.tree import parts
 
 from .measure import Measure
 from .panels import LONG, Patches, PatchPanels
-from .sums import parts
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]

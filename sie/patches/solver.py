@@ -21,13 +21,24 @@ from sie.progress_bar import reported
 from . import newton
 from .bounds import tensions
 from .gap import overlaps
-from .of_scene import COARSE, WIDENED, Problem, fitted_window, levels, whole_window, widened
+from .of_scene import (
+    COARSE,
+    WIDENED,
+    Problem,
+    fitted_window,
+    levels,
+    refuse_unknown_depths,
+    refuse_unknown_ends,
+    refuse_unknown_shares,
+    unsettled,
+    whole_window,
+    widened,
+)
 from .operator import Found, Operator, operator_of
 from .panels import Patches
 from .repairs import after, apart, bounded, mended, one_period
 from .start import Grid, cells_of
 from .state import SAME, Event, Findings, Given, State, balances
-from .unknown import refuse_unknown_depths, refuse_unknown_ends, unsettled
 
 if TYPE_CHECKING:
     from sie.numerics.chord import Chord
@@ -54,6 +65,8 @@ def contact(problem: Problem) -> Found:
         if beyond == window:
             found = _in_one_period(_with_far_valleys(found, problem), problem)
             refuse_unknown_depths(found, problem)
+            if found.state.patches.number > 1:
+                refuse_unknown_shares(found, problem, newton.conditions_of(found))
             return found
         window = beyond
     raise LoadError(

@@ -28,6 +28,7 @@ from typing import TYPE_CHECKING, Any, overload
 import numpy as np
 from numpy.typing import NDArray
 
+from sie.answers.sheared import Sheared
 from sie.certificate.shear_check import certificate_of_parts
 from sie.errors import ContactError
 from sie.friction.course import course
@@ -47,6 +48,7 @@ from sie.friction.path_slip import (
     step_energy,
     step_shift,
 )
+from sie.inheritance import override
 from sie.patches.friction import refuse_stretch
 from sie.patches.full import FullContact
 from sie.planning import Plan, Step
@@ -180,6 +182,14 @@ class History(PathContacts, Sequence[Solution]):
             touching = self.path.points[k][0] > 0.0
             self._points[k] = (self._kind if touching else PathSolution)(self, k)
         return self._points[k]
+
+    @override
+    def solution(self, scene: Scene) -> Solution:
+        return Solution(scene, self.tol, self.economy)
+
+    def subdivided(self, parts: int) -> History:
+        """The history of the same path with each step divided into so many parts."""
+        return follow(self.scene, self.path.subdivided(parts), self.tol, self.economy)
 
     @property
     def plan(self) -> Plan:
@@ -354,7 +364,7 @@ class PathSolution(Solution):
         return replace(plain, tangential_load=loads.Q, bulk_stress=loads.sigma)
 
     @property
-    def _plain(self) -> Solution:
+    def _plain(self) -> Sheared:
         return self.history.plain(*self.history.turning_points[self.index].loads.normal)
 
     @cached_property

@@ -13,11 +13,11 @@ from dataclasses import replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
+from sie.answers.sheared import Sheared
 from sie.errors import LoadError
 from sie.friction.partial_slip import OneSignedSlip
 from sie.numerics.interval import EPS, Interval
 from sie.problem.load_path import Path, unsheared
-from sie.solution import Solution
 
 if TYPE_CHECKING:
     from sie.friction.loading import Loads
@@ -45,14 +45,14 @@ class PathContacts:
         self.tol, self.economy = tol, frozenset(economy)
         self.largest = max(P for P, _, _ in path.points)
         self._first = path.first_contact
-        self._plain: dict[Under, Solution] = {}
+        self._plain: dict[Under, Sheared] = {}
         self._first_loadings: dict[tuple[Under, complex], Slip] = {}
         self._known: dict[Under, _KnownZones] = {}
         self._in_patches: dict[tuple[float, float], SeveralPatches | FullContact] = {}
 
-    def solution(self, scene: Scene) -> Solution:
-        """The solution of a scene, as of `solve`."""
-        return Solution(scene, self.tol, self.economy)
+    def solution(self, scene: Scene) -> Sheared:
+        """The solution of a scene; `History` makes it one that has all answers."""
+        return Sheared(scene, self.tol, self.economy)
 
     @cached_property
     def _tau(self) -> float:
@@ -90,7 +90,7 @@ class PathContacts:
         """The contact under these loads, which is one patch."""
         return self.plain(*loads.normal).as_one_patch.edges.contact
 
-    def plain(self, P: float, turn: float = 0.0) -> Solution:
+    def plain(self, P: float, turn: float = 0.0) -> Sheared:
         """The contact under P and what is added to the scene's tilt or moment, without shear."""
         if (P, turn) not in self._plain:
             self._plain[P, turn] = self._frictionless(P, turn)
@@ -108,7 +108,7 @@ class PathContacts:
         """Q and τ of loads."""
         return loads.Q, loads.sigma * self._tau
 
-    def _frictionless(self, P: float, turn: float) -> Solution:
+    def _frictionless(self, P: float, turn: float) -> Sheared:
         if P == 0.0:
             raise LoadError("the path is at P = 0 here: nothing touches; ask for a later point")
         scene = replace(self.scene, normal_load=P)
@@ -136,7 +136,7 @@ class PathContacts:
         return self._first_loadings[key]
 
     def _loaded(
-        self, plain: Solution, depth: complex, turned: bool, near: Interval | None = None
+        self, plain: Sheared, depth: complex, turned: bool, near: Interval | None = None
     ) -> Slip:
         f, P, Q = self.scene.friction, plain.normal_load, depth.real
         if abs(Q) >= f * P * (1.0 - 4.0 * EPS):

@@ -12,7 +12,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any, overload
+from typing import TYPE_CHECKING, Any, cast, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -28,7 +28,8 @@ from sie.stress.half_plane import Stress, Tractions
 from sie.traction.base import Density, on_line
 from sie.traction.combination import superposed
 
-from .history import History
+if TYPE_CHECKING:
+    from .history import History
 
 Array = NDArray[np.float64]
 
@@ -194,7 +195,7 @@ class SteadyCycle(Sequence["SteadyState"]):
 
     @cached_property
     def _states(self) -> tuple[SteadyState, SteadyState]:
-        plain = [self.history.plain(*p.loads.normal) for p in self._ends]
+        plain = [cast(Solution, self.history.plain(*p.loads.normal)) for p in self._ends]
         loads = [p.loads for p in self._ends]
         first = Solution(
             replace(plain[0].scene, tangential_load=loads[0].Q, bulk_stress=loads[0].sigma),

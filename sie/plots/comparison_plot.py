@@ -15,10 +15,10 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 
+from sie.io.answer import Answer
+from sie.io.beside_scene import UNITS, Units
 from sie.io.mesh_comparison import EXACT, Comparison
 from sie.io.sample_points import abscissae, ceiling
-from sie.io.scene_file import UNITS, Units
-from sie.solution import Solution
 
 from . import style
 
@@ -43,7 +43,7 @@ COLOURED = 0.99  # of the points are within the scale of colours
 
 
 def overlay(
-    solution: Solution, comparison: Comparison, units: Units = UNITS, title: str = ""
+    solution: Answer, comparison: Comparison, units: Units = UNITS, title: str = ""
 ) -> Figure:
     """Two panels for each quantity near the contact. `units` are labels."""
     names = list(comparison.differences)
@@ -67,7 +67,7 @@ def overlay(
 def _draw(
     figure: Figure,
     pair: tuple[Axes, Axes],
-    solution: Solution,
+    solution: Answer,
     compared: tuple[Comparison, str],
     units: Units,
 ) -> None:
@@ -105,7 +105,7 @@ class _Both(NamedTuple):
     largest: float
 
 
-def _both(solution: Solution, comparison: Comparison, name: str) -> _Both:
+def _both(solution: Answer, comparison: Comparison, name: str) -> _Both:
     x, y, values = comparison.mesh.fields[name]
     (x1, x2), r = solution.edges, solution.half_width
     beside = BESIDE_IN_BODY if comparison.mesh.scattered(name) else BESIDE
@@ -123,7 +123,7 @@ def _both(solution: Solution, comparison: Comparison, name: str) -> _Both:
 
 def _draw_curves(
     panels: tuple[Axes, Axes],
-    solution: Solution,
+    solution: Answer,
     name: str,
     both: _Both,
     scales: tuple[float, float],

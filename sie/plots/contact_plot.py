@@ -28,12 +28,11 @@ from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
 from sie.errors import ContactError
+from sie.io.answer import Answer
 from sie.io.answers import slip_of
+from sie.io.beside_scene import UNITS, Units
 from sie.io.sample_points import ABOVE_ORDINARY, abscissae, ceiling, full, peak, reach, summits
-from sie.io.scene_file import UNITS, Units
-from sie.paths.history import History, PathSolution
 from sie.problem.load_path import Path
-from sie.solution import Solution
 
 from . import style
 
@@ -54,7 +53,7 @@ GROUND = 0.28  # thickness of the half-plane in the lower panel, relative to the
 
 
 def picture(
-    solution: Solution, units: Units = UNITS, title: str = "", width: float = style.WIDTH
+    solution: Answer, units: Units = UNITS, title: str = "", width: float = style.WIDTH
 ) -> style.Picture:
     """A Matplotlib figure of the pressure and the gap, and of shear and slip if there are any.
 
@@ -63,7 +62,7 @@ def picture(
     """
     view = _View(solution, units)
     sheared = solution.carries_shear
-    loop = loop_along(solution.history) if isinstance(solution, PathSolution) and sheared else None
+    loop = loop_along(solution.history) if solution.history is not None and sheared else None
     draw = [_draw_pressure, _draw_gap, *[_draw_shear] * sheared]
     draw += [_draw_slip] * (sheared and bool(view.slip.any()))
     count = len(draw) + (loop is not None)
@@ -88,7 +87,7 @@ def picture(
     return figure
 
 
-def panel(solution: Solution, what: str, axes: Axes, units: Units = UNITS) -> None:
+def panel(solution: Answer, what: str, axes: Axes, units: Units = UNITS) -> None:
     """One panel of the picture on given axes: pressure, gap, shear or slip."""
     view = _View(solution, units)
     PANELS[what](axes, view)
@@ -115,7 +114,7 @@ class _View:
     units       their names
     """
 
-    solution: Solution
+    solution: Answer
     units: Units
 
     @cached_property
@@ -355,8 +354,8 @@ class Loop(NamedTuple):
     corners: Array
 
 
-def loop_along(history: History) -> Loop | None:
-    """The loop of a path of several points with Q, None where the shift is not known."""
+def loop_along(history: Any) -> Loop | None:
+    """The loop of a history of several points with Q, None where the shift is not known."""
     path = history.path
     if len(path) < 2 or path.points[0][0] == 0.0 or not any(Q for _, Q, _ in path.points):
         return None

@@ -2,23 +2,26 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
+import numpy as np
 from matplotlib.axes import Axes
+from numpy.typing import NDArray
 
 from sie.arguments import suggestion
-from sie.cracks.stress_intensity import StressIntensity
-from sie.io.scene_file import Units
-from sie.paths.history import History
-from sie.solution import Solution
+from sie.io.answer import Answer
+from sie.io.beside_scene import Units
 from sie.sweeps.result import labels
 
 from . import contact_plot, stress_plot, style
 
+Array = NDArray[np.float64]
+
 HEIGHT = 2.2  # inches
 
 
-def of_solution(solution: Solution, axes: Axes | None, what: str, units: Any) -> Axes:
+def of_solution(solution: Answer, axes: Axes | None, what: str, units: Any) -> Axes:
     """A panel of a solution. ValueError for what it has not, before anything is drawn."""
     kinds = (*contact_plot.PANELS, "stress")
     if what not in kinds:
@@ -34,7 +37,7 @@ def of_solution(solution: Solution, axes: Axes | None, what: str, units: Any) ->
     return axes
 
 
-def of_history(history: History, axes: Axes | None, units: Any) -> Axes:
+def of_history(history: Any, axes: Axes | None, units: Any) -> Axes:
     """The loop of Q over the shift along a path. ValueError where there is none."""
     labels, loop = _labels(units), contact_plot.loop_along(history)
     if loop is None:
@@ -49,16 +52,13 @@ def of_history(history: History, axes: Axes | None, units: Any) -> Axes:
 
 
 def of_cracks(
-    cracks: StressIntensity, axes: Axes | None, limits: tuple[float, float] | None, units: Any
+    depth: Array, lines: Sequence[tuple[Array, str, str]], axes: Axes | None, units: Any
 ) -> Axes:
-    """ΔK of both modes against depth, with the threshold of (ΔK0, Δσ0) where these are given."""
+    """Ranges of K against depth: (values, style of the line, label) of each line."""
     labels = _labels(units)
-    lines = [(cracks.range, "-", "ΔK_I"), (cracks.shear_range, "--", "ΔK_II")]
-    if limits is not None:
-        lines.append((cracks.threshold(*limits), ":", "threshold of ΔK_I"))
     axes = _axes(axes)
     for values, line, label in lines:
-        axes.plot(cracks.depth, values, line, label=label)
+        axes.plot(depth, values, line, label=label)
     axes.set_xlabel(f"depth of the crack, {labels.length}")
     axes.set_ylabel(f"range of K, {labels.stress} √{labels.length}")
     axes.legend()

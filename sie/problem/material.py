@@ -16,6 +16,7 @@ from sie import arguments
 # Bodies whose |β| is below this differ by rounding of their constants.
 SIMILAR = 1e-12
 
+COUPLINGS = ("full", "goodman")  # how p and q of dissimilar bodies act on each other
 NO_POISSON = (
     "σ_zz and what depends on it need Poisson's ratio: give poisson beside modulus, or the body by "
     "young and poisson"

@@ -14,9 +14,8 @@ from sie import arguments
 from sie.numerics.interval import EPS
 from sie.profiles.base import Profile
 
-from .material import RIGID, Body, Elastic, Rigid, coupling, dundurs, pair_modulus, share
+from .material import COUPLINGS, RIGID, Body, Elastic, Rigid, coupling, dundurs, pair_modulus, share
 
-COUPLINGS = ("full", "goodman")
 # The loads: what they have to be, and their largest size.
 NUMBERS = (
     ("normal_load", arguments.positive, arguments.LARGEST_LOAD),
@@ -195,9 +194,9 @@ class Scene:
         >>> sie.Scene.from_dict(scene.to_dict()) == scene
         True
         """
-        from sie.io.scene_writing import scene_of  # noqa: PLC0415 -- a higher layer
+        from sie.io.scene_tables import arguments_of  # noqa: PLC0415 -- a higher layer
 
-        return scene_of(tables)
+        return cls(**arguments_of(tables))
 
     def to_dict(self) -> dict[str, Any]:
         """The scene as the tables of a scene file.
@@ -220,7 +219,7 @@ class Scene:
         >>> sie.Scene(profile=sie.Wedge(0.1), modulus=1.0, normal_load=2.0).to_dict()["profile"]
         {'kind': 'wedge', 'slope': 0.1}
         """
-        from sie.io.scene_writing import tables_of  # noqa: PLC0415 -- a higher layer
+        from sie.io.scene_tables import tables_of  # noqa: PLC0415 -- a higher layer
 
         return tables_of(self)
 

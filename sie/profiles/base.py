@@ -1,63 +1,35 @@
 """Profiles as values: equal, hashable, picklable, printed as the code that rebuilds them.
 
-A profile is the gap h(x) between the undeformed indenter and the flat surface; it grows away from
-the contact. A profile states its slope H = h' piece by piece (`slope.Slope`), which is all that the
-solver uses, and its height where it has a formula. The kinds of profile are listed in `kinds`.
+The kinds of profile are listed in `kinds`. Profiles are tilted, shifted, mirrored, raised and added
+to others. Whatever is done in whatever order, the result is a sum of profiles, each mirrored or
+not, then tilted, shifted and raised: h is
 
-This module holds what all profiles can do; `derived` has the profiles made of others.
+    Σ h_k(sign_k (x - shift_k)) + tilt_k (x - shift_k) + rise_k
 """
 
 from __future__ import annotations
 
-import math
-from abc import ABC, abstractmethod
-from collections.abc import Callable
-from functools import wraps
-from typing import TYPE_CHECKING, Any, Literal
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from sie import arguments
+from sie.arguments import with_middle_cut
+from sie.inheritance import override
 
-if TYPE_CHECKING:
-    from .functions import PowerLaw
-    from .slope import Slope
+from .functions import FunctionTerm, PowerLaw, Vectorised
+from .indenter import Indenter, of_any_x
+from .slope import Slope
 
 Array = NDArray[np.float64]
-Parity = Literal["even", "none"]
+Pair = tuple[float, float]
 
 
-def of_any_x(height: Callable[[Any, Array], Array]) -> Callable[[Any, ArrayLike], Array]:
-    """Extend a height from finite x to all x.
-
-    The result is nan at nan, inf where it overflows, and infinite at infinite x, with the sign that
-    the slope has there.
-    """
-
-    @wraps(height)
-    def everywhere(profile: Profile, x: ArrayLike) -> Array:
-        x = arguments.reals("x", x)
-        with np.errstate(over="ignore", invalid="ignore"):
-            if _all_finite(x) and _all_finite(h := height(profile, x[()])):
-                return h
-            finite = np.isfinite(x)
-            h = height(profile, np.where(finite, x, 0.0)[()])
-            h = np.where(np.isnan(h), np.inf, h)  # the difference of two heights beyond all doubles
-            if not finite.all():
-                falls = profile.slope(x) * np.sign(x) < 0.0
-                h = np.where(finite, h, np.where(np.isnan(x), x, np.where(falls, -np.inf, np.inf)))
-        return h[()]
-
-    return everywhere
-
-
-def _all_finite(a: Array) -> bool:
-    """Whether the sum of squares is a double, in one call: then every number is."""
-    return math.isfinite(np.vdot(a, a))
-
-
-class Profile(ABC):
+class Profile(Indenter):
     """The undeformed indenter: its gap h(x) to the flat surface.
 
     A profile of one's own derives from this class and states `pieces`
@@ -76,123 +48,6 @@ class Profile(ABC):
     >>> worn.breaks
     (-1.0, 1.0)
     """
-
-    def _require_positive(self, *names: str, largest: float = arguments.LARGEST) -> None:
-        """Replace fields of a profile that is being built by floats. ValueError unless > 0.
-
-        An array stands for the profiles of many scenes (`sie.solve_many`).
-        """
-        for name in names:
-            value = arguments.positives(name, getattr(self, name), largest)
-            object.__setattr__(self, name, value)
-
-    @property
-    @abstractmethod
-    def pieces(self) -> Slope:
-        """The slope h', as `pieces` of another profile or a sum of them.
-
-        Those of `Piecewise` are polynomials. Functions (`FromFunction`) are resolved when a contact
-        is known.
-        """
-
-    @of_any_x
-    def height(self, x: Array) -> Array:
-        """The gap h(x) before loading.
-
-        It is the integral of the slope from x = 0, or from the end of the indenter that is nearest
-        to it, where the class has no formula.
-
-        Parameters
-        ----------
-        x : array_like
-            Positions on the surface, lengths.
-
-        Returns
-        -------
-        ndarray or float
-            Lengths, same shape as x; inf beyond the ends of the indenter, nan at nan.
-
-        Raises
-        ------
-        ValueError
-            If x is not made of real numbers.
-
-        Examples
-        --------
-        >>> import sie
-        >>> sie.Wedge(0.5).height([-1.0, 0.0, 4.0])
-        array([0.5, 0. , 2. ])
-        """
-        from .derived import integrated  # noqa: PLC0415 -- a higher layer
-
-        return integrated(self, x)
-
-    @property
-    def axis(self) -> float | None:
-        """The x about which h is symmetric, a length; None if it is not known to be symmetric."""
-        return None
-
-    @property
-    def convex(self) -> bool:
-        """Whether h is known to be convex. Then p > 0 and a gap > 0 follow and are not checked."""
-        return False
-
-    @property
-    def power_law(self) -> PowerLaw | None:
-        """The law h = A |x - c|^m of the profile, None if it is not known to have one."""
-        return None
-
-    def slope(self, x: ArrayLike) -> Array:
-        """The slope h'(x).
-
-        Parameters
-        ----------
-        x : array_like
-            As of `height`.
-
-        Returns
-        -------
-        ndarray or float
-            Pure numbers, same shape as x. At a corner the mean of both sides; beyond the ends of
-            the indenter -inf (left) and inf (right); nan at nan.
-
-        Raises
-        ------
-        ValueError
-            As of `height`.
-
-        Examples
-        --------
-        >>> import sie
-        >>> sie.Wedge(0.5).slope([-1.0, 0.0, 4.0])
-        array([-0.5,  0. ,  0.5])
-        """
-        x = arguments.reals("x", x)
-        with np.errstate(over="ignore"):
-            return np.where(np.isnan(x), x, self.pieces(x))[()]
-
-    @property
-    def breaks(self) -> tuple[float, ...]:
-        """The places inside the domain where h or a derivative of it jumps; ascending lengths."""
-        return tuple(float(b) for b in self.pieces.breaks[1:-1])
-
-    @property
-    def domain(self) -> tuple[float, float]:
-        """The ends of the indenter, lengths; infinite where it has none."""
-        return self.pieces.domain
-
-    @property
-    def ends_are_corners(self) -> tuple[bool, bool]:
-        """Whether an end of the domain is the indenter's own corner, where contact is sharp.
-
-        The ends of a trace are no corners: the profile is not known beyond them.
-        """
-        return True, True
-
-    @property
-    def parity(self) -> Parity:
-        """Whether h(-x) = h(x) is known: "even", else "none"."""
-        return "even" if self.axis == 0.0 else "none"
 
     def tilted(self, slope: float) -> Profile:
         """The profile h(x) + slope x.
@@ -219,7 +74,11 @@ class Profile(ABC):
         array([0. , 0.5])
         """
         slope = arguments.measure("tilted", slope)
-        return self if slope == 0.0 else _derived("tilted", self, slope)
+        if slope == 0.0:
+            return self
+        first, *others = parts_of(self)
+        first = first._replace(tilt=first.tilt + slope, rise=first.rise + slope * first.shift)
+        return _made((first, *others), _reach(self))
 
     def shifted(self, dx: float) -> Profile:
         """The profile h(x - dx).
@@ -246,8 +105,16 @@ class Profile(ABC):
         2.0
         """
         dx = arguments.measure("shifted", dx)
-        nothing = abs(dx) * arguments.LARGEST_COEFFICIENT < 1.0
-        return self if nothing else _derived("shifted", self, dx)
+        if abs(dx) * arguments.LARGEST_COEFFICIENT < 1.0:
+            return self
+        lo, hi = _reach(self)
+        if not lo + dx < hi + dx:
+            raise ValueError(
+                f"shifted({dx:g}) leaves nothing of a profile on ({lo:g}, {hi:g}), "
+                "doubles are farther apart there: shift it less"
+            )
+        parts = tuple(part._replace(shift=part.shift + dx) for part in parts_of(self))
+        return _made(parts, (lo + dx, hi + dx))
 
     def mirrored(self) -> Profile:
         """The profile h(-x).
@@ -263,7 +130,10 @@ class Profile(ABC):
         >>> sie.Parabola(1.0).shifted(2.0).mirrored().axis
         -2.0
         """
-        return self if self.parity == "even" else _derived("mirrored", self)
+        if self.parity == "even":
+            return self
+        lo, hi = _reach(self)
+        return _made(tuple(part.mirrored() for part in parts_of(self)), (-hi, -lo))
 
     def raised(self, dz: float) -> Profile:
         """The profile h(x) + dz. The height matters only among the indenters of a row.
@@ -290,22 +160,10 @@ class Profile(ABC):
         array([0.5, 1. ])
         """
         dz = arguments.measure("raised", dz)
-        return self if dz == 0.0 else _derived("raised", self, dz)
-
-    @property
-    def arrays(self) -> tuple[Array, ...]:
-        """The parameters that are arrays, of many scenes at once (`sie.solve_many`)."""
-        return ()
-
-    @property
-    def period(self) -> float:
-        """The distance after which the profile repeats itself, inf if it does not."""
-        return float("inf")
-
-    @property
-    def walls(self) -> tuple[tuple[float, float], ...]:
-        """Intervals (lo, hi) inside the domain without indenter; lo = hi where h jumps."""
-        return ()
+        if dz == 0.0:
+            return self
+        first, *others = parts_of(self)
+        return _made((first._replace(rise=first.rise + dz), *others), _reach(self))
 
     def __add__(self, other: Profile) -> Profile:
         """The profile h(x) + other.h(x), on the intersection of both domains."""
@@ -316,12 +174,168 @@ class Profile(ABC):
                 raise ValueError(
                     f"{profile!r} is repeated: add profiles first, then repeat the sum"
                 )
-        return _derived("added", self, other)
+        one, two = _reach(self), _reach(other)
+        lo, hi = max(one[0], two[0]), min(one[1], two[1])
+        if not lo < hi:
+            raise ValueError(
+                f"profiles on {one} and {two} do not overlap: shift one of them before adding"
+            )
+        return Composite(parts_of(self) + parts_of(other), (lo, hi))
 
 
-def _derived(function: str, *arguments: Any) -> Profile:
-    """The profile that a function of `derived` makes, which imports this module."""
-    from . import derived  # noqa: PLC0415 -- a higher layer
+class Placed(NamedTuple):
+    """The part h(sign (x - shift)) + tilt (x - shift) + rise of a profile."""
 
-    made: Profile = getattr(derived, function)(*arguments)
-    return made
+    profile: Profile
+    sign: float = 1.0
+    tilt: float = 0.0
+    shift: float = 0.0
+    rise: float = 0.0
+
+    def __str__(self) -> str:
+        """The code that makes it."""
+        names = zip(("tilted", "shifted", "raised"), self[2:], strict=True)
+        calls = [f".{name}({value!r})" for name, value in names if value]
+        mirrored = ".mirrored()" if self.sign < 0.0 else ""
+        return f"{self.profile!r}{mirrored}{''.join(calls)}"
+
+    @property
+    def axis(self) -> float | None:
+        """The x about which it is symmetric, None if it is not known to be."""
+        axis = self.profile.axis
+        return None if axis is None or self.tilt else self.sign * axis + self.shift
+
+    @property
+    def slope(self) -> Slope:
+        """H, on its breaks."""
+        slope = self.profile.pieces if self.sign > 0.0 else self.profile.pieces.mirrored()
+        return slope.tilted(self.tilt).shifted(self.shift)
+
+    def height(self, x: Array) -> Array:
+        """h at finite x."""
+        u = x - self.shift
+        return self.profile.height(self.sign * u) + self.tilt * u + self.rise
+
+    def mirrored(self) -> Placed:
+        """The part at -x; a profile that is even is left as it is."""
+        sign = self.sign if self.profile.axis == 0.0 else -self.sign
+        return Placed(self.profile, sign, -self.tilt, -self.shift, self.rise)
+
+
+@dataclass(frozen=True, repr=False)
+class Composite(Profile):
+    """The sum of placed profiles, none of which is made of others, on their common domain."""
+
+    parts: tuple[Placed, ...]
+    reach: Pair = field(compare=False)
+
+    def __repr__(self) -> str:
+        return with_middle_cut(" + ".join(map(str, self.parts)))
+
+    @cached_property
+    def pieces(self) -> Slope:
+        """H on its declared breaks, the sum of the slopes of all parts."""
+        slopes = [part.slope for part in self.parts]
+        while len(slopes) > 1:  # in pairs, so that no break is merged more than log2 n times
+            pairs = [one + other for one, other in zip(slopes[::2], slopes[1::2], strict=False)]
+            slopes = pairs + slopes[2 * len(pairs) :]
+        return slopes[0]
+
+    @of_any_x
+    @override
+    def height(self, x: Array) -> Array:
+        total = np.zeros(np.shape(x))
+        for part in self.parts:
+            total = total + part.height(x)
+        return total
+
+    @cached_property
+    def axis(self) -> float | None:
+        """The axis that all parts have, None if they have none in common."""
+        axes = {part.axis for part in self.parts}
+        return axes.pop() if len(axes) == 1 else None
+
+    @property
+    @override
+    def power_law(self) -> PowerLaw | None:
+        """The law of the part, placed; None for several parts or a tilted one."""
+        part, *others = self.parts
+        law = part.profile.power_law if part.tilt == 0.0 and not others else None
+        return law and replace(law, axis=part.sign * law.axis + part.shift)
+
+    @property
+    @override
+    def of_several(self) -> bool:
+        return any(part.profile.of_several for part in self.parts)
+
+    @cached_property
+    def convex(self) -> bool:
+        """Whether all parts are known to be convex; then h is."""
+        return all(part.profile.convex for part in self.parts)
+
+    @cached_property
+    def walls(self) -> tuple[Pair, ...]:
+        """Those of the profiles that add up to this one."""
+        lo, hi = self.domain
+        placed = [
+            sorted((part.sign * one + part.shift, part.sign * other + part.shift))
+            for part in self.parts
+            for one, other in part.profile.walls
+        ]
+        return joined(tuple((max(a, lo), min(b, hi)) for a, b in placed if a < hi and b > lo))
+
+    @cached_property
+    def ends_are_corners(self) -> tuple[bool, bool]:
+        """Whether each end is a corner of the profile whose domain ends there."""
+        corners = [True, True]
+        for part in self.parts:
+            ends = zip(part.profile.domain, part.profile.ends_are_corners, strict=True)
+            for end, is_corner in ends:
+                here = part.sign * end + part.shift
+                for k in (0, 1):
+                    corners[k] &= is_corner or here != self.domain[k]
+        return corners[0], corners[1]
+
+
+def joined(intervals: tuple[Pair, ...]) -> tuple[Pair, ...]:
+    """The union of intervals, ascending."""
+    found: list[Pair] = []
+    for lo, hi in sorted(intervals):
+        if found and lo <= found[-1][1]:
+            found[-1] = found[-1][0], max(found[-1][1], hi)
+        else:
+            found.append((lo, hi))
+    return tuple(found)
+
+
+def parts_of(profile: Profile) -> tuple[Placed, ...]:
+    """The placed profiles that add up to a profile."""
+    return profile.parts if isinstance(profile, Composite) else (Placed(profile),)
+
+
+def total_tilt(profile: Profile) -> float:
+    """The tilt of all parts together."""
+    return sum(part.tilt for part in parts_of(profile))
+
+
+def with_part(profile: Profile, old: Profile, new: Profile) -> Profile:
+    """The profile with another wherever it is made of `old`."""
+    parts = (p._replace(profile=new) if p.profile is old else p for p in parts_of(profile))
+    return _made(tuple(parts), _reach(profile))
+
+
+def _reach(profile: Profile) -> Pair:
+    """The domain, to rounding."""
+    return profile.reach if isinstance(profile, Composite) else profile.domain
+
+
+def _made(parts: tuple[Placed, ...], reach: Pair) -> Profile:
+    """The sum of parts; the profile itself where it is one that stands where it stood."""
+    first = parts[0].profile
+    return first if parts == (Placed(first),) else Composite(parts, reach)
+
+
+def function_slope(breaks: Sequence[float], function: Vectorised) -> Slope:
+    """The slope that is a function on its breaks."""
+    none = np.zeros(len(breaks) - 1)
+    return Slope(np.asarray(breaks, dtype=float), none, none[:, None], (FunctionTerm(function),))

@@ -13,10 +13,11 @@ from numpy.typing import NDArray
 from sie import arguments
 from sie.inheritance import override
 
-from .base import Parity, Profile
+from .base import Profile, function_slope
 from .expression import Expression
 from .functions import Vectorised
-from .slope import Slope, function_slope
+from .indenter import Parity
+from .slope import Slope
 
 Array = NDArray[np.float64]
 INF = float("inf")

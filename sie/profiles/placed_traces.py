@@ -21,8 +21,7 @@ from sie.errors import ContactError
 from sie.numerics.interval import EPS
 
 from . import fitting
-from .base import Profile
-from .derived import parts_of, total_tilt, with_part
+from .base import Profile, parts_of, total_tilt, with_part
 from .sampled import Sampled, SplineProfile
 from .splines import Spline, closed_spline
 

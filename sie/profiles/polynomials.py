@@ -17,7 +17,8 @@ from sie import arguments
 from sie.arguments import abridged
 from sie.inheritance import override
 
-from .base import Profile, of_any_x
+from .base import Profile
+from .indenter import of_any_x
 from .slope import Slope, polynomial_slope
 
 Array = NDArray[np.float64]

@@ -47,6 +47,11 @@ DEEP = 64  # levels, after which x = 0 is such a break
 PATIENCE, HALVINGS = 3, 8
 
 
+def accuracy_for(tol: float) -> float:
+    """The relative accuracy of a series, for a tolerance of the answer."""
+    return max(EPS, 1e-2 * tol) if tol > 1e-13 else EPS
+
+
 class Tolerance(NamedTuple):
     """Allowed errors of a series: relative to the largest |value|, absolute, next to breaks."""
 

@@ -21,11 +21,11 @@ from sie import arguments
 from sie.arguments import abridged
 from sie.inheritance import override
 
-from .base import Profile, of_any_x
-from .derived import joined, parts_of
+from .base import Profile, function_slope, joined
+from .indenter import of_any_x
 from .lowest_profile import finite_ends, inside, lowest_of
 from .placed_traces import closed, open_seams
-from .slope import Slope, chained, function_slope, polynomial_slope
+from .slope import Slope, chained, polynomial_slope
 
 Array = NDArray[np.float64]
 INF = float("inf")
@@ -79,6 +79,11 @@ class Row(Profile):
 
     def __repr__(self) -> str:
         return f"Row([{abridged(self.profiles)}])"
+
+    @property
+    @override
+    def of_several(self) -> bool:
+        return True
 
     @cached_property
     def lowest(self) -> tuple[tuple[float, float, int], ...]:
@@ -255,8 +260,8 @@ class Periodic(Profile):
         return tuple(found)
 
     @property
+    @override
     def joint(self) -> str:
-        """A sentence on the traces whose ends do not meet where they are repeated, or ""."""
         seams = open_seams(self.profile, self.repeats)
         if not seams:
             return ""
@@ -302,7 +307,7 @@ class Periodic(Profile):
     @property
     def breaks(self) -> tuple[float, ...]:
         """Those in the period that begins at `start`."""
-        return tuple(float(b) for b in self.pieces.breaks[1:-1])
+        return tuple(self.pieces.breaks[1:-1].tolist())
 
     @property
     @override
@@ -333,9 +338,3 @@ class Periodic(Profile):
     @override
     def raised(self, dz: float) -> Profile:
         return Periodic(self.profile.raised(dz), self.repeats)
-
-
-def asks_for_patches(profile: Profile) -> bool:
-    """Whether a profile is a row or periodic, or made of rows: one patch is then not sought."""
-    rows = (isinstance(part.profile, Row) for part in parts_of(profile))
-    return profile.period < np.inf or any(rows)

@@ -15,9 +15,17 @@ from sie import arguments
 from sie.inheritance import override
 
 from . import fitting
-from .base import Profile, of_any_x
+from .base import Profile
+from .indenter import of_any_x
 from .slope import Slope
-from .splines import Spline, cross_validated, explains, interpolating_spline, smoothing_spline
+from .splines import (
+    Spline,
+    cross_validated,
+    explains,
+    interpolating_spline,
+    longest_lambda,
+    smoothing_spline,
+)
 from .trace_files import Column, read_trace
 from .trace_units import Reading, Side, as_gap, factors, scale_of, side_of, stated
 from .trace_values import Mended, Smoothing, checked, scaled, smoothing_of
@@ -116,7 +124,7 @@ class Sampled(SplineProfile):
             array.flags.writeable = False
         object.__setattr__(self, "points", points)
         object.__setattr__(self, "heights", heights)
-        object.__setattr__(self, "smoothing", smoothing_of(smoothing, points))
+        object.__setattr__(self, "smoothing", smoothing_of(smoothing, longest_lambda(points)))
         self._noted(mended, Reading())
 
     @classmethod

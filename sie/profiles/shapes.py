@@ -14,9 +14,10 @@ from numpy.typing import ArrayLike, NDArray
 from sie import arguments
 from sie.inheritance import override
 
-from .base import Profile, of_any_x
+from .base import Profile, function_slope
 from .functions import PowerLaw
-from .slope import Slope, function_slope, polynomial_slope
+from .indenter import of_any_x
+from .slope import Slope, polynomial_slope
 
 Array = NDArray[np.float64]
 INF = float("inf")

@@ -15,7 +15,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Any, Literal, NamedTuple, Self, TypeVar
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, Self, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,7 +23,8 @@ from numpy.typing import NDArray
 from sie.numerics import chebyshev
 from sie.numerics.interval import EPS, recentred, two_sum
 
-from .functions import FunctionTerm, Vectorised
+if TYPE_CHECKING:
+    from .functions import FunctionTerm
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
@@ -395,12 +396,6 @@ def polynomial_slope(
     width = max(len(row) for row in coefficients)
     c = np.array([[*row, *[0.0] * (width - len(row))] for row in coefficients], dtype=float)
     return Slope(np.asarray(breaks, dtype=float), np.asarray(origins, dtype=float), c, tails=tails)
-
-
-def function_slope(breaks: Sequence[float], function: Vectorised) -> Slope:
-    """The slope that is a function on its breaks."""
-    none = np.zeros(len(breaks) - 1)
-    return Slope(np.asarray(breaks, dtype=float), none, none[:, None], (FunctionTerm(function),))
 
 
 def _distance(origins: Array, breaks: Array) -> Array:

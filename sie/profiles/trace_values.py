@@ -9,8 +9,6 @@ from numpy.typing import ArrayLike, NDArray
 
 from sie import arguments
 
-from .splines import longest_lambda
-
 Array = NDArray[np.float64]
 Smoothing = float | Literal["gcv"]
 
@@ -116,8 +114,8 @@ def _numbers(name: str, values: Any) -> Array:
     return array + 0.0  # no -0.0: equal traces have equal hashes
 
 
-def smoothing_of(smoothing: Any, points: Array) -> Smoothing:
-    """0, λ > 0 or "gcv". ValueError for anything else."""
+def smoothing_of(smoothing: Any, longest: float) -> Smoothing:
+    """0, λ > 0 up to the longest that bends the trace, or "gcv". ValueError for anything else."""
     if arguments.among(smoothing, ("gcv",)):
         return "gcv"
     if isinstance(smoothing, str):
@@ -125,10 +123,9 @@ def smoothing_of(smoothing: Any, points: Array) -> Smoothing:
             f'smoothing = {smoothing!r} is not known: give 0, a number λ > 0, or "gcv"'
         )
     lam = arguments.not_negative("smoothing", smoothing)
-    if lam > longest_lambda(points):
+    if lam > longest:
         raise ValueError(
-            f"smoothing = {lam:g} leaves a straight line of the trace: "
-            f"give less than {longest_lambda(points):.3g}"
+            f"smoothing = {lam:g} leaves a straight line of the trace: give less than {longest:.3g}"
         )
     return lam
 

@@ -28,14 +28,14 @@ from numpy.typing import NDArray
 
 from sie.contact.edge_integrals import EdgeIntegrals, edge_integrals
 from sie.contact.known_contact import Edges, Normal
-from sie.contact.pressure import resolution, slope_series
+from sie.contact.pressure import slope_series
 from sie.errors import ContactError
 from sie.patches.answer import SeveralPatches
 from sie.patches.density import PatchPressure
 from sie.patches.newton import response as response_of_patches
 from sie.profiles.base import Profile
-from sie.profiles.pieces import of_profile
-from sie.profiles.resolution import refined
+from sie.profiles.of_profile import of_profile
+from sie.profiles.resolution import accuracy_for, refined
 from sie.profiles.slope import polynomial_slope
 from sie.traction.base import Density
 from sie.traction.combination import superposed
@@ -117,7 +117,7 @@ def _of_one_patch(
     H = integrals_of(found, profile)
     _refuse_corners(found, profile)
     slope = FLAT if change.profile is None else change.profile.pieces
-    slope = refined(slope, contact.x1, contact.x2, resolution(TOLERANCE))
+    slope = refined(slope, contact.x1, contact.x2, accuracy_for(TOLERANCE))
     h = edge_integrals(slope, contact, keep_zero=True)
     rate = response(found.edges, G, (H, h), change)
     turned, I0 = slope.tilted(rate.tilt), h.I0 + math.pi * rate.tilt
@@ -134,7 +134,7 @@ def _of_one_patch(
 def integrals_of(found: Normal, profile: Profile) -> EdgeIntegrals:
     """Those of h' over the contact, by which its edges move."""
     contact = found.edges.contact
-    slope = refined(found.slope(profile), contact.x1, contact.x2, resolution(TOLERANCE))
+    slope = refined(found.slope(profile), contact.x1, contact.x2, accuracy_for(TOLERANCE))
     return edge_integrals(slope, contact, keep_zero=True)
 
 

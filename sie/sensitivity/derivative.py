@@ -218,7 +218,7 @@ class StressDerivative:
 
 def peaks(solution: Any) -> list[float]:
     """The places of the largest pressure, to rounding. ContactError where it is infinite."""
-    from sie.io.sample_points import peak  # noqa: PLC0415 -- a higher layer
+    from sie.io.sample_points import peak  # noqa: PLC0415 -- where a peak is asked for
 
     largest, places = peak(solution)
     if math.isinf(largest):

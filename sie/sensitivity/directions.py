@@ -17,9 +17,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from sie.errors import ContactError
 from sie.inheritance import override
-from sie.profiles.base import Profile, of_any_x
-from sie.profiles.derived import Composite, Placed, joined
+from sie.profiles.base import Composite, Placed, Profile, joined
 from sie.profiles.from_function import FromFunction
+from sie.profiles.indenter import of_any_x
 from sie.profiles.polynomials import Piecewise, Polynomial
 from sie.profiles.row import Periodic, Row
 from sie.profiles.sampled import Sampled

@@ -17,12 +17,13 @@ import math
 from abc import ABC, abstractmethod
 from collections.abc import Callable
 from functools import cached_property
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from sie import arguments
+from sie.numerics.interval import Interval
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -335,3 +336,20 @@ class Density(ABC):
         """
         left, right = self.hilbert(np.array(self.interval)).tolist()
         return left, right
+
+
+class InContact(NamedTuple):
+    """p and q between the edges of a contact.
+
+    contact     the edges
+    marks       places where p or q is not smooth, with the edges, ascending
+    rows        p and q (2, n) at places x (n,) at distances (n,) from the nearer edge
+    origin      the place that x is counted from
+    exact       whether these distances count, and not those of the rounded x
+    """
+
+    contact: Interval
+    marks: tuple[float, ...]
+    rows: Callable[[Array, Array], Array]
+    origin: float = 0.0
+    exact: bool = False

@@ -168,10 +168,13 @@ class Geometry:
             return dH
         half = np.maximum(0.5 * self.length[:, None], SHORTEST)
         series = self.chebyshev_slope(max(slope.degree + 1, 2))
-        # what a function's values are rounded by
-        rounding = np.abs(series[:, 1:]).sum(axis=1) <= SEEN_JUMP * np.abs(series[:, 0])
-        series[rounding] = 0.0
+        rounded = np.abs(series[:, 1:]).sum(axis=1) <= SEEN_JUMP * np.abs(series[:, 0])
+        series[rounded] = 0.0
         slopes = np.polynomial.chebyshev.chebder(series, axis=1)
+        # H rises by what its values beside the ends say, resolved or not
+        ulp = np.spacing(np.abs(self.ends))
+        low, high = slope.value(self.k, self.ends, self.tails + ulp * [[1.0], [-1.0]])
+        slopes[:, 0] += 0.5 * (high - low) - series[:, 1::2].sum(axis=1)
         T = chebyshev.polynomials(slopes.shape[1], offset / half - 1.0)
         return np.asarray(weight * np.einsum("nkm,kn->km", T, slopes) / half)
 

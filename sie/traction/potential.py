@@ -25,7 +25,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -35,7 +35,9 @@ from sie.numerics.cauchy_sums import CHUNK, add_pairs, chunks
 
 from .edge_functions import BreakFunction
 from .of_slope import FAR_FIELD, outer_series
-from .panels import Panels
+
+if TYPE_CHECKING:
+    from .panels import Panels
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]

@@ -1,6 +1,4 @@
-"""The question and how it is solved: index and side conditions, nodes, sizes, conditioning,
-refusals.
-"""
+"""Cauchy equations: index, side conditions, sizes, conditioning."""
 
 import numpy as np
 import pytest
@@ -15,9 +13,6 @@ KINDS = [(SINGULAR, SINGULAR), (SINGULAR, BOUNDED), (BOUNDED, SINGULAR), (BOUNDE
 
 def index_of(pair):
     return 1 - pair.count(BOUNDED)
-
-
-# -- index and side conditions ---------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("a", [0.0, 0.4, -2.0, 0.3j, 0.2 - 0.5j])
@@ -78,9 +73,6 @@ def test_all_conditions_are_met(k):
     assert len(density.constants) == 1
 
 
-# -- nodes and weights -----------------------------------------------------------------------------
-
-
 @pytest.mark.parametrize(
     "ends",
     [
@@ -94,20 +86,12 @@ def test_ends_may_be_words_pairs_or_arrays(ends):
     assert sie.CauchyEquation([(-1, 1), (2, 3)], 1.0, ends=ends, free=plain.free).ends == plain.ends
 
 
-# -- size, cost, conditioning ----------------------------------------------------------------------
-
-
 @pytest.mark.parametrize("a", [0.0, 0.3, 0.2j])
 @pytest.mark.parametrize("ends", KINDS)
 def test_the_condition_number_of_a_smooth_kernel_is_small_and_does_not_grow(ends, a):
-    equation = sie.CauchyEquation(
-        (-1.0, 1.0),
-        1.0,
-        a=a,
-        k=smooth_kernel,
-        ends=ends,
-        total=0.0 if index_of(ends) == 1 else None,
-    )
+    total = 0.0 if index_of(ends) == 1 else None
+    given = {"a": a, "k": smooth_kernel, "ends": ends, "total": total}
+    equation = sie.CauchyEquation((-1.0, 1.0), 1.0, **given)
     conditions = [np.linalg.cond(equation.system(n)[0]) for n in (8, 32, 128)]
     assert max(conditions) < 6.0
     assert conditions[2] == pytest.approx(conditions[1], rel=1e-6)
@@ -116,12 +100,8 @@ def test_the_condition_number_of_a_smooth_kernel_is_small_and_does_not_grow(ends
 @pytest.mark.parametrize(("ends", "a"), [(KINDS[0], 0.0), (KINDS[1], 0.3), (KINDS[3], 0.2j)])
 def test_the_transform_and_the_system_agree(ends, a):
     """The system is forced by a kernel that vanishes."""
-    question = {
-        "g": lambda x: np.exp(x) / (1.3 - x),
-        "a": a,
-        "ends": ends,
-        "total": 0.2 if index_of(ends) == 1 else None,
-    }
+    question = {"g": lambda x: np.exp(x) / (1.3 - x), "a": a, "ends": ends}
+    question["total"] = 0.2 if index_of(ends) == 1 else None
     question["free"] = (1.0,) if index_of(ends) == -1 else ()
     by_transform = sie.CauchyEquation((-1.0, 1.0), **question).solve()
     by_system = sie.CauchyEquation((-1.0, 1.0), k=lambda x, t: 0.0 * x * t, **question).solve()
@@ -170,9 +150,7 @@ def test_a_narrow_kernel_takes_as_many_nodes_as_its_width_asks_for(height):
 
 @pytest.mark.parametrize("a", [0.0, 0.2j])
 def test_a_kernel_that_is_rough_in_t_only_is_detected(a):
-    """The residual at the same nodes does not show it: k does not depend on x, so that any n solves
-    its own equation exactly.
-    """
+    """As k does not depend on x, any n solves its own equation exactly: no residual shows it."""
     equation = sie.CauchyEquation(
         (-1.0, 1.0), 1.0, a=a, k=lambda x, t: np.cos(30.0 * t + 1.0), total=1.0
     )

@@ -1,6 +1,6 @@
-"""What every solution of a Cauchy equation obeys, in the plane and under changes of its data.
+"""What the solutions of Cauchy equations obey; references are in 40 digits."""
 
-The reference (`oracles.manufactured`) is in 40 digits and uses no orthogonal polynomials."""
+from itertools import product
 
 import numpy as np
 import pytest
@@ -12,9 +12,6 @@ from strategies import between
 
 import sie
 from oracles.manufactured import Manufactured, exponents, mp
-
-# -- everywhere in the plane -----------------------------------------------------------------------
-
 
 PLACES = [complex(s, y) for s in (-1.0, -0.4, 0.9, 1.0) for y in (1e-12, -1e-6, 1e-2, 0.5)]
 
@@ -28,13 +25,8 @@ PLACES += [1 + 1e-12, -1 - 1e-9, 1 + 1e-4j, 1.001, -1.3, 2.0, 5j, 40.0 + 1e-9j, 
 )
 def test_the_potential_is_that_of_40_digits_near_and_far(a, ends):
     """Relative to itself, from 1e-12 half-widths off the interval to 1e5 away."""
-    d = Manufactured(
-        -1.0,
-        3.0,
-        *exponents(a, 1.0, ends),
-        (1.0, -0.5, 0.25, 0.1),
-        ((1.5, 0.3), (-0.2 + 0.8j, 0.1)),
-    )
+    poles = ((1.5, 0.3), (-0.2 + 0.8j, 0.1))
+    d = Manufactured(-1.0, 3.0, *exponents(a, 1.0, ends), (1.0, -0.5, 0.25, 0.1), poles)
     density = equation_of([d], a, 1.0, [ends]).solve()
     z = 1.0 + 2.0 * np.array(PLACES)
     for where, found in zip(z.tolist(), density.cauchy(z), strict=True):
@@ -54,21 +46,15 @@ def test_the_potential_is_that_of_40_digits_near_and_far(a, ends):
     ],
 )
 def test_the_potential_next_to_gaps_of_every_kind_is_that_of_40_digits(ends, gap):
-    """Gaps between bounded ends, singular ones, one of each; the factor by which φ is multiplied
-    differs on both sides of an interval.
-    """
+    """Gaps between bounded ends, singular ones, one of each."""
     intervals = ((-1.0, 0.0), (gap, 1.5), (1.5 + 2 * gap, 2.5))
     manufactured = [
         Manufactured(*i, *exponents(0.0, 1.0, e), p)
         for i, e, p in zip(intervals, ends, ((1.0, -0.5), (0.3, 1.0, 0.2), (1.0, 0.4)), strict=True)
     ]
     density = equation_of(manufactured, 0.0, 1.0, ends).solve()
-    z = [
-        at + gap * complex(u, v)
-        for at in (0.0, 1.5)
-        for u in (-2.0, 0.5, 1.3)
-        for v in (1e-6, -0.1, 3.0)
-    ]
+    beside = product((0.0, 1.5), (-2.0, 0.5, 1.3), (1e-6, -0.1, 3.0))
+    z = [at + gap * complex(u, v) for at, u, v in beside]
     z += [0.7 + 0.2j, 0.3 - 1e-3j, 1e3j]
     for where, found, slope in zip(z, density.cauchy(z), density.cauchy_derivative(z), strict=True):
         parts = [complex(d.cauchy(where)) for d in manufactured]
@@ -91,9 +77,6 @@ def test_the_potential_jumps_by_the_density(problem, seed):
     assert (np.abs(density.hilbert(x) - principal) <= PROMISE * size).all()
     beside = np.array([x1 - 0.3, x2 + 0.1])
     assert (density.cauchy(beside, side=1) == density.cauchy(beside, side=-1)).all()
-
-
-# -- laws of the operator --------------------------------------------------------------------------
 
 
 def kernel(x, t):
@@ -149,9 +132,7 @@ def test_an_affine_map_of_the_lengths_changes_nothing_else(scale, intervals):
 
 @pytest.mark.parametrize("k", [None, kernel])
 def test_the_residual_is_small_at_points_that_were_not_used(k):
-    """The whole equation, from the density's own values and potential and a quadrature of the tests
-    for the kernel.
-    """
+    """By the density's own values and potential, and a quadrature of the tests for the kernel."""
     a, b = 0.4, -0.8
     density = sie.CauchyEquation(
         (-1.0, 2.0), np.cos, a=a, b=b, k=k, ends="bounded", free=(1.0,)
@@ -160,23 +141,15 @@ def test_the_residual_is_small_at_points_that_were_not_used(k):
     right, left = density.parts[0].weight.alpha, density.parts[0].weight.beta
     s, weight = scipy.special.roots_jacobi(40, right, left)
     t = 0.5 + 1.5 * s
-    smooth = (
-        0.0
-        if k is None
-        else k(x[:, None], t) @ (1.5 * weight * density(t) / ((1 - s) ** right * (1 + s) ** left))
-    )
+    values = 1.5 * weight * density(t) / ((1 - s) ** right * (1 + s) ** left)
+    smooth = 0.0 if k is None else k(x[:, None], t) @ values
     left_over = a * density(x) - b * density.hilbert(x) + smooth - np.cos(x) - density.constants[0]
     assert np.abs(left_over).max() <= PROMISE
 
 
-# -- contacts in closed form -----------------------------------------------------------------------
-
-
 @pytest.mark.parametrize(("incidence", "camber"), [(0.1, 0.0), (0.03, 0.2)])
 def test_the_thin_aerofoil_has_the_circulation_of_the_closed_form(incidence, camber):
-    """1/2π PV∫ γ/(x - t) dt = U (incidence + camber x), Kutta's condition at the trailing edge x =
-    1 (Glauert 1926); U = 1.
-    """
+    """1/2π PV∫ γ/(x - t) dt = incidence + camber x, γ(1) = 0 (Glauert 1926)."""
     sheet = sie.CauchyEquation(
         (-1.0, 1.0), lambda x: incidence + camber * x, b=-0.5, ends=("singular", "bounded")
     ).solve()

@@ -35,18 +35,12 @@ def slit(half_length, pressure, centre=0.0, **question):
     ).solve()
 
 
-# -- one crack ------------------------------------------------------------------------------------
-
-
 @given(log_between(1e-8, 1e8), log_between(1e-8, 1e8))
 def test_a_slit_under_uniform_pressure(a, p):
     density = slit(a, p)
     assert intensity_factors(density)[0] == pytest.approx([p * np.sqrt(np.pi * a)] * 2, rel=PROMISE)
     x = a * np.array([-0.99, 0.2, 0.7])
     assert density(x) == pytest.approx(p * x / np.sqrt((a - x) * (a + x)), rel=PROMISE)
-
-
-# -- several cracks -------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("ligament", [1.0, 1e-2, 1e-4, 1e-6, 1e-8])
@@ -63,9 +57,7 @@ def test_two_collinear_cracks(ligament):
 
 @given(between(0.02, 0.98))
 def test_a_crack_in_a_periodic_row(fraction):
-    """The others of the row are a kernel: 1/W (ψ(1 - u) - ψ(1 + u)) = π/W cot(πu) - 1/(W u), u = (t
-    - x)/W; K = p sqrt(W tan(πa/W)).
-    """
+    """The others are a kernel, π/W cot(πu) - 1/(W u), u = (t - x)/W; K = p sqrt(W tan(πa/W))."""
     W = 2.5
     a = 0.5 * W * fraction
 

@@ -1,6 +1,5 @@
 """What the certificate promises: no error far above its estimate, nothing unseen in a function."""
 
-import dataclasses
 import math
 
 import numpy as np
@@ -12,8 +11,6 @@ from oracles.normal_contact import mp
 from sie.certificate import result
 from sie.certificate.result import BESIDES, PROMISE
 from sie.contact import normal
-from sie.numerics.interval import interval_about
-from validation.wrong_programs.pressures import with_pressure
 
 SHARE = 3.0  # of the promise
 SLIGHT = 1e-15  # of the peak
@@ -33,37 +30,30 @@ def bound(certificate, distance):
     return np.maximum(SHARE * (certificate.error + certificate.edges / np.sqrt(distance)), SLIGHT)
 
 
-# -- the promise ----------------------------------------------------------------------------------
-
 INF = mp.inf
+PIECES = ((0.5, 2.0), (0.0625, 0.25), (-1.9375, 4.25))
+RIM = mp.mpf(0.3)  # as the profile has it
+# The profile, its breaks and pieces exactly, the load and the tilt.
 CASES = {
     "rounded flat": (
         sie.RoundedFlat(0.3, 2.0),
-        ((-INF, -0.3, 0.3, INF), ((0.15, 0.5), (0.0,), (-0.15, 0.5))),
+        ((-INF, -RIM, RIM, INF), ((RIM / 2, mp.mpf(0.5)), (mp.zero,), (-RIM / 2, mp.mpf(0.5)))),
         0.1,
         0.0,
     ),
     "tilted": (sie.Parabola(1.0), ((-INF, INF), ((0.0, 1.0),)), 0.01, 0.17),
     "uneven": (
-        sie.Piecewise((-0.25, 0.5), ((0.5, 2.0), (0.0625, 0.25), (-1.9375, 4.25))),
-        ((-INF, -0.25, 0.5, INF), ((0.5, 2.0), (0.0625, 0.25), (-1.9375, 4.25))),
-        0.3,
-        -0.03,
+        sie.Piecewise((-0.25, 0.5), PIECES), ((-INF, -0.25, 0.5, INF), PIECES), 0.3, -0.03
     ),
     "cubic": (
-        sie.Polynomial((0.0, 0.0, 0.1, 0.1, 1.0)),
-        ((-INF, INF), ((0.0, 0.2, 0.3, 4.0),)),
-        0.05,
-        0.0,
+        sie.Polynomial((0.0, 0.0, 0.1, 0.1, 1.0)), ((-INF, INF), ((0.0, 0.2, 0.3, 4.0),)), 0.05, 0.0
     ),
-}
+}  # fmt: skip
 
 
 @pytest.mark.parametrize("name", CASES)
 def test_the_error_given_the_load_keeps_the_promise_up_to_the_edges(name):
     profile, (breaks, rows), load, tilt = CASES[name]
-    if name == "rounded flat":  # 0.3 and 0.15 = 0.3/2 as the profile has them
-        rows = ((mp.mpf(0.3) / 2, mp.mpf(0.5)), (mp.zero,), (-mp.mpf(0.3) / 2, mp.mpf(0.5)))
     solution = solved(profile, load, tilt=tilt)
     truth = normal_contact.contact(
         normal_contact.polynomials(breaks, rows).tilted(tilt), 1.0, solution.edges, load=load
@@ -73,18 +63,11 @@ def test_the_error_given_the_load_keeps_the_promise_up_to_the_edges(name):
     x = np.concatenate((x1 + away, x2 - away))
     x = x[(x > x1) & (x < x2)]
     expected = [truth.pressure(v) for v in x.tolist()]
-    errors = np.array(
-        [
-            abs(float(mp.mpf(p) - e))
-            for p, e in zip(solution.pressure(x).tolist(), expected, strict=True)
-        ]
-    )
-    distance = np.array(
-        [float(min(mp.mpf(v) - truth.x1, truth.x2 - mp.mpf(v)) / truth.r) for v in x.tolist()]
-    )
     found = solution.check()
     assert found.ok
-    assert (errors <= bound(found, distance) * float(max(expected))).all()
+    for v, p, e in zip(x.tolist(), solution.pressure(x).tolist(), expected, strict=True):
+        distance = float(min(mp.mpf(v) - truth.x1, truth.x2 - mp.mpf(v)) / truth.r)
+        assert abs(float(mp.mpf(p) - e)) <= bound(found, distance) * float(max(expected))
 
 
 def test_the_error_by_the_edges_is_neither_zero_nor_far_too_large():
@@ -94,9 +77,7 @@ def test_the_error_by_the_edges_is_neither_zero_nor_far_too_large():
 
 
 def test_edges_far_from_x_0_are_known_better_than_to_an_ulp_of_x():
-    """In a contact a thousand half-widths from x = 0 doubles are 1e-13 r apart; what they miss is
-    kept.
-    """
+    """A thousand half-widths from x = 0 doubles are 1e-13 r apart; what they miss is kept."""
     profile = sie.Parabola(1.0).shifted(1000.3)
     found = solved(profile).check()
     assert found.edges < 0.1 * math.ulp(1000.3)
@@ -144,29 +125,12 @@ def test_the_same_promise_is_printed_and_documented():
         assert f"{3.0 * (found.error + found.edges * nearer**0.5):.1e}" in str(found)
 
 
-def test_a_contact_that_is_off_as_a_whole_shows_in_the_error_that_its_residual_implies():
-    """p(x - δ) of a parabola leaves the constant E* δ/(2R), and is wrong by far more next to the
-    edges.
-    """
-    scene = sie.Scene(profile=sie.Parabola(1.0), modulus=1.0, half_width=1.0)
-    p, size = sie.solve(scene).pressure, 1e-6
-    found = with_pressure(scene, lambda x: p(x - size)).check()
-    x = np.linspace(-0.98, 0.98, 99)
-    error = float(np.abs(p(x - size) - p(x)).max() / p(0.0))
-    assert found.error >= error / SHARE
-    assert max(found.residual, found.force, found.moment, found.edges) < error / SHARE
-
-
 def test_a_rounded_edge_between_two_doubles_is_not_certified():
-    """The rounded edge of width 1e-50 lies between two doubles: rounding of x would explain any
-    defect.
-    """
+    """It is 1e-50 wide: rounding of x would explain any defect."""
     found = solved(sie.RoundedFlat(1.0, 1e-150), 1.0).check()
     assert not found.ok
     assert "NOT certified to 1e-13" in str(found)
 
-
-# -- functions ------------------------------------------------------------------------------------
 
 AT = 0.21337
 UNDECLARED = {
@@ -248,9 +212,7 @@ def test_a_slope_that_returns_a_list_of_the_right_shape_is_a_function_all_the_sa
 
 @pytest.mark.parametrize("corner", [0.0, -1e-30, -2.1426e-288, 5e-324])
 def test_equilibrium_at_a_corner_next_to_x_0_is_measured_to_rounding(corner):
-    """A node of the rule that rounding puts at x = 0 takes ln 1e-288 for the logarithm of its
-    distance from the corner: the error was 3e-13 of the load.
-    """
+    """A node that rounding puts at x = 0 takes ln 1e-288 for the logarithm of its distance."""
     profile = sie.Piecewise((-math.inf, corner, math.inf), ((-0.487, 0.2), (0.513, 0.2)))
     scene = sie.Scene(
         profile=profile, modulus=2.0, dundurs=-5e-6, friction=2.0, sliding=1, normal_load=1e-3
@@ -258,9 +220,6 @@ def test_equilibrium_at_a_corner_next_to_x_0_is_measured_to_rounding(corner):
     certificate = sie.solve(scene).check()
     assert certificate.force < 4e-15  # a few roundings of 1000 values; 4e-16 was measured
     assert certificate.moment < 4e-15
-
-
-# -- small strains --------------------------------------------------------------------------------
 
 
 def test_steep_slopes_carry_a_note_and_are_certified_all_the_same():
@@ -292,32 +251,9 @@ def test_next_to_a_sharp_edge_the_pressure_that_counts_is_a_thousandth_of_r_away
     assert bool(solution.notes) is noted
 
 
-# -- tolerances, and what is neglected -------------------------------------------------------------
-
-
-@pytest.mark.parametrize("exponent", [1.3, 2.5, 60.5])
-@pytest.mark.parametrize("size", [1e-6, 1e-9])
-def test_a_power_s_contact_that_is_too_wide_is_detected(exponent, size):
-    """Its load is right and its shape that of the law: the equation and the conditions of the edges
-    show it.
-    """
-    scene = sie.Scene(profile=sie.Power(exponent, 0.75), modulus=1.0, normal_load=0.3)
-    right, wide = (sie.solve(scene) for _ in range(2))
-    p, r = right.pressure, right.half_width
-    contact = interval_about(0.0, r * (1.0 + size))
-    wide.__dict__["pressure"] = dataclasses.replace(p, contact=contact)
-    x = r * np.linspace(-0.95, 0.95, 401)
-    error = float(np.abs(wide.pressure(x) - p(x)).max() / p(x).max())
-    found = wide.check()
-    assert not found.ok
-    assert found.error >= error / SHARE
-
-
 @pytest.mark.parametrize("tol", [1e-3, 1e-6, 1e-9])
 def test_a_function_resolved_to_a_coarse_tolerance_is_answered_to_it(tol):
-    """An error that a coarse resolution has everywhere is not taken for a feature that it
-    missed.
-    """
+    """The error of a coarse resolution is not taken for a feature that it missed."""
     wave = sie.FromFunction(
         lambda x: np.sin(2.0 * np.arctan(x)) / (1.0 + x * x), domain=(-2.0, 2.0), parity="even"
     )

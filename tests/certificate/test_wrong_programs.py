@@ -16,14 +16,13 @@ from hypothesis import given
 
 import sie
 from sie.certificate import coupled_check
-from validation.cases import BUMP, CASES, SINH, Case, solved
+from validation.cases import CASES, Case, solved
 from validation.wrong_programs.pressures import (
     PUNCH,
     SKEW,
     Wrong,
     WrongState,
     closed_form,
-    gauss_chebyshev,
     root,
 )
 
@@ -58,9 +57,6 @@ def right(scene):
     return sie.solve(scene).pressure
 
 
-# -- right programs -------------------------------------------------------------------------------
-
-
 @pytest.mark.parametrize("case", CASES, ids=str)
 def test_a_right_program_is_certified(case: Case):
     assert solved(case).check().ok
@@ -80,7 +76,10 @@ def test_another_right_program_is_certified():
     assert found.ok
 
 
-# -- wrong formulas and errors of any shape --------------------------------------------------------
+def neighbour(e):
+    pieces = ((0.25, 0.5), (0.0,), (-2.0 - 20 * e, 2.0 + 20 * e))
+    return sie.Scene(profile=sie.Piecewise((-0.5, 1.0), pieces), modulus=1.0, half_width=1.125)
+
 
 # By a size e: of C/w the residual shows nothing, but equilibrium does; a wider contact carries the
 # load of the right one.
@@ -96,6 +95,8 @@ WRONG = {
     "odd": (PUNCH, lambda p, x, e: p(x) + 0.15 * e * x * root(x)),
     "a wave": (PUNCH, lambda p, x, e: p(x) + 0.15 * e * np.cos(20 * x)),
     "a short wave": (PUNCH, lambda p, x, e: p(x) + 0.15 * e * np.cos(300 * x)),
+    # One corner's curvature: the answer of a neighbouring question
+    "another panel": (SKEW, lambda p, x, e: right(neighbour(e))(x)),
     "a bump": (PUNCH, lambda p, x, e: p(x) + 0.15 * e * np.exp(-(((x - 0.31) / 0.05) ** 2))),
 }
 
@@ -105,44 +106,6 @@ WRONG = {
 def test_a_program_that_is_off_by_a_little_is_caught(scene, wrong, size):
     p = right(scene)
     assert_caught(scene, lambda x: wrong(p, x, size))
-
-
-@pytest.mark.parametrize("size", SIZES)
-def test_a_panel_of_the_wrong_height_is_caught(size):
-    """One corner's curvature off: the answer of a neighbouring question."""
-    other = sie.Piecewise((-0.5, 1.0), ((0.25, 0.5), (0.0,), (-2.0 - 20 * size, 2.0 + 20 * size)))
-    assert_caught(SKEW, right(sie.Scene(profile=other, modulus=1.0, half_width=1.125)))
-
-
-# -- wrong Gauss-Chebyshev ------------------------------------------------------------------------
-
-
-ROUND = sie.Scene(profile=SINH, modulus=1.0, half_width=1.5)
-BUMPED = sie.Scene(profile=BUMP, modulus=1.0, half_width=0.75)
-
-
-def test_gauss_chebyshev_written_here_is_right():
-    found, error = certificate(ROUND, gauss_chebyshev(ROUND))
-    assert error < 1e-13
-    assert found.ok
-
-
-@pytest.mark.parametrize("size", SIZES)
-@pytest.mark.parametrize("scene", [ROUND, BUMPED], ids=["sinh", "bump"])
-def test_a_shifted_quadrature_node_is_caught(scene, size):
-    assert_caught(scene, gauss_chebyshev(scene, shift=-100 * size if size < 1e-3 else -size))
-
-
-def test_too_few_nodes_are_caught():
-    assert_caught(ROUND, gauss_chebyshev(ROUND, n=8, at=0))
-
-
-@pytest.mark.parametrize("size", SIZES)
-def test_nodes_off_by_a_share_of_their_spacing_are_caught(size):
-    assert_caught(ROUND, gauss_chebyshev(ROUND, half=100 * size if size < 1e-3 else size))
-
-
-# -- lost digits ----------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("size", SIZES)
@@ -156,26 +119,6 @@ def test_digits_lost_to_cancellation_are_caught(size):
 
     assert_caught(PUNCH, noisy, share=0.1)
 
-
-def test_the_closed_form_that_cancels_is_caught():
-    """At 1 - a/b = 1e-8 the naive form has lost two thirds of its digits."""
-    a = 1.0 - 1e-8
-    scene = sie.Scene(profile=sie.RoundedFlat(a, 1.0), modulus=1.0, half_width=1.0)
-
-    def naive(x):
-        x = np.abs(x)
-        phi, phi0 = np.arcsin(np.clip(x, 0, 1)), np.arcsin(a)
-        with np.errstate(all="ignore"):
-            logs = x * np.log(np.abs(np.sin(phi + phi0) / np.sin(phi - phi0)))
-            logs += a * np.log(np.abs(np.tan((phi + phi0) / 2) * np.tan((phi - phi0) / 2)))
-        return ((np.pi - 2 * phi0) * np.cos(phi) + np.where(np.isfinite(logs), logs, 0.0)) / (
-            2 * np.pi
-        )
-
-    assert_caught(scene, naive, share=0.1)
-
-
-# -- sharp edges ----------------------------------------------------------------------------------
 
 SHARP = {
     "both edges": sie.Scene(profile=sie.Flat(1.0), modulus=1.0, normal_load=1.0, moment=0.2),
@@ -193,25 +136,12 @@ def test_a_bump_beside_a_sharp_edge_is_caught(scene, width, size):
     assert not found.ok
 
 
-@pytest.mark.parametrize("side", [-1.0, 1.0])
-def test_a_step_next_to_a_sharp_edge_is_caught(side):
-    """Of the part 1e-10 within 1e-3 r of it, where p sqrt(1 - s²) is as large as anywhere."""
-    scene = SHARP["both edges"]
-    p = right(scene)
-    found, _ = certificate(scene, lambda x: p(x) * (1.0 + 1e-10 * (side * x > 0.999)))
-    assert not found.ok
-    assert found.error > 1e-10 / 3
-
-
 @pytest.mark.parametrize("scene", SHARP.values(), ids=SHARP)
 def test_a_right_sharp_edge_is_certified_to_rounding(scene):
     found = sie.solve(scene).check()
     assert found.ok
     assert found.error < 2e-14
     assert found.abscissae < 1e-13
-
-
-# -- claims that lie ------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("size", SIZES)
@@ -225,20 +155,9 @@ def test_a_wrong_resultant_or_moment_is_caught(size):
 def test_tension_is_caught():
     p = right(PUNCH)
     found, _ = certificate(PUNCH, lambda x: p(x) - 0.05)
-    assert not found.ok
+    assert not found.ok and "NOT certified" in str(found)
     assert found.lowest_pressure < -0.1
 
-
-def test_a_certificate_prints_its_verdict():
-    good, bad = (
-        sie.solve(PUNCH).check(),
-        certificate(PUNCH, lambda x: closed_form(x, second=0.0))[0],
-    )
-    assert "NOT" not in str(good)
-    assert "NOT certified" in str(bad)
-
-
-# -- dissimilar bodies ----------------------------------------------------------------------------
 
 PAIR = {"modulus": 2.0, "dundurs": 0.3, "friction": 0.3, "normal_load": 1.0}
 DISSIMILAR = {

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 from closed_form_cases import EPS, POTENTIALS, UNIT
-from closed_forms import call, every_call, of_every_call
+from closed_forms import OfEveryCall, call, every_call
 
 import analytic
 from analytic import (
@@ -142,8 +142,18 @@ def calls(questions: list[Any]) -> list[tuple[Callable[..., Any], dict[str, Any]
 
 
 CALLS, MORE = calls(PRECISE), calls(OTHERS)
-TestEveryCall = of_every_call(CALLS, precise=True)
-TestEveryOtherCall = of_every_call(MORE)
+
+
+@every_call(CALLS)
+class TestEveryCall(OfEveryCall):
+    near, of_arrays, of_scales = 1e-14, 8, 200
+    digits, more, last = 50, 120, "1e-46"
+    bad = (*OfEveryCall.bad, -math.inf, 0.0, -1.0, None, 1j)
+
+
+@every_call(MORE)
+class TestEveryOtherCall(OfEveryCall):
+    pass
 
 
 def test_every_closed_form_is_called():
@@ -236,9 +246,6 @@ HEIGHTS = {
 def test_a_height_beyond_doubles_is_refused_with_its_place(name, x):
     with pytest.raises(ValueError, match=r"x = 1e\+300 is more than the largest double"):
         HEIGHTS[name](x)
-
-
-# -- what their docstrings say ---------------------------------------------------------------------
 
 
 def test_a_docstring_names_every_parameter_with_its_meaning():

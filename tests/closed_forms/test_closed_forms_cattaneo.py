@@ -1,6 +1,4 @@
-"""Partial slip of bodies alike: what sticks does not stretch, what slips slips forward, energy is
-that of the slip, digits are kept.
-"""
+"""Partial slip of similar bodies: strain in stick, slip, energy, digits."""
 
 import math
 
@@ -28,10 +26,6 @@ def exact_part(given: dict):
     )
 
 
-# --- the parabola
-# ------------------------------------------------------------------------------------------
-
-
 @pytest.mark.parametrize("part", PARTS)
 def test_hertz_keeps_its_digits_from_stick_to_sliding(part: float) -> None:
     given = with_load(HERTZ, part)
@@ -40,23 +34,14 @@ def test_hertz_keeps_its_digits_from_stick_to_sliding(part: float) -> None:
     loads = {name: given[name] for name in ("normal_load", "friction", "tangential_load")} | {
         "modulus": 3.0
     }
+    unit, c = f * P / (3 * deep.pi), deep.sqrt(m)
     exact = {
-        cattaneo.stick_half_width(**given): deep.sqrt(m),
-        cattaneo.slip_width(**given): 1 - deep.sqrt(m),
-        cattaneo.excess_shift(**loads): f * P / (3 * deep.pi) * (r + m * deep.log(m)),
-        cattaneo.dissipation(**loads): 2
-        * f
-        * f
-        * P
-        * P
-        / (3 * deep.pi)
-        * (1 - m * m + 2 * m * deep.log(m)),
-        cattaneo.shear(0.0, **given): 2 * f * P / deep.pi * (1 - deep.sqrt(m)),
-        cattaneo.slip(1.0, **given, modulus=3.0): 2
-        * f
-        * P
-        / (3 * deep.pi)
-        * (deep.sqrt(r) - m * deep.acosh(1 / deep.sqrt(m))),
+        cattaneo.stick_half_width(**given): c,
+        cattaneo.slip_width(**given): 1 - c,
+        cattaneo.excess_shift(**loads): unit * (r + m * deep.log(m)),
+        cattaneo.dissipation(**loads): 2 * f * P * unit * (1 - m * m + 2 * m * deep.log(m)),
+        cattaneo.shear(0.0, **given): 6 * unit * (1 - c),
+        cattaneo.slip(1.0, **given, modulus=3.0): 2 * unit * (deep.sqrt(r) - m * deep.acosh(1 / c)),
     }
     for value, reference in exact.items():
         assert abs(value / reference - 1) < 8 * EPS
@@ -82,10 +67,6 @@ def test_bulk_tension_stretches_the_stick_zone_by_a_quarter_of_it() -> None:
         strain, _ = principal_value(density, 0.1, (-1, *zone, 1))
         assert abs(strain - mp.mpf(sigma) / 4) < 1e-20
         assert abs(resultant(density, (-1, *zone, 1)) - mp.mpf(0.5 * 0.3 * 2.0)) < 1e-25
-
-
-# --- the rounded flat
-# ------------------------------------------------------------------------------------------
 
 
 def plain_load(a, s):
@@ -130,20 +111,15 @@ def test_shear_of_the_rounded_flat_is_the_difference_of_two_pressures_to_its_las
     x = np.array(
         [0.0, a / 2, a, a + 0.5 * float(stick), a - 0.1 * float(rim), a + 0.9 * float(stick)]
     )
-    exact = [
-        (rounded_flat.pressure(v, rim=rim, **shape) - rounded_flat.pressure(v, rim=stick, **shape))
-        / 4
-        for v in x
-    ]
+    both = ([rounded_flat.pressure(v, rim=w, **shape) for v in x] for w in (rim, stick))
+    exact = [(one - other) / 4 for one, other in zip(*both, strict=True)]
     found = cattaneo_rounded.shear(x, **given)
     assert max(float(abs(v / e - 1)) for v, e in zip(found.tolist(), exact)) < 1e-13
 
 
 @pytest.mark.parametrize("part", [0.4, 0.9])
 def test_slip_of_the_rounded_flat_follows_from_its_shear(part: float) -> None:
-    """s' = (2/E*) (potential of the shear) where they slip; the potentials are those of two normal
-    contacts.
-    """
+    """s' = (2/E*) (potential of the shear), of two normal contacts."""
     given = with_load(ROUNDED, part)
     shape = {"half_flat": 0.5, "radius": 2.0, "modulus": 3.0, "lib": short}
     rim = rounded_flat.rim(normal_load=0.3, **shape)
@@ -177,27 +153,17 @@ def test_energy_of_a_cycle_is_the_work_of_friction_on_the_slip(part: float) -> N
     Slip from -Q to Q is twice that of a first loading to Q.
     """
     given = with_load(ROUNDED, part)
-    rim, slip = (
-        rounded_flat.rim(
-            **{n: given[n] for n in ("normal_load", "half_flat", "radius", "modulus")}
-        ),
-        cattaneo_rounded.slip_width(**given),
-    )
+    shape = {name: given[name] for name in ("normal_load", "half_flat", "radius", "modulus")}
+    rim, slip = rounded_flat.rim(**shape), cattaneo_rounded.slip_width(**given)
     nodes, weights = np.polynomial.legendre.leggauss(60)
     u = (1 + nodes) / 2
     # both ends of the slip zone are of fractional powers: x = c + slip (3u² - 2u³)
     x = 0.5 + rim - slip + slip * u * u * (3 - 2 * u)
     p = rounded_flat.pressure(x, half_flat=0.5, rim=rim, radius=2.0, modulus=3.0)
-    work = (
-        (0.3 * p * cattaneo_rounded.slip(x, **given) * slip * 6 * u * (1 - u) * weights / 2).sum()
-        * 2
-        * 4
-    )
+    dx = slip * 6 * u * (1 - u) * weights / 2
+    work = 8 * (0.3 * p * cattaneo_rounded.slip(x, **given) * dx).sum()
     assert cattaneo_rounded.dissipation(**given) == pytest.approx(work, rel=1e-9)
 
-
-# --- cycles
-# ------------------------------------------------------------------------------------------
 
 CYCLES = [(cattaneo, HERTZ, 0.6), (cattaneo_rounded, ROUNDED, 0.09)]
 
@@ -222,9 +188,6 @@ def test_cycles_close_and_reverse(module, given, friction: float) -> None:
             start, module.unloading_shear(x, **turned, tangential_load=least), **same
         )
 
-
-# --- what holds for all
-# ------------------------------------------------------------------------------------------
 
 SLID = {**HERTZ, "tangential_load": 0.35}
 PART = {**ROUNDED, "tangential_load": 0.05}

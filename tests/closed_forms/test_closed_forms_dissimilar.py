@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from closed_forms import EPS, call, coarse, mp, resultant, short
+from closed_forms import EPS, call, coarse, short
 
 from analytic import (
     bonded_flat,
@@ -21,24 +21,16 @@ FLAT = {"half_width": 1.0, "normal_load": 2.0}
 BONDED = {"half_width": 1.0, "normal_load": 2.0, "shear_load": 0.7, "moment": -0.2}
 
 
-# --- the rounded flat, by rules of its own
-# ------------------------------------------------------------------------------------------
-
-
 @pytest.mark.parametrize(("k", "a"), [(0.49, 0.5), (-0.3, 20.0), (0.49, 0.0)])
 def test_sliding_rounded_flat_is_the_inversion_of_its_slope(k: float, a: float) -> None:
-    """p from quadrature of the inversion integral with the edges, and the two conditions on the
-    edges.
-    """
+    """The inversion integral with the edges, and the two conditions on the edges."""
     given = {**ROUNDED, "half_flat": a, "coupling": k}
     d1, d2 = sliding_rounded_flat.rims(**given, lib=coarse)
     x1, x2, eps = -a - d1, a + d2, -coarse.atan(k) / coarse.pi
     cosine, half = coarse.cos(coarse.pi * eps), coarse.mpf(1) / 2
 
     def rim(function, alpha, d, end):
-        """∫ (d - r) function(t)/w dt over one rim, r the distance from its edge, by r = d
-        u^(1/alpha).
-        """
+        """∫ (d - r) function(t)/w dt, r the distance from the edge, by r = d u^(1/alpha)."""
 
         def integrand(u):
             r = d * u ** (1 / alpha)
@@ -69,43 +61,6 @@ def test_the_half_width_of_the_sliding_parabola_is_that_of_its_load(k: float) ->
     assert found == pytest.approx(1.0, rel=4 * EPS)
 
 
-# --- potentials
-# ------------------------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize("z", [-1.2, 2.1 - 1j, -40 + 3j])
-def test_potentials_are_cauchy_integrals(z: complex) -> None:
-    k = -0.4
-    edges = sliding_hertz.edges(half_width=1, coupling=k, lib=mp)
-    cases = [
-        (
-            lambda t: sliding_hertz.pressure(t, **HERTZ, coupling=k, lib=mp),
-            edges,
-            sliding_hertz.potential(z, **HERTZ, coupling=k),
-        ),
-        (
-            lambda t: sliding_flat.pressure(t, **FLAT, coupling=k, moment=0.3, lib=mp),
-            (-1, 1),
-            sliding_flat.potential(z, **FLAT, coupling=k, moment=0.3),
-        ),
-        (
-            lambda t: mp.mpc(
-                bonded_flat.pressure(t, **BONDED, dundurs=k, lib=mp),
-                bonded_flat.shear(t, **BONDED, dundurs=k, lib=mp),
-            ),
-            (-1, 1),
-            bonded_flat.potential(z, **BONDED, dundurs=k),
-        ),
-    ]
-    for density, ends, value in cases:
-        exact = resultant(density, ends, lambda t: 1 / (mp.mpc(z) - t)) / mp.pi
-        assert abs(value - complex(exact)) <= 1e-13 * abs(value)
-
-
-# --- limits and symmetry
-# ------------------------------------------------------------------------------------------
-
-
 @either_way
 def test_the_mirror_image_slides_the_other_way(k: float) -> None:
     x = np.linspace(-0.7, 0.7, 15)
@@ -134,23 +89,13 @@ def test_without_a_flat_the_sliding_rounded_flat_is_the_sliding_parabola(k: floa
 @pytest.mark.slow(but=1)
 @pytest.mark.parametrize(("k", "a"), [(0.49, 0.5), (-0.49, 0.0)])
 def test_sliding_rounded_flat_keeps_its_digits_everywhere(k: float, a: float) -> None:
-    """Relative to the exact value on the whole contact: the last points are where an edge's own
-    rounding is 1e-14 of it.
-    """
+    """The last points are where an edge's own rounding is 1e-14 of p."""
     given = {**ROUNDED, "half_flat": a, "coupling": k}
     d1, d2 = sliding_rounded_flat.rims(**given)
-    x = np.concatenate(
-        [
-            np.linspace(-a - 0.99 * d1, a + 0.99 * d2, 5),
-            [-a, a, a - 1e-9, a + 1e-9, -a + 1e-5, -a - 1e-5],
-        ]
-    )
+    beside = [-a, a, a - 1e-9, a + 1e-9, -a + 1e-5, -a - 1e-5]
+    x = np.array([*np.linspace(-a - 0.99 * d1, a + 0.99 * d2, 5), *beside])
     exact = [float(sliding_rounded_flat.pressure(v, **given, lib=short)) for v in x]
     np.testing.assert_allclose(sliding_rounded_flat.pressure(x, **given), exact, rtol=1e-13, atol=0)
-
-
-# --- what holds for all
-# ------------------------------------------------------------------------------------------
 
 
 def test_pressure_is_infinite_at_sharp_corners_only_and_zero_outside() -> None:

@@ -1,6 +1,4 @@
-"""Closed forms of one contact, of two patches and of rows are true to their integral equations and
-carry their loads, by quadrature in many digits.
-"""
+"""Closed forms fulfil their integral equations and carry their loads, in many digits."""
 
 from collections.abc import Callable
 from typing import Any, NamedTuple
@@ -40,6 +38,7 @@ class Contact(NamedTuple):
     own        what equations (1) and (12) of dissimilar bodies add
     others     the rest of the kernel, of (x, t); on two patches that of the mirror image, (x, -t)
     moment     ∫φ x, where it is a result
+    potential  F(z) = 1/π ∫ φ(t)/(z - t) dt, where it has a closed form
     """
 
     density: Callable[[Any], Any]
@@ -51,6 +50,7 @@ class Contact(NamedTuple):
     others: Callable[[Any, Any], Any] | None = None
     two: bool = False
     moment: Any = None
+    potential: Callable[[Any], Any] | None = None
 
 
 def parabola_in_sliding(k: float) -> Contact:
@@ -60,6 +60,7 @@ def parabola_in_sliding(k: float) -> Contact:
         sliding_hertz.edges(half_width=1.0, coupling=k, lib=mp),
         lambda x: mp.mpf(3) / 2 * x / 2,
         sliding_hertz.load(**given), 25, own=-k, moment=sliding_hertz.moment(**given),
+        potential=lambda z: sliding_hertz.potential(z, **HERTZ, coupling=k),
     )  # fmt: skip
 
 
@@ -71,6 +72,7 @@ def flat_in_sliding(k: float, moment: float | None) -> Contact:
     return Contact(
         lambda t: sliding_flat.pressure(t, **given, moment=moment), (-1, 1),
         lambda x: mp.mpf(3) / 2 * tilt, 2, 16, own=-k, moment=wanted,
+        potential=lambda z: sliding_flat.potential(z, **FLAT, coupling=k, moment=float(wanted)),
     )  # fmt: skip
 
 
@@ -81,6 +83,7 @@ def bonded(beta: float) -> Contact:
     return Contact(
         lambda t: mp.mpc(bonded_flat.pressure(t, **given), bonded_flat.shear(t, **given)), (-1, 1),
         lambda x: mp.mpf(3) / 2 * tilt, mp.mpc(2, 0.7), 22, own=mp.mpc(0, beta), moment=-0.2,
+        potential=lambda z: bonded_flat.potential(z, **BONDED, dundurs=beta),
     )  # fmt: skip
 
 
@@ -95,7 +98,10 @@ def two(module: Any, given: dict[str, float], slope: Any, load: Any, digits: int
 def pair_of_flats(moment: float) -> Contact:
     given = {**FLATS, "moment": moment}
     tilt = two_flats.tilt(**given, modulus=3, lib=mp)
-    return two(two_flats, given, lambda x: mp.mpf(3) / 2 * tilt, 3, 22, moment=mp.mpf(moment))
+    return two(
+        two_flats, given, lambda x: mp.mpf(3) / 2 * tilt, 3, 22, moment=mp.mpf(moment),
+        potential=lambda z: two_flats.potential(z, **given),
+    )  # fmt: skip
 
 
 def pair_of_parabolas(inner: float, outer: float) -> Contact:
@@ -112,7 +118,8 @@ def row(module: Any, given: dict[str, float], slope: Any, mean: Any) -> Contact:
         return mp.pi / 2 * mp.cot(mp.pi * (x - t) / 2) - 1 / (x - t) if t != x else mp.zero
 
     density = lambda t: module.pressure(t, **given, lib=mp)  # noqa: E731
-    return Contact(density, (-HALF, HALF), slope, 2 * mean, 22, others=rest)
+    potential = (lambda z: module.potential(z, **given)) if hasattr(module, "potential") else None
+    return Contact(density, (-HALF, HALF), slope, 2 * mean, 22, others=rest, potential=potential)
 
 
 CONTACTS = {
@@ -152,6 +159,20 @@ def test_the_equation_holds(name: str) -> None:
         integral += others / mp.pi
     error = integral + contact.own * contact.density(x) - contact.slope(x)
     assert abs(error) < mp.mpf(10) ** -contact.digits
+
+
+@pytest.mark.parametrize("z", [0.7 + 0.2j, -2.2 - 0.4j, -40 + 3j])
+@pytest.mark.parametrize("name", CONTACTS)
+def test_the_potential_is_the_cauchy_integral(name: str, z: complex) -> None:
+    contact, at = CONTACTS[name](), mp.mpc(z)
+    if contact.potential is None:
+        return
+    rest = contact.others if contact.others and not contact.two else lambda x, t: 0
+    total = resultant(contact.density, contact.ends, lambda t: 1 / (at - t) + rest(at, t))
+    if contact.two:
+        total += resultant(lambda t: contact.density(-t), contact.ends, lambda t: 1 / (at + t))
+    value = contact.potential(z)
+    assert abs(complex(total / mp.pi) - value) <= 1e-13 * abs(value)
 
 
 @pytest.mark.parametrize("name", CONTACTS)

@@ -1,6 +1,4 @@
-"""The closed forms of the stress, in two number systems, against each other, the equations of
-elasticity, and the solver.
-"""
+"""The stress in closed form, against the equations of elasticity and the solver."""
 
 import numpy as np
 import pytest

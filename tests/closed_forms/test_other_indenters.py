@@ -91,12 +91,8 @@ def test_flat_pressure_carries_load_and_moment(part: float, b: float) -> None:
     """∫ p and ∫ p x by Gauss-Chebyshev quadrature, exact for p sqrt(b² - x²) linear."""
     P, M = 3.0, part * 3.0 * b / 2
     x = b * np.array([-math.sqrt(0.5), math.sqrt(0.5)])
-    p = (
-        flat.pressure(x, half_width=b, normal_load=P, moment=M)
-        * np.sqrt(b * b - x * x)
-        * math.pi
-        / 2
-    )
+    p = flat.pressure(x, half_width=b, normal_load=P, moment=M)
+    p *= np.sqrt(b * b - x * x) * math.pi / 2
     assert p.sum() == pytest.approx(P, rel=8 * EPS)
     assert (p * x).sum() == pytest.approx(M, rel=0, abs=8 * EPS * P * b)
 

@@ -11,9 +11,7 @@ from analytic import hertz, rounded_flat
 
 
 def positions(contact: Rounded, part: float) -> Any:
-    """Points where digits could be lost: the middle, the ends of flat and contact, and their
-    neighbourhoods.
-    """
+    """Points where digits could be lost: the middle, the ends, their neighbourhoods."""
     a, b, d = float(contact.a), float(contact.b), contact.rim
     beside = (np.nextafter(a, 0), np.nextafter(a, 2), np.nextafter(b, 0))
     return np.array(
@@ -38,9 +36,6 @@ def formula_35(a: Any, b: Any) -> Any:
     """P R/E*."""
     theta = deep.acos(a / b)
     return b * b / 2 * (theta - deep.sin(theta) * deep.cos(theta))
-
-
-# -- the rounded flat against its references -------------------------------------------------------
 
 
 @given(rounded, tiny_to_one)
@@ -76,9 +71,6 @@ def test_without_a_flat_the_rounded_flat_is_hertz(b: float) -> None:
     x = np.linspace(-1.1 * b, 1.1 * b, 21)
     near = rounded_flat.pressure(x, half_flat=0.0, half_width=b, **UNIT)
     np.testing.assert_allclose(near, hertz.pressure(x, half_width=b, **UNIT), rtol=8 * EPS, atol=0)
-
-
-# -- the series ------------------------------------------------------------------------------------
 
 
 @given(rounded)

@@ -26,9 +26,7 @@ def test_the_yield_parameter_is_that_of_the_closed_form():
 
 
 def test_the_punch_is_as_strong_as_hertz_at_054_and_strongest_at_027():
-    """The paper says 0.55; 0.540206764905 and 0.268697910258, +9.17 %, are those of the closed form
-    in 30 digits.
-    """
+    """The paper says 0.55; these are those of the closed form in 30 digits."""
     hertz = limit(0.0)
     assert brentq(lambda a: limit(a) - hertz, 0.5, 0.6, xtol=1e-13) == pytest.approx(
         0.540206764905, abs=2e-12
@@ -43,28 +41,16 @@ def test_the_punch_is_as_strong_as_hertz_at_054_and_strongest_at_027():
 
 @pytest.mark.parametrize("ratio", [0.0, 0.3, 0.8])
 def test_the_surface_tension_in_partial_slip_is_that_of_the_potential(ratio):
-    """2f [E*(b - a)/(2R) - F_c(b)], F_c the potential of the stick zone's corrective traction, in
-    closed form.
-    """
+    """2f [E*(b - a)/(2R) - F_c(b)], F_c the potential of the stick zone's corrective traction."""
     parameters = {"half_flat": mp.mpf(ratio), "radius": 1, "modulus": 1, "lib": mp}
     stick = [c for c in (0.0, 0.2, 0.5, 0.9, 0.999) if c == 0.0 or c > ratio]
     P = rounded_flat.load(half_width=mp.one, **parameters)
-    expected = [
-        float(
-            mp.pi
-            / P
-            * 2
-            * (
-                mp.mpf(1 - ratio) / 2
-                - (
-                    mp.re(rounded_flat.potential(mp.one, half_width=mp.mpf(c), **parameters))
-                    if c
-                    else 0
-                )
-            )
-        )
-        for c in stick
-    ]
+
+    def corrective(c):
+        return mp.re(rounded_flat.potential(mp.one, half_width=mp.mpf(c), **parameters)) if c else 0
+
+    whole = mp.mpf(1 - ratio) / 2
+    expected = [float(2 * mp.pi / P * (whole - corrective(c))) for c in stick]
     assert charts.surface_tension(ratio, stick) == pytest.approx(expected, rel=2e-12)
     assert charts.surface_tension(ratio, 1.0) == 0.0
 

@@ -1,6 +1,4 @@
-"""What an answer costs, in counts that no machine changes: searches for edges, resolutions of a
-function, transforms, factorisations.
-"""
+"""What an answer costs, in counts that no machine changes."""
 
 from contextlib import contextmanager
 from unittest.mock import patch
@@ -60,13 +58,6 @@ def test_the_edges_of_a_symmetric_profile_take_a_few_evaluations(profile, most):
     assert sie.solve(scene(profile)).normal.edges.evaluations <= most
 
 
-def test_given_the_half_width_nothing_is_searched():
-    assert (
-        sie.solve(sie.Scene(profile=PUNCH, modulus=1.0, half_width=1.0)).normal.edges.evaluations
-        == 1
-    )
-
-
 def test_patches_are_sought_where_the_slope_of_a_function_falls():
     convex, wavy = (
         sie.FromFunction(np.sinh, domain=(-3.0, 3.0)),
@@ -103,20 +94,6 @@ def test_a_cauchy_equation_without_kernel_builds_no_matrix():
     with counted(system.System, "matrix") as matrices:
         sie.CauchyEquation((-1.0, 1.0), g=np.exp, total=0.0).solve()
     assert not matrices
-
-
-def test_pytest_finds_the_benchmarks_only_by_their_path(pytestconfig):
-    patterns, found = (
-        pytestconfig.getini("python_files"),
-        [*(pytestconfig.rootpath / "benchmarks").glob("*.py")],
-    )
-    assert found
-    for path in found:
-        assert any(path.match(pattern) for pattern in patterns)
-    assert "benchmarks" not in pytestconfig.getini("testpaths")
-
-
-# -- what grows in proportion, and no faster ---------------------------------------------------
 
 
 def places_for_a_certificate(turns):

@@ -32,9 +32,7 @@ def test_an_edge_is_sharp_where_the_indenter_ends_and_only_there(case: Case):
 
 
 def test_a_tilted_wedge_has_the_contact_of_its_two_flanks():
-    """Flanks -α and β: I0 = 0 gives sin φ0 = (α - β)/(α + β) · π/2 of the tip, P = E*/2 r (α + β)
-    cos φ0.
-    """
+    """Flanks -α and β: the tip at sin φ0 = π/2 (α - β)/(α + β), P = E*/2 r (α + β) cos φ0."""
     left, right, P = 0.4, 0.6, 0.3
     solution = sie.solve(sie.Scene(profile=sie.Wedge(0.5), modulus=1.0, normal_load=P, tilt=0.1))
     tip = 0.5 * np.pi * (right - left) / (right + left)

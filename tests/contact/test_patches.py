@@ -1,11 +1,10 @@
-"""Contact in several patches: edges, loads and pressures against values of thirty digits, and
-closed forms.
-"""
+"""Contact in several patches, against values of thirty digits and laws."""
 
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from scenes import solved
 
 import sie
 from sie.patches import certificate
@@ -78,13 +77,6 @@ def test_the_edges_of_all_patches_are_the_references_and_certified(name):
         assert solution.tilt == pytest.approx(-0.07597308212919692, rel=1e-13)
 
 
-# -- the solution of a scene -----------------------------------------------------------------------
-
-
-def solved(**asked):
-    return sie.solve(sie.Scene(modulus=1.0, poisson=0.3, **asked))
-
-
 def test_patch_loads_of_two_parabolas():
     loads = solved(profile=TWO, normal_load=0.4).patch_loads
     assert loads == pytest.approx((0.222276321277639299, 0.177723678722360700), rel=1e-14)
@@ -98,11 +90,6 @@ def test_patch_loads_of_level_flats():
     assert solution.pressure(x) == pytest.approx(np.abs(x - zero) / (np.pi * root), rel=1e-13)
 
 
-def test_the_pressure_of_two_rounded_flats():
-    p = solved(profile=ROUNDED, normal_load=0.6).pressure
-    assert float(p(-1.16)) == pytest.approx(0.143035588269716213, rel=1e-14)
-
-
 def test_a_row_of_one_convex_profile_is_that_profile():
     one = solved(profile=sie.Parabola(1.0), normal_load=0.4)
     row = solved(profile=sie.Row([sie.Parabola(1.0)]), normal_load=0.4)
@@ -112,10 +99,8 @@ def test_a_row_of_one_convex_profile_is_that_profile():
     assert row.gap(2.0 * x) == pytest.approx(one.gap(2.0 * x), rel=1e-11, abs=1e-15)
     z = np.linspace(-1.0, 1.0, 9) + 0.2j
     assert row.pressure.cauchy(z) == pytest.approx(one.pressure.cauchy(z), rel=1e-13)
-    assert row.stress(x, 0.3).mises == pytest.approx(one.stress(x, 0.3).mises, rel=1e-11)
+    assert row.stress(x, 0.3).xy == pytest.approx(one.stress(x, 0.3).xy, abs=1e-13)
 
-
-# -- laws ------------------------------------------------------------------------------------------
 
 SCENES = {
     "row": {"profile": TWO, "normal_load": 0.4},
@@ -153,16 +138,6 @@ def test_pressure_and_load_scale_with_the_modulus(name):
     one = solved(**SCENES[name])
     stiff = sie.Scene(modulus=1e6, **(SCENES[name] | {"normal_load": 1e6 * one.normal_load}))
     np.testing.assert_allclose(sie.solve(stiff).patches, one.patches, rtol=1e-12, atol=1e-13)
-
-
-@pytest.mark.parametrize("name", SCENES)
-def test_the_boundary_value_of_the_potential_is_slope_and_pressure(name):
-    solution = solved(**SCENES[name])
-    lo, hi = solution.patches[0]
-    x = lo + (hi - lo) * np.array([0.21, 0.5, 0.83])
-    F = solution.pressure.cauchy(x + 1e-9j * (hi - lo))
-    assert F.imag == pytest.approx(-solution.pressure(x), rel=1e-6)
-    assert F.real == pytest.approx(0.5 * solution.scene.profile.slope(x), abs=1e-7)
 
 
 @pytest.mark.parametrize("name", ["row", "wave"])
@@ -234,25 +209,12 @@ def test_a_wrong_gap_is_not_certified(row, load, wrong, monkeypatch):
     assert not again.ok
 
 
-@pytest.mark.parametrize("load", [1e-4, 1e-2])
-def test_the_gap_is_known_far_beyond_a_light_contact(load):
-    """Beside contact g = h - h(0) less what the load presses in, which is about P ln(x/r)."""
-    profile = sie.FromFunction("x - 0.6*sin(12*x + 0.7)", domain=(-2.0, 2.0))
-    solution = solved(profile=profile, normal_load=load)
-    x = np.array([-1.9, -1.0, 1.0, 1.9])
-    raised = profile.height(x) - float(profile.height(np.array([solution.centre]))[0])
-    assert solution.gap(x) == pytest.approx(raised, abs=20.0 * load)
-
-
 def test_a_shift_by_a_period_changes_nothing():
     solution = solved(**SCENES["wave"])
     x = np.linspace(-3.0, 3.0, 13)
     there = x + 40.0 * np.pi
     assert solution.pressure(there) == pytest.approx(solution.pressure(x), rel=1e-11, abs=1e-12)
     assert solution.gap(there) == pytest.approx(solution.gap(x), rel=1e-9, abs=1e-12)
-
-
-# -- derivatives and full contact ------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("name", ["row", "wave", "trace"])
@@ -279,9 +241,6 @@ def test_the_wave_in_full_contact():
     assert not solution.gap(x).any()
 
 
-# -- friction --------------------------------------------------------------------------------------
-
-
 def test_the_shear_of_a_row_of_one_is_that_of_its_profile():
     loads = {"normal_load": 0.4, "friction": 0.5, "tangential_load": 0.1, "bulk_stress": 0.05}
     one = solved(profile=sie.Parabola(1.0), **loads)
@@ -292,9 +251,6 @@ def test_the_shear_of_a_row_of_one_is_that_of_its_profile():
     assert row.slip(x) == pytest.approx(one.slip(x), abs=1e-12)
     assert row.energy_lost == pytest.approx(one.energy_lost, rel=1e-9)
     assert row.shift == pytest.approx(one.shift, rel=1e-8)
-
-
-# -- what has no answer ----------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(

@@ -3,6 +3,7 @@
 import mpmath
 import numpy as np
 import pytest
+from scenes import solved
 
 import sie
 from analytic import flat_row, parabola_row, two_flats, two_parabolas, wavy
@@ -12,10 +13,6 @@ DIGITS.dps = 40
 GAPS = [1e-2, 1e-6, 1e-10]
 AT_CORNERS = np.array([1e-6, 1e-3, 0.1, 0.4, 0.7, 0.97, 1.0 - 1e-6])
 INSIDE = np.array([0.02, 0.3, 0.5, 0.6, 0.85, 0.97])
-
-
-def solved(**asked):
-    return sie.solve(sie.Scene(modulus=1.0, **asked))
 
 
 # Each form: profile, load, the exact last patch (None: corners of flats), and p(x, a, b) there.
@@ -107,9 +104,6 @@ def test_potential_and_derivative_of_a_wave(part):
     values = wavy.potential(circle.ravel(), **shape).reshape(circle.shape)
     exact = (values * turn.conj()).mean(axis=1) / (0.4 * z.imag)
     assert pressure.cauchy_derivative(z) == pytest.approx(exact, rel=1e-10)
-
-
-# -- waves that close without a corner -------------------------------------------------------------
 
 
 def two_harmonics(gap, second):

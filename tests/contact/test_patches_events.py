@@ -86,9 +86,6 @@ def test_patches_of_a_period_keep_their_place_where_two_gaps_are_as_wide():
     assert all(patches == pytest.approx(first, abs=1e-9) for patches in others)
 
 
-# -- length and gaps -------------------------------------------------------------------------------
-
-
 HARMONICS = sie.FromFunction("0.8*sin(x) + 1.05*sin(3*x + 0.5) + 0.84*sin(7*x + 1.1)")
 
 
@@ -116,9 +113,6 @@ def test_one_patch_on_the_line_has_no_gaps():
     solution = solved(sie.Parabola(1.0), 0.1)
     assert solution.gap_volume == 0.0
     assert solution.contact_length == 2.0 * solution.half_width
-
-
-# -- what is refused -------------------------------------------------------------------------------
 
 
 def test_a_trace_whose_contact_reaches_its_end_may_be_repeated():

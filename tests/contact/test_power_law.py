@@ -54,16 +54,6 @@ def test_the_half_width_carries_the_load_it_was_found_from(m, load, dx):
     assert given_width.normal_load == pytest.approx(load, rel=4e-16 * (m + 4.0))
 
 
-@pytest.mark.parametrize("m", [1.0337, 1.0614, 1.3])
-@pytest.mark.parametrize("dx", [0.5, -3.0])
-def test_the_contact_of_a_power_does_not_depend_on_where_it_stands(m, dx):
-    asked = {"modulus": 2.0, "normal_load": 0.23}
-    here = sie.solve(sie.Scene(profile=sie.Power(m, 1.65), **asked))
-    there = sie.solve(sie.Scene(profile=sie.Power(m, 1.65).shifted(dx), **asked))
-    assert there.half_width == pytest.approx(here.half_width, rel=1e-14)
-    assert there.check().ok
-
-
 def test_a_moment_about_another_axis_than_the_profiles_is_no_upright_contact():
     profile = sie.Power(2.5, 0.75).shifted(0.5)
     upright = sie.solve(sie.Scene(profile=profile, modulus=2.0, normal_load=0.3, moment=0.15))
@@ -71,12 +61,6 @@ def test_a_moment_about_another_axis_than_the_profiles_is_no_upright_contact():
     assert upright.tilt == 0.0
     assert tilted.tilt > 0.0
     assert tilted.moment == pytest.approx(0.0, abs=1e-12)
-
-
-def test_a_load_beyond_the_range_of_doubles_is_refused_with_a_reason():
-    for asked in ({"normal_load": 1e240}, {"normal_load": None, "half_width": 1e-140}):
-        with pytest.raises((sie.ContactError, ValueError), match="range"):
-            _ = sie.solve(sie.Scene(profile=sie.Power(1.01, 1e-20), modulus=1e-20, **asked)).edges
 
 
 @pytest.mark.slow(but=2)
@@ -130,9 +114,7 @@ CUSPS = (1.002, 1.03, 1.1, 1.3, 1.5, 1.9)
 
 
 def potentials_of_unit_width(m, y):
-    """(F, F') at y from the axis, of flats F = dP/(π sqrt(y² - s²)) and dP = m P s^(m-1) ds; b = 1,
-    over P.
-    """
+    """(F, F')/P at y from the axis, of flats F = dP/(π sqrt(y² - s²)), dP = m P s^(m-1) ds."""
     m, y = DIGITS.mpf(m), DIGITS.mpmathify(y)
     F = DIGITS.hyp2f1(0.5, m / 2, m / 2 + 1, 1 / y**2) / (DIGITS.pi * y)
     flat = 1 / (DIGITS.pi * DIGITS.sqrt(y - 1) * DIGITS.sqrt(y + 1))

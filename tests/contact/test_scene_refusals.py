@@ -1,32 +1,23 @@
-"""A bad question is refused when it is built, with the value; a good one without an answer when it
-is asked, with what was reached.
-"""
+"""Bad questions are refused when they are built, good ones without an answer when asked."""
 
 import math
 import pickle
 
 import numpy as np
 import pytest
+from scenes import PUNCH, scene
 
 import sie
 import sie.patches.answer
 
 NAN, INF = float("nan"), float("inf")
-PUNCH = sie.RoundedFlat(1.0, 2.0)
 STEEL = sie.Elastic(210e3, 0.3)
-
-
-def scene(**changes):
-    given = {"profile": PUNCH, "modulus": 1.0, "normal_load": 1.0}
-    return sie.Scene(**{k: v for k, v in (given | changes).items() if v is not ...})
 
 
 def asked(scene):
     """The edges, and with them whatever the scene is refused for."""
     return sie.solve(scene).edges
 
-
-# -- numbers that mean nothing --------------------------------------------------------------------
 
 POSITIVE = {
     "Parabola.radius": sie.Parabola,
@@ -38,7 +29,7 @@ POSITIVE = {
     "Elastic.young": lambda v: sie.Elastic(v, 0.3),
     "Scene.modulus": lambda v: scene(modulus=v),
     "Scene.normal_load": lambda v: scene(normal_load=v),
-    "Scene.half_width": lambda v: scene(normal_load=None, half_width=v),
+    "Scene.half_width": lambda v: scene(half_width=v),
     "solve.tol": lambda v: sie.solve(scene(), tol=v),
 }
 FINITE = {
@@ -82,10 +73,6 @@ def test_a_tolerance_below_rounding_or_not_below_one_is_refused(value):
             ask()
 
 
-def test_the_finest_tolerance_of_doubles_is_accepted():
-    assert sie.solve(scene(profile=sie.Parabola(1.0)), tol=FINEST).half_width > 0.0
-
-
 @pytest.mark.parametrize("name", FINITE)
 @pytest.mark.parametrize("value", [INF, -INF, NAN])
 def test_a_value_that_is_not_finite_is_refused_and_named(name, value):
@@ -123,22 +110,11 @@ def test_a_poisson_ratio_that_no_stable_solid_has_is_refused(nu):
         scene(poisson=nu)
 
 
-@pytest.mark.parametrize("nu", [-0.999, 0.0, 0.3, 0.5])
-def test_every_poisson_ratio_of_a_stable_solid_is_accepted(nu):
-    assert sie.Elastic(1.0, nu).poisson == nu
-
-
-# -- too much or too little -----------------------------------------------------------------------
-
-
 @pytest.mark.parametrize(
     ("changes", "words"),
     [
-        (
-            {"normal_load": None, "half_width": 0.25, "moment": 0.5},
-            r"both half_width = 0\.25 and moment = 0\.5.*give normal_load beside a moment",
-        ),
-        ({"body": STEEL}, "both.*body.*modulus"),
+        ({"half_width": 0.25, "moment": 0.5}, r"both half_width = 0\.25 and moment = 0\.5.*give"),
+        ({"modulus": 1.0, "body": STEEL}, "both.*body.*modulus"),
         ({"modulus": None, "body": 210e3}, "210000"),
         ({"modulus": None, "body": STEEL, "indenter": "steel"}, "steel"),
         ({"dundurs": 0.75}, r"0\.75"),
@@ -158,18 +134,9 @@ def test_a_scene_that_makes_no_contact_problem_is_refused_with_a_sentence(change
     [
         (lambda: sie.Power(0.5, 1.0), r"0\.5"),
         (lambda: sie.Polynomial((0.0, 1.0)), r"1\.0"),
-        (
-            lambda: sie.Polynomial([0.0] * 3001 + [1.0]),
-            "degree of coefficients is 3001, more than 1000: give the slope as a function",
-        ),
-        (
-            lambda: sie.Piecewise((0.0,), ([0.0, 1.0], [0.0] * 3001 + [1.0])),
-            r"pieces\[1\] is 3001, more than 200",
-        ),
-        (
-            lambda: scene(normal_load=10**400),
-            "normal_load is a whole number beyond the range of doubles",
-        ),
+        (lambda: sie.Polynomial([0.0] * 3001 + [1.0]), "3001, more than 1000: give the slope as a"),
+        (lambda: sie.Piecewise((0.0,), ([0.0, 1.0], [0.0] * 3001 + [1.0])), r"pieces\[1\] is 3001"),
+        (lambda: scene(normal_load=10**400), "a whole number beyond the range of doubles"),
         (lambda: sie.Polynomial(()), "straight"),
         (lambda: sie.Piecewise((1.0, 0.0, 2.0), ((0.0,), (0.0, 1.0))), "1.*0"),
         (lambda: sie.Piecewise((0.0, 0.0), ((0.0,), (0.0,), (0.0,))), "0.*0"),
@@ -180,14 +147,8 @@ def test_a_scene_that_makes_no_contact_problem_is_refused_with_a_sentence(change
         (lambda: sie.Piecewise((-INF, INF, INF), ((0.0, 1.0), (0.0, 2.0))), "inf"),
         (lambda: sie.Piecewise((-INF, 0.0, 1.0, INF, INF), ((0.0, 1.0),) * 4), "inf"),
         (lambda: sie.FromFunction(3.0), r"3\.0"),
-        (
-            lambda: sie.FromFunction(math.sinh),
-            "slope fails when called with an array .*NumPy's functions",
-        ),
-        (
-            lambda: sie.FromFunction(lambda x: x if x > 0.0 else 0.0),
-            "slope fails when called with an array .*truth value",
-        ),
+        (lambda: sie.FromFunction(math.sinh), "called with an array .*NumPy's functions"),
+        (lambda: sie.FromFunction(lambda x: x if x > 0.0 else 0.0), "an array .*truth value"),
         (lambda: sie.FromFunction("x", domain=(1.0, -1.0)), "1.*-1"),
         (lambda: sie.FromFunction("x", domain=(NAN, 1.0)), "nan"),
         (lambda: sie.FromFunction("x", domain=(1.0, 2.0, 3.0)), r"3\.0"),
@@ -229,9 +190,6 @@ def test_solve_and_with_refuse_unknown_names():
         sie.plan(scene(), want="magic")
 
 
-# -- good questions without an answer -------------------------------------------------------------
-
-
 def wave(height, number, shift=0.0):
     """A parabola with a wave on it, as a function that is not known to be symmetric."""
     return sie.Parabola(1.0).shifted(shift) + sie.FromFunction(
@@ -260,12 +218,6 @@ def test_sliding_dissimilar_bodies_that_lift_off_in_between_are_refused_with_the
     ((lo, hi),) = caught.value.reached["tension"]
     assert lo < shift < hi
     assert len(sie.solve(sie.Scene(**given)).patches) == 2
-
-
-def test_a_moment_just_within_the_punch_is_carried():
-    solution = sie.solve(scene(profile=sie.Flat(1.0), normal_load=1.0, moment=0.9375))
-    assert solution.moment == pytest.approx(0.9375, abs=1e-13)
-    assert solution.check().ok
 
 
 def test_a_contact_error_survives_a_process_pool():
@@ -334,12 +286,7 @@ VALUES = {
 }
 MEANINGFUL = {
     "a number": ("friction", "smoothing", "factor"),
-    "an empty array": (
-        "breaks of pieces",
-        "breaks of a function",
-        "economy",
-        "economy of a path",
-    ),
+    "an empty array": ("breaks of pieces", "breaks of a function", "economy", "economy of a path"),
 }
 REFUSED = [(n, v) for n in GIVEN for v in VALUES if n not in MEANINGFUL.get(v, ())]
 

@@ -94,11 +94,3 @@ def test_the_rounding_of_a_slope_is_no_reason_to_refuse_its_series():
     solution = sie.solve(sie.Scene(profile=sie.FromFunction(slope), modulus=2.0, half_width=0.02))
     assert solution.normal.series is not None
     assert solution.check().error < 1e-12
-
-
-@pytest.mark.parametrize("load", [1e-140, 1e-100, 1e-20])
-def test_a_small_load_makes_the_contact_of_a_cylinder(load):
-    solution = sie.solve(
-        sie.Scene(profile=sie.FromFunction(np.sinh), modulus=1.0, normal_load=load)
-    )
-    assert solution.half_width == pytest.approx(np.sqrt(4.0 * load / np.pi), rel=1e-14)

@@ -4,6 +4,7 @@ from contextlib import suppress
 
 import numpy as np
 import pytest
+from scenes import solved
 
 import sie
 
@@ -17,17 +18,15 @@ PROFILES = {
 @pytest.mark.parametrize("load", [1e-7, 1e-5, 1e-3])
 @pytest.mark.parametrize("profile", PROFILES.values(), ids=PROFILES)
 def test_two_equal_valleys_carry_half_of_a_light_load_each(profile, load):
-    contact = sie.solve(sie.Scene(profile=profile, normal_load=load, modulus=2.0))
+    contact = solved(profile, modulus=2.0, normal_load=load)
     np.testing.assert_allclose(contact.patch_loads, [load / 2, load / 2], rtol=1e-6)
 
 
 def test_a_valley_higher_than_a_light_load_presses_stays_open():
     profile = sie.FromFunction("x - 1.5*sin(2*x) + 1e-3", domain=(-3.0, 3.0))
-    contact = sie.solve(sie.Scene(profile=profile, normal_load=1e-6, modulus=2.0))
+    contact = solved(profile, modulus=2.0, normal_load=1e-6)
     assert len(contact.patches) == 1
 
-
-# -- loads that touch lightly ----------------------------------------------------------------------
 
 EQUAL = {
     "a formula": (PROFILES["waves without ends"], 2),
@@ -42,7 +41,7 @@ EQUAL = {
 @pytest.mark.parametrize("load", [1e-9, 1e-11, 1e-12])
 @pytest.mark.parametrize(("profile", "valleys"), EQUAL.values(), ids=EQUAL)
 def test_equal_valleys_all_touch_however_light_the_load(profile, valleys, load):
-    contact = sie.solve(sie.Scene(profile=profile, normal_load=load, modulus=2.0))
+    contact = solved(profile, modulus=2.0, normal_load=load)
     assert len(contact.patches) == valleys
     assert contact.check().ok
 
@@ -50,7 +49,7 @@ def test_equal_valleys_all_touch_however_light_the_load(profile, valleys, load):
 @pytest.mark.parametrize(("profile", "valleys"), EQUAL.values(), ids=EQUAL)
 def test_a_load_that_the_rounding_of_h_would_share_is_refused(profile, valleys):
     with pytest.raises(sie.LoadError, match=r"difference of depths of .* doubles of h tell"):
-        _ = sie.solve(sie.Scene(profile=profile, normal_load=1e-16, modulus=2.0)).patches
+        _ = solved(profile, modulus=2.0, normal_load=1e-16).patches
 
 
 @pytest.mark.parametrize("raised", [1e-10, 1e-12, 1e-16])
@@ -58,14 +57,13 @@ def test_flats_of_almost_equal_height_share_a_light_load_by_it(raised):
     """The heights of flats are exact, and so is their difference."""
     row = sie.Row([sie.Flat(0.3).shifted(-1.0), sie.Flat(0.3).shifted(1.0).raised(raised)])
     few, many = (
-        len(sie.solve(sie.Scene(profile=row, normal_load=part * raised, modulus=2.0)).patches)
-        for part in (0.1, 10.0)
+        len(solved(row, modulus=2.0, normal_load=part * raised).patches) for part in (0.1, 10.0)
     )
     assert (few, many) == (1, 2)
 
 
 def test_the_certificate_says_how_well_a_light_load_is_shared():
-    contact = sie.solve(sie.Scene(profile=EQUAL["a formula"][0], normal_load=1e-12, modulus=2.0))
+    contact = solved(EQUAL["a formula"][0], modulus=2.0, normal_load=1e-12)
     assert any("loads of the patches" in note for note in contact.check().notes)
 
 
@@ -76,16 +74,14 @@ def test_a_narrow_valley_far_from_the_widest_is_where_a_light_load_acts(width):
         return x + 60.0 * t / width * np.exp(-t * t)
 
     profile = sie.FromFunction(slope, domain=(-10.0, 10.0))
-    contact = sie.solve(sie.Scene(profile=profile, normal_load=1e-6, modulus=2.0))
+    contact = solved(profile, modulus=2.0, normal_load=1e-6)
     assert contact.patches[0] == pytest.approx((7.65, 7.65), abs=width)
 
 
 def test_a_valley_that_touches_more_lightly_than_the_rounding_of_its_neighbour_is_found():
     """The gap is looked at as far as the profile has valleys, not in half-widths of the contact."""
     deeper = sie.Polynomial((0.0, 1e-11, -0.5, 0.0, 0.25))
-    light, heavier = (
-        sie.solve(sie.Scene(profile=deeper, normal_load=P, modulus=2.0)) for P in (1e-12, 1e-10)
-    )
+    light, heavier = (solved(deeper, modulus=2.0, normal_load=P) for P in (1e-12, 1e-10))
     assert (len(light.patches), len(heavier.patches)) == (1, 2)
 
 
@@ -99,7 +95,7 @@ def valley(place, width, depth):
 @pytest.mark.parametrize("part", [0.01, 0.033])
 def test_a_valley_as_wide_as_a_hundredth_of_its_distance_is_seen(domain, part):
     profile = sie.FromFunction(valley(1.5, 1.5 * part, 0.9), domain=domain)
-    contact = sie.solve(sie.Scene(profile=profile, modulus=1.0, normal_load=0.5))
+    contact = solved(profile, normal_load=0.5)
     assert any(a < 1.5 < b for a, b in contact.patches)
     assert contact.check().ok
 
@@ -121,7 +117,7 @@ class Hidden:
 
 def test_the_certificate_of_one_patch_sees_a_valley_that_the_search_has_missed():
     slope = Hidden(lambda x: x, 1.5, 0.005, 0.9)
-    found = sie.solve(sie.Scene(profile=sie.FromFunction(slope), modulus=1.0, normal_load=0.5))
+    found = solved(sie.FromFunction(slope), normal_load=0.5)
     assert len(found.patches) == 1
     slope.shows = True
     assert not found.check().ok
@@ -148,9 +144,9 @@ def test_the_lowest_gap_of_two_patches_is_the_least_of_many_beside_them(place, w
 def test_a_far_valley_that_carries_all_of_the_load_is_seen_by_its_length():
     """Closer places, where the slope falls, do not make the part on which it falls a long one."""
     profile = sie.FromFunction(valley(-16.8, 0.44, 180.4))
-    solution = sie.solve(sie.Scene(profile=profile, modulus=1.0, normal_load=0.9257))
+    solution = solved(profile, normal_load=0.9257)
     hinted = sie.FromFunction(valley(-16.8, 0.44, 180.4), breaks=(-16.8,))
-    named = sie.solve(sie.Scene(profile=hinted, modulus=1.0, normal_load=0.9257))
+    named = solved(hinted, normal_load=0.9257)
     assert solution.edges == pytest.approx(named.edges, abs=1e-10)
     assert solution.edges[1] < -16.7
     assert solution.check().ok
@@ -161,7 +157,7 @@ def test_a_bump_is_one_patch_on_a_bounded_indenter_and_never_certified_without_a
 
     def pressed(domain):
         bump = sie.FromFunction(lambda x: x * np.exp(-x * x / 2.0), domain=domain)
-        return sie.solve(sie.Scene(profile=bump, modulus=1.0, normal_load=0.2))
+        return solved(bump, normal_load=0.2)
 
     assert len(pressed((-8.0, 8.0)).patches) == 1
     assert pressed((-8.0, 8.0)).check().ok

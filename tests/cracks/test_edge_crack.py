@@ -89,9 +89,6 @@ def test_a_depth_that_is_none_is_refused(depth):
         sie.EdgeCrack(depth, 1.0)
 
 
-# -- the door to a user's own crack ----------------------------------------------------------------
-
-
 def of_surface(x, t):
     s = x + t
     return (-1.0 / s + 6.0 * x / s**2 - 4.0 * x**2 / s**3) / np.pi

@@ -124,9 +124,6 @@ def test_what_is_no_crack_is_refused_before_any_work(cycle, monkeypatch, asked, 
         sie.stress.fretting.Cycle.stress_intensity(cycle, **{"at": -1.0, **asked})
 
 
-# -- scene files -----------------------------------------------------------------------------------
-
-
 def test_one_scene_file_leads_from_the_pad_to_the_arrest_of_a_crack(tmp_path, capsys):
     path = tmp_path / "crack.toml"
     path.write_text(scene_file.example("crack"), encoding="utf-8")

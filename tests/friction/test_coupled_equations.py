@@ -11,10 +11,6 @@ from pressed_cases import PROFILES, solved
 
 import sie
 from sie.certificate.coupled_check import coupled_certificate
-from sie.friction.coupled.traction import smooth_between
-from sie.numerics.interval import Interval
-
-# -- the two equations -----------------------------------------------------------------------------
 
 
 @pytest.mark.slow(but=12)
@@ -24,13 +20,6 @@ def test_certificate_holds_for_every_profile(name, beta, friction):
     certificate = solved(PROFILES[name], beta, friction).check()
     assert certificate.ok
     assert certificate.residual < 1e-10
-
-
-@pytest.mark.parametrize("name", ["flat", "parabola", "rounded flat"])
-def test_certificate_is_not_ok_for_another_mismatch(name):
-    right = solved(PROFILES[name])
-    wrong = coupled_certificate(right.coupled[1], replace(right.scene, dundurs=0.3001), 1e-13)
-    assert not wrong.ok
 
 
 @pytest.mark.slow(but=4)
@@ -71,48 +60,6 @@ def test_potentials_are_those_of_a_plain_quadrature_far_from_the_surface(name):
         step = 1e-4 * r
         difference = (traction.cauchy(z + step) - traction.cauchy(z - step)) / (2.0 * step)
         assert traction.cauchy_derivative(z) == pytest.approx(difference, rel=1e-6)
-
-
-@pytest.mark.parametrize("depth", [1e-3, 1e-13, 1e-200])
-@pytest.mark.parametrize("marks", [[], [0.3], [-0.2, 0.3]])
-def test_potential_of_a_half_ellipse_is_the_closed_form_at_any_depth(depth, marks):
-    half_ellipse = smooth_between(
-        Interval(-1.0, 1.0), lambda x: np.sqrt(1.0 - x * x), marks, 0.5 * math.pi
-    )
-    z = np.array([-1.7, -0.6, 0.3, 0.9, 1.4]) + 1j * depth
-    root = np.sqrt(z - 1.0) * np.sqrt(z + 1.0)
-    F, dF = half_ellipse.potentials(z)
-    np.testing.assert_allclose(F, z - root, rtol=1e-12)
-    np.testing.assert_allclose(dF[[0, 1, 3, 4]], (1.0 - z / root)[[0, 1, 3, 4]], rtol=1e-11)
-
-
-@pytest.mark.parametrize("name", ["flat", "parabola", "rounded flat"])
-def test_a_potential_at_many_points_is_that_at_each(name):
-    density = solved(PROFILES[name], 0.07, 0.3).shear
-    x, y = np.meshgrid(np.linspace(-2.0, 2.0, 41), np.geomspace(1e-3, 10.0, 25))
-    z = (x + 1j * y).ravel()
-    few = [density.potentials(part) for part in np.array_split(z, len(z) // 5)]
-    many = density.potentials(z)
-    for k, rounding in enumerate((1e-13, 1e-11)):
-        one_by_one = np.concatenate([pair[k] for pair in few])
-        assert many[k] == pytest.approx(one_by_one, abs=rounding * np.abs(one_by_one).max())
-
-
-@pytest.mark.parametrize("side", [1, -1, 0])
-def test_potential_and_derivative_are_those_that_are_asked_for_alone(side):
-    density = solved(PROFILES["parabola"]).shear
-    z = np.array([[0.3 + 0.2j, -0.4], [2.0, 0.1 - 0.7j], [1e40 + 1j, complex(math.nan, 1.0)]])
-    F, dF = density.potentials(z, side)
-    np.testing.assert_array_equal(F, density.cauchy(z, side))
-    np.testing.assert_array_equal(dF, density.cauchy_derivative(z, side))
-
-
-def test_potential_far_away_is_the_load_over_the_distance():
-    pressure = solved(sie.Parabola(1.0)).pressure
-    z = np.array([1e8j, 1e99j, 1e120 + 1e120j])
-    F, dF = pressure.potentials(z)
-    np.testing.assert_allclose(F, 1.0 / (math.pi * z), rtol=1e-7)
-    np.testing.assert_allclose(dF, -1.0 / (math.pi * z * z), rtol=1e-7)
 
 
 def test_surface_stress_is_in_balance_with_the_tractions():

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from scenes import dissimilar
 
 import sie
 from oracles import sheared_grid, spence
@@ -23,19 +24,15 @@ def rise(half_flat, n):
 
 @pytest.mark.parametrize(("beta", "friction"), [(0.3, 0.3), (0.5, 0.5), (0.3, 0.5)])
 def test_stick_zone_of_a_flat_ends_within_two_cells_of_the_grids(beta, friction):
-    scene = sie.Scene(
-        profile=sie.Flat(1.0), modulus=2.0, dundurs=beta, friction=friction, normal_load=1.0
-    )
+    solution = sie.solve(dissimilar(sie.Flat(1.0), beta, friction))
     grid = spence.flat_punch(4 * CELLS, beta, friction)
-    assert grid.stick_ratio == pytest.approx(sie.solve(scene).stick[0][1], abs=2.0 / (4 * CELLS))
+    assert grid.stick_ratio == pytest.approx(solution.stick[0][1], abs=2.0 / (4 * CELLS))
 
 
 @pytest.mark.parametrize("half_flat", [0.0, 0.5])
 def test_load_of_the_grids_tends_to_that_of_the_contact(half_flat):
     profile = sie.RoundedFlat(half_flat, 1.0) if half_flat else sie.Parabola(1.0)
-    exact = sie.solve(
-        sie.Scene(profile=profile, modulus=2.0, dundurs=0.3, friction=0.3, half_width=1.0)
-    )
+    exact = sie.solve(dissimilar(profile, half_width=1.0))
     grids = [
         spence.growing_contact(rise(half_flat, n), n, 0.3, 0.3, max(1, round(half_flat * n)))
         for n in (CELLS, 2 * CELLS)
@@ -48,15 +45,8 @@ def test_load_of_the_grids_tends_to_that_of_the_contact(half_flat):
 
 def test_grids_tell_the_coupled_pressure_from_goodmans():
     loads = [spence.growing_contact(rise(0.0, n), n, 0.3, 0.3, 1).load for n in (CELLS, 2 * CELLS)]
-    scene = sie.Scene(
-        profile=sie.Parabola(1.0),
-        modulus=2.0,
-        dundurs=0.3,
-        friction=0.3,
-        half_width=1.0,
-        coupling="goodman",
-    )
-    assert between_grids(*loads, sie.solve(scene).normal_load) > 1.0
+    goodman = sie.solve(dissimilar(half_width=1.0, coupling="goodman"))
+    assert between_grids(*loads, goodman.normal_load) > 1.0
 
 
 def pressed(solution, cell, reach, turn, wide):
@@ -78,10 +68,8 @@ def pressed(solution, cell, reach, turn, wide):
 
 
 def sheared_states(beta, friction, cell, turn):
-    scene = sie.Scene(
-        profile=sie.Parabola(1.0), modulus=2.0, dundurs=beta, friction=friction, normal_load=1.0
-    )
-    states = sheared_grid.sheared(pressed(sie.solve(scene), cell, 0.4, turn, 0.05), beta, friction)
+    solution = sie.solve(dissimilar(None, beta, friction))
+    states = sheared_grid.sheared(pressed(solution, cell, 0.4, turn, 0.05), beta, friction)
     return ((state.load / friction, state) for state in states)
 
 
@@ -119,15 +107,8 @@ def test_grid_opens_a_slip_zone_between_the_ends_that_the_march_finds():
 def test_grid_has_the_four_edges_where_the_zones_depend_on_the_load_alone():
     beta, friction, cell = 0.25, 2.0, 0.005
     part, state = next(it for it in sheared_states(beta, friction, cell, -0.5) if it[0] > 0.5)
-    scene = sie.Scene(
-        profile=sie.Parabola(1.0),
-        modulus=2.0,
-        dundurs=beta,
-        friction=friction,
-        normal_load=1.0,
-        tangential_load=part * friction,
-    )
-    solution = sie.solve(scene)
+    loads = {"normal_load": 1.0, "tangential_load": part * friction}
+    solution = sie.solve(dissimilar(None, beta, friction, **loads))
     (left, _), (stick, e1), (right, e2) = state.zones
     assert (left, stick, right) == (1, 0, 1)
     assert state.contact[0] == pytest.approx(solution.edges[0], abs=cell)

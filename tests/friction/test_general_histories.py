@@ -1,6 +1,4 @@
-"""P, Q, bulk stress and tilt together along a path: state functions, the ladder of tilted
-contacts, steady cycles, and an incremental solution on a mesh.
-"""
+"""P, Q, bulk stress and tilt together along a path, against closed forms."""
 
 import re
 from dataclasses import replace
@@ -22,8 +20,6 @@ from history_cases import (
 
 import sie
 from sie.contact import edges
-
-# -- state functions -------------------------------------------------------------------------------
 
 
 def test_falling_load_leaves_the_stick_zone_of_the_end_loads_alone():
@@ -84,9 +80,6 @@ def test_loads_come_back_to_those_under_which_one_edge_stuck_and_the_other_slipp
     assert one.stick[0] == pytest.approx(whole[1].stick[0], abs=1e-3)
 
 
-# -- refusals --------------------------------------------------------------------------------------
-
-
 @pytest.mark.parametrize(
     ("points", "said"),
     [
@@ -145,16 +138,11 @@ def test_a_path_with_tilt_is_a_value():
         sie.follow(replace(HERTZ, moment=0.0), path)
 
 
-# -- slip and shift while the contact changes ------------------------------------------------------
-
-
 GROWING = [(1, 0, 0), (1.3, 0.7, 0.1)]
 
 
 def slip_rate(x, share):
-    """The rate of slip at x on GROWING, R = E* = 1: that of the gap of the reduced contact, whose
-    load is P - Q/f and whose centre moves with the bulk stress; 0 before x touches.
-    """
+    """That of the gap of the reduced contact on GROWING, R = E* = 1; 0 before x touches."""
     level, centre = 1.0 + share * (0.3 - 0.7), 0.5 * 0.1 * share
     away, r = x - centre, np.sqrt(level)
     v = np.maximum(np.abs(away) / r, 1.0)

@@ -1,6 +1,4 @@
-"""Cattaneo and Mindlin for any profile: zones, shear, slip and energy against closed forms in many
-digits, and laws for every contact.
-"""
+"""Cattaneo and Mindlin for any profile, against closed forms in many digits."""
 
 import math
 
@@ -12,8 +10,6 @@ import sie
 from analytic import cattaneo_rounded, rounded_flat
 
 FRACTIONS = (1e-14, 1e-9, 1e-4, 0.009, 0.011, 0.6, 1.0 - 1e-6, 1.0 - 1e-14)
-
-# -- the rounded punch in many digits (Ciavarella, Hills & Monno 1998; a = 0 is Hertz), R = 1 ------
 
 
 def closed(a, solution):
@@ -28,9 +24,7 @@ def closed(a, solution):
 @pytest.mark.parametrize("fraction", FRACTIONS)
 @pytest.mark.parametrize("a", [0.0, 0.5, 1.0 - 1e-9], ids=["hertz", "0.5", "1-1e-9"])
 def test_the_rounded_punch_and_hertz_in_partial_slip(a, fraction):
-    """Eq. (20): the stick zone; q, slip and energy; to 1e-12 of themselves, thin rims included,
-    and but for the rounding of the edges that a thin zone of slip is between.
-    """
+    """Ciavarella, Hills & Monno (1998), eq. (20): but for rounding of the edges of a thin zone."""
     profile = sie.RoundedFlat(a, 1.0) if a else sie.Parabola(1.0)
     load = float(rounded_load(mp.mpf(a), mp.mpf(1)))
     solution = sheared(profile, fraction, load)
@@ -79,9 +73,7 @@ def test_the_shear_next_to_the_stick_zone_of_a_thin_slip_zone():
 def test_next_to_sliding_the_stick_zone_of_a_tilted_profile_is_where_it_touched_first(
     profile, tilt
 ):
-    """A parabola there, P - |Q|/f = π E*/4 h'' c², but for terms of the order of c over the
-    profile's own length, 1e-6.
-    """
+    """A parabola there, P - |Q|/f = π E*/4 h'' c², but for terms of the order of c."""
     solution = sheared(profile, 1.0 - 1e-13, tilt=tilt)
     ((lo, hi),) = solution.stick
     z, step = 0.5 * (lo + hi), 1e-5
@@ -91,9 +83,6 @@ def test_next_to_sliding_the_stick_zone_of_a_tilted_profile_is_where_it_touched_
     assert c == pytest.approx(
         math.sqrt(4.0 * float(left_over(solution)) / (math.pi * E * curvature)), rel=1e-6
     )
-
-
-# -- sliding, sticking, refusing -------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(
@@ -109,7 +98,7 @@ def test_full_sliding_is_f_times_the_pressure_without_a_second_solve(profile, si
     def refused(*_args, **_options):
         pytest.fail("a second contact was solved")
 
-    monkeypatch.setattr(sie.sheared, "contact_under", refused)
+    monkeypatch.setattr(sie.answers.sheared, "contact_under", refused)
     x = np.linspace(-0.9, 0.9, 7) * solution.half_width
     assert (solution.shear(x) == sign * F * solution.pressure(x)).all()
     assert solution.stick == ()
@@ -117,9 +106,7 @@ def test_full_sliding_is_f_times_the_pressure_without_a_second_solve(profile, si
 
 
 def test_sliding_is_where_the_rounded_product_is():
-    """0.3 x 500 is a little less than 150 in exact arithmetic, and 150 in doubles: that is full
-    sliding, as it was meant.
-    """
+    """0.3 × 500 is 150 in doubles, and a little less in exact arithmetic."""
     solution = sie.solve(sie.Scene(
         profile=sie.Parabola(1.0), modulus=E, normal_load=500.0, friction=0.3,
         tangential_load=150.0,
@@ -143,9 +130,7 @@ def test_slip_at_incipient_sliding_is_f_times_the_height_of_the_profile():
 def test_full_sliding_under_a_bulk_stress_is_the_limit_of_what_slipped_before(
     profile, strain, left
 ):
-    """Where the strain pulls the lowest point out of the contact, or there is none, an edge slips
-    last.
-    """
+    """Where the strain pulls the lowest point out of the contact, an edge slips last."""
     if strain < -1.0 and isinstance(profile, sie.Wedge):
         pytest.skip("slip in opposite directions is refused at a tip")
     whole, almost = (
@@ -174,9 +159,7 @@ def test_a_sharp_flat_punch_sticks_as_a_whole_until_it_slides():
 
 
 def test_under_the_tip_of_a_wedge_the_shear_is_finite():
-    """p and p̂ are infinite there, with the same logarithm: q = f E* s/π (acosh(b/x) - acosh(c/x))
-    -> f E* s/π ln(b/c).
-    """
+    """p and p̂ have the same logarithm there: q -> f E* s/π ln(b/c)."""
     solution = sheared(sie.Wedge(0.25), 0.5)
     assert float(solution.shear(0.0)) == pytest.approx(
         F * E * 0.25 / np.pi * np.log(2.0), rel=1e-12
@@ -209,9 +192,6 @@ def test_without_a_tangential_load_everything_sticks():
     frictionless = sie.solve(sie.Scene(profile=sie.Parabola(1.0), modulus=1.0, normal_load=1.0))
     assert frictionless.stick == ()
     assert frictionless.energy_lost == frictionless.shift == 0.0
-
-
-# -- cost and economy ------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("fraction", [0.0, 0.4, 1.0])

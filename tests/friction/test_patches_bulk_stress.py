@@ -46,6 +46,8 @@ def test_a_row_of_one_has_the_stick_zone_and_the_shear_of_its_profile(points, ti
     x = np.linspace(*one.edges, 21)[1:-1]
     assert np.array(row.stick) == pytest.approx(np.array(one.stick), abs=1e-12)
     assert row.shear(x) == pytest.approx(one.shear(x), abs=1e-12)
+    assert row.slip(x) == pytest.approx(one.slip(x), abs=1e-12)
+    assert row.energy_lost == pytest.approx(one.energy_lost, rel=1e-9, abs=1e-15)
 
 
 @pytest.mark.parametrize(
@@ -71,8 +73,9 @@ def test_a_steady_cycle_of_a_row_of_one_is_that_of_its_profile(A, B):
     [
         [(1.0, 0.2, 0.02, 0.0), (0.9, 0.02, -0.01, 0.0)],
         [(1.0, 0.03, 0.0, 0.0), (1.25, 0.15, 0.0, 0.02)],
+        [(0.2, 0.02, 0.0, 0.0), (0.4, 0.1, 0.0, 0.0), (0.32, -0.01, 0.0, 0.0)],
     ],
-    ids=["bulk stress", "tilt"],
+    ids=["bulk stress", "tilt", "P and Q"],
 )
 def test_two_patches_agree_with_a_mesh_that_knows_no_superposition(points):
     """Of the first order in the elements: half of them leaves at least 1.6 times the error."""
@@ -90,14 +93,25 @@ def test_two_patches_agree_with_a_mesh_that_knows_no_superposition(points):
 
 
 @pytest.mark.slow
-def test_a_steady_cycle_of_two_patches_under_bulk_stress_is_that_of_the_path_that_settles():
-    A, B = (1.0, 0.1, 0.01), (1.0, -0.1, -0.01)
-    steady, path = sie.steady_cycle(scene(EVEN), A, B), followed(EVEN, [A, B, A, B, A])
-    x = np.concatenate([np.linspace(*patch, 12)[1:-1] for patch in path[0].patches])
-    change = np.abs(path[4].shear(x) - path[3].shear(x))
-    assert steady.energy == pytest.approx(path[4].energy_lost - path[2].energy_lost, rel=1e-10)
-    assert np.array(steady.stick) == pytest.approx(np.array(path[4].stick), abs=1e-12)
+@pytest.mark.parametrize(
+    ("profile", "A", "B"),
+    [
+        (EVEN, (1.0, 0.1, 0.01), (1.0, -0.1, -0.01)),
+        (TWO, (0.4, 0.06, 0.0), (0.34, -0.036, 0.0)),
+    ],
+    ids=["bulk stress", "P and Q"],
+)
+def test_a_steady_cycle_of_two_patches_is_that_of_the_path_that_settles(profile, A, B):
+    steady, path = sie.steady_cycle(scene(profile), A, B), followed(profile, [A, B, A, B, A])
+    x = np.concatenate([np.linspace(*patch, 12)[1:-1] for patch in path[3].patches])
+    change, slip = (
+        np.abs(f(4) - f(3)) for f in (lambda k: path[k].shear(x), lambda k: path[k].slip(x))
+    )
+    assert steady.energy == pytest.approx(path[4].energy_lost - path[2].energy_lost, rel=1e-9)
     assert steady.shear_range(x) == pytest.approx(change, abs=1e-12)
+    assert steady.slip_range(x) == pytest.approx(slip, abs=1e-12)
+    held = np.array([0.5 * (lo + hi) for lo, hi in steady.stick])
+    assert (steady.slip_range(held) == 0.0).all()
 
 
 def test_the_shear_that_comes_and_goes_without_slip_is_that_of_flats_superposed():
@@ -108,9 +122,6 @@ def test_the_shear_that_comes_and_goes_without_slip_is_that_of_flats_superposed(
     k, tau = (Q - Q0) / (P - P0), 0.25 * (sigma - sigma0) / (P - P0)
     assert cycle.shear_change(x) == pytest.approx(G * (k - np.pi * tau * x) * (w - w0), abs=1e-14)
     assert cycle.energy == 0.0
-
-
-# -- what is refused -------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(

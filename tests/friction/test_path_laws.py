@@ -5,7 +5,6 @@ The mesh solver goes step by step and knows no superposition.
 """
 
 from contextlib import suppress
-from dataclasses import replace
 from functools import cache
 
 import numpy as np
@@ -15,6 +14,7 @@ from history_cases import (
     HERTZ,
     IN_PHASE,
     LOPSIDED,
+    MEAN_STRESS,
     OUT_OF_PHASE,
     f,
     followed,
@@ -46,7 +46,7 @@ PATHS = {
     "a front is held up": (HERTZ, [(1, 0, 0), *HELD_UP]),
     "an edge catches up": (HERTZ, [(1, 0, 0), (1.34, -0.34, 0.16), (0.66, 0.34, -0.16)]),
     "out of phase": (LOPSIDED, OUT_OF_PHASE),
-    "mean stress": (LOPSIDED, [(1, 0, 0.3), (1, 0.5, 0.3), (1, -0.5, 0.3), (1, 0.5, 0.3)]),
+    "mean stress": (LOPSIDED, MEAN_STRESS),
     "both stick, then one slips": (HERTZ, [(1, 0, 0), (1.6, 0.2, 0.2), (1.9, 0.7, 0.5)]),
     "tilt": (LOPSIDED, [(1, 0.5, 0.05, 0.02), (0.9, -0.3, 0, -0.03), (1, 0.4, 0.1, 0.02)]),
     "all together": (LOPSIDED, ROLLING),
@@ -60,11 +60,6 @@ PATHS = {
     ),
 }  # fmt: skip
 each_path = pytest.mark.parametrize("name", PATHS)
-# Of a lopsided profile the image is another one; of one path it is refused where two events meet.
-IMAGES = [
-    name for name, (scene, _) in PATHS.items()
-    if scene is LOPSIDED and "at the other edge" not in name
-]  # fmt: skip
 
 
 @cache
@@ -97,19 +92,6 @@ def test_a_path_in_parts_ends_in_the_same_state(name):
     assert parts.slip(0.1 * x) == pytest.approx(whole.slip(0.1 * x), abs=1e-9 * (1.0 + scale))
     with suppress(sie.ContactError):  # it may be known at the end of a step only
         assert parts.energy_lost == pytest.approx(whole.energy_lost, rel=1e-7)
-
-
-@pytest.mark.slow(but=1)
-@pytest.mark.parametrize("name", IMAGES)
-def test_mirrored_loads_on_the_mirrored_profile_have_the_mirrored_answer(name):
-    scene, points = PATHS[name]
-    here = history(name)[-1]
-    mirrored = replace(scene, profile=scene.profile.mirrored())
-    turned = [(P, -Q, sigma, *(-tilt for tilt in rest)) for P, Q, sigma, *rest in points]
-    there, x = followed(mirrored, turned)[-1], inside(here)
-    assert -np.flip(ends(there)) == pytest.approx(ends(here), abs=1e-9)
-    assert there.shear(-x) == pytest.approx(-here.shear(x), abs=1e-10)
-    assert there.energy_lost == pytest.approx(here.energy_lost, rel=1e-8)
 
 
 @pytest.mark.slow(but=6)

@@ -1,6 +1,4 @@
-"""Dissimilar bodies: full sliding (q = ±f p acts back on the pressure) and full stick (a bonded
-flat punch).
-"""
+"""Dissimilar bodies in full sliding, and in full stick under a flat punch."""
 
 import math
 
@@ -10,8 +8,8 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from sliding_cases import RIM, SIMILAR, bonded, inside, slid
 
-import analytic
 import sie
+from analytic import bonded_flat, sliding_flat, sliding_hertz, sliding_rounded_flat
 
 PROFILES = {
     "parabola": sie.Parabola(3.0),
@@ -25,39 +23,29 @@ PROFILES = {
 COUPLINGS = (0.3, -0.3, 0.49, 1e-3)
 
 
-def shift(coupling):
-    return -math.atan(coupling) / math.pi
-
-
-# -- closed forms ----------------------------------------------------------------------------------
-
-
 @pytest.mark.parametrize("coupling", COUPLINGS)
-def test_sliding_hertz(coupling):
-    R, w, e = 3.0, 1.1, shift(coupling)
+def test_the_sliding_parabola_of_both_packages(coupling):
+    R, w = 3.0, 1.1
     solution = slid(sie.Parabola(R), coupling, half_width=w)
-    c1, c2 = w * (1 - 2 * e), w * (1 + 2 * e)
-    assert solution.edges == pytest.approx((-c1, c2), rel=1e-14)
-    assert solution.normal_load == pytest.approx(
-        math.pi * 2.0 * w * w * (0.25 - e * e) / R, rel=1e-14
-    )
+    closed = {"half_width": w, "radius": R, "modulus": 2.0, "coupling": coupling}
+    edges = sliding_hertz.edges(half_width=w, coupling=coupling)
+    assert solution.edges == pytest.approx([float(x) for x in edges], rel=1e-14)
+    assert solution.normal_load == pytest.approx(float(sliding_hertz.load(**closed)), rel=1e-14)
     x = inside(solution)
-    assert solution.pressure(x) == pytest.approx(
-        2.0 * math.cos(math.pi * e) / (2 * R) * (c2 - x) ** (0.5 - e) * (c1 + x) ** (0.5 + e),
-        rel=1e-11,
-    )
+    assert solution.pressure(x) == pytest.approx(sliding_hertz.pressure(x, **closed), rel=1e-11)
 
 
 @pytest.mark.parametrize("coupling", COUPLINGS)
-def test_sliding_flat(coupling):
-    b, P, e = 1.0, 2.0, shift(coupling)
-    solution = slid(sie.Flat(b), coupling, normal_load=P)
-    x = np.linspace(-0.999, 0.999, 201)
-    assert solution.pressure(x) == pytest.approx(
-        P * math.cos(math.pi * e) / math.pi * (b - x) ** (-0.5 - e) * (b + x) ** (-0.5 + e),
-        rel=1e-13,
-    )
-    assert solution.moment == pytest.approx(2 * e * P * b, rel=1e-13)
+@pytest.mark.parametrize("tilt", [0.0, 0.05, -0.12])
+def test_the_sliding_flat_of_both_packages(coupling, tilt):
+    solution = slid(sie.Flat(1.5), coupling, normal_load=2.0, tilt=tilt)
+    assert solution.sharp == (True, True)
+    closed = {"half_width": 1.5, "normal_load": 2.0, "coupling": coupling}
+    closed["moment"] = solution.moment
+    x = 1.5 * np.linspace(-0.999, 0.999, 201)
+    assert solution.pressure(x) == pytest.approx(sliding_flat.pressure(x, **closed), rel=1e-11)
+    found = float(sliding_flat.tilt(**closed, modulus=2.0))
+    assert found == pytest.approx(tilt, rel=1e-11, abs=1e-13)
 
 
 @pytest.mark.parametrize("half_flat", [1e-3, 1.0, 1e3])
@@ -65,70 +53,35 @@ def test_sliding_flat(coupling):
 def test_the_sliding_rounded_punch_of_both_packages(coupling, half_flat):
     P, R = 0.1, 50.0
     solution = slid(sie.RoundedFlat(half_flat, R), coupling, normal_load=P)
-    closed = {
-        "half_flat": half_flat,
-        "radius": R,
-        "modulus": 2.0,
-        "coupling": coupling,
-        "normal_load": P,
-    }
-    rims = analytic.dissimilar.sliding_rounded_flat.rims(**closed)
-    contact = solution.normal.edges.contact
-    assert [
-        -half_flat - contact.x1 - contact.tail1,
-        contact.x2 - half_flat + contact.tail2,
-    ] == pytest.approx([float(r) for r in rims], rel=1e-12)
+    closed = {"half_flat": half_flat, "radius": R, "modulus": 2.0, "coupling": coupling}
+    closed["normal_load"] = P
+    rims, contact = sliding_rounded_flat.rims(**closed), solution.normal.edges.contact
+    found = [-half_flat - contact.x1 - contact.tail1, contact.x2 - half_flat + contact.tail2]
+    assert found == pytest.approx([float(r) for r in rims], rel=1e-12)
     x = inside(solution)
-    exact = analytic.dissimilar.sliding_rounded_flat.pressure(x, **closed)
+    exact = sliding_rounded_flat.pressure(x, **closed)
     # Nearer to it the rounding of the edge to a double is the difference.
     middle = np.abs(x - solution.centre) < 0.999 * solution.half_width
     assert solution.pressure(x)[middle] == pytest.approx(exact[middle], rel=1e-12)
-    assert solution.moment == pytest.approx(
-        float(analytic.dissimilar.sliding_rounded_flat.moment(**closed)), rel=1e-12
-    )
-
-
-@pytest.mark.parametrize("coupling", COUPLINGS)
-@pytest.mark.parametrize("tilt", [0.05, -0.12])
-def test_a_tilted_flat_that_slides_on_both_its_edges_carries_its_load(coupling, tilt):
-    """p times the roots of its singular ends is a straight line c0 + c1 s of s = x/b.
-
-    The means of s and s² under (1 - s)^(-1/2-ε) (1 + s)^(-1/2+ε), whose integral is π/cos πε, are
-    2ε and 1/2 + 2ε² (a beta distribution).
-    """
-    b, P, e = 1.5, 2.0, shift(coupling)
-    solution = slid(sie.Flat(b), coupling, normal_load=P, tilt=tilt)
-    assert solution.sharp == (True, True)
-    s = np.array([-0.8, 0.1, 0.9])
-    line = solution.pressure(b * s) * (1.0 - s) ** (0.5 + e) * (1.0 + s) ** (0.5 - e)
-    c1 = (line[2] - line[0]) / (s[2] - s[0])
-    c0 = line[0] - c1 * s[0]
-    assert line[1] == pytest.approx(c0 + c1 * s[1], rel=1e-12)
-    whole = np.pi / np.cos(np.pi * e)
-    assert b * whole * (c0 + 2.0 * e * c1) == pytest.approx(P, rel=1e-12)
-    assert b * b * whole * (2.0 * e * c0 + (0.5 + 2.0 * e * e) * c1) == pytest.approx(
-        solution.moment, rel=1e-11, abs=1e-12 * P * b
-    )
+    moment = float(sliding_rounded_flat.moment(**closed))
+    assert solution.moment == pytest.approx(moment, rel=1e-12)
 
 
 @pytest.mark.parametrize("beta", [0.3, -0.2, 0.0, 0.49])
-def test_bonded_flat(beta):
-    b, P, Q, eta = 2.0, 5.0, -2.0, math.atanh(beta) / math.pi
-    solution = sie.solve(bonded(beta, P, Q, b))
-    x = np.linspace(-1.99, 1.99, 101)
-    exact = (
-        (P + 1j * Q)
-        / math.pi
-        * math.cosh(math.pi * eta)
-        * (b * b - x * x) ** -0.5
-        * np.exp(1j * eta * np.log((b + x) / (b - x)))
-    )
-    assert solution.pressure(x) + 1j * solution.shear(x) == pytest.approx(exact, rel=1e-13)
-    assert (solution.pressure.resultant, solution.shear.resultant) == pytest.approx(
-        (P, Q), rel=1e-14
-    )
-    assert solution.tilt == 0.0
-    assert solution.check().ok, solution.check()
+def test_the_bonded_flat_of_both_packages(beta):
+    b, P, Q = 2.0, 5.0, -2.0
+    solution, x = sie.solve(bonded(beta, P, Q, b)), np.linspace(-1.99, 1.99, 101)
+    closed = {"half_width": b, "normal_load": P, "shear_load": Q, "dundurs": beta}
+    moment = solution.moment
+    for found, form in (
+        (solution.pressure, bonded_flat.pressure),
+        (solution.shear, bonded_flat.shear),
+    ):
+        exact = form(x, **closed, moment=moment)
+        assert found(x) == pytest.approx(exact, abs=1e-13 * np.abs(exact).max())
+    loads = solution.pressure.resultant, solution.shear.resultant
+    assert loads == pytest.approx((P, Q), rel=1e-14)
+    assert solution.tilt == 0.0 and solution.check().ok
 
 
 @pytest.mark.parametrize("beta", [0.4, -0.4])
@@ -140,22 +93,14 @@ def test_bonded_flat(beta):
 def test_at_a_sharp_edge_of_dissimilar_bodies_stresses_are_infinite_and_the_load_to_yield_vanishes(
     beta, given
 ):
-    """Pressure and the shear's Hilbert transform are both infinite there: their difference is no
-    nan.
-    """
-    solution = sie.solve(
-        sie.Scene(
-            profile=sie.Flat(2.0), modulus=3.0, dundurs=beta, poisson=0.3, normal_load=0.2, **given
-        )
-    )
+    """Pressure and the shear's Hilbert transform are both infinite: their difference is no nan."""
+    pair = {"modulus": 3.0, "dundurs": beta, "poisson": 0.3}
+    solution = sie.solve(sie.Scene(profile=sie.Flat(2.0), normal_load=0.2, **pair, **given))
     stress = solution.stress([-2.0, 2.0], 0.0)
     assert (
         np.abs([stress.xx, stress.yy, stress.xy, stress.mises, stress.in_plane_sum]) == np.inf
     ).all()
     assert solution.elastic_limit().load == 0.0
-
-
-# -- laws ------------------------------------------------------------------------------------------
 
 
 GIVEN = (
@@ -181,18 +126,7 @@ def test_every_profile_is_certified(name, coupling, given):
 @pytest.mark.parametrize("name", PROFILES)
 def test_the_mirror_image_slides_the_other_way(name):
     one = slid(PROFILES[name], 0.3, normal_load=0.1, tilt=0.001)
-    scene = one.scene
-    other = sie.solve(
-        sie.Scene(
-            profile=scene.profile.mirrored(),
-            modulus=2.0,
-            dundurs=0.15,
-            friction=2.0,
-            sliding=-1,
-            normal_load=0.1,
-            tilt=-0.001,
-        )
-    )
+    other = one.with_(profile=PROFILES[name].mirrored(), sliding=-1, tilt=-0.001)
     x = inside(one, 31)
     assert other.edges == pytest.approx((-one.edges[1], -one.edges[0]), rel=1e-12)
     assert other.pressure(-x) == pytest.approx(

@@ -8,6 +8,8 @@ from sliding_cases import RIM, SIMILAR, bonded, inside, slid
 
 import sie
 
+PRESSED = sie.Scene(profile=RIM, **SIMILAR, normal_load=0.1)
+
 
 def test_shear_is_friction_times_pressure_and_nothing_is_solved_for_it():
     solution = slid(RIM, 0.3, normal_load=0.1)
@@ -18,11 +20,11 @@ def test_shear_is_friction_times_pressure_and_nothing_is_solved_for_it():
 
 
 def test_a_tangential_load_of_f_times_p_is_full_sliding():
-    given = sie.Scene(
-        profile=RIM, **SIMILAR, dundurs=0.1, friction=0.3, normal_load=0.1, tangential_load=-0.03
+    rough = replace(PRESSED, dundurs=0.1, friction=0.3)
+    given, said = (
+        sie.solve(replace(rough, **s)) for s in ({"tangential_load": -0.03}, {"sliding": -1})
     )
-    said = sie.Scene(profile=RIM, **SIMILAR, dundurs=0.1, friction=0.3, normal_load=0.1, sliding=-1)
-    assert sie.solve(given).edges == sie.solve(said).edges
+    assert given.edges == said.edges
 
 
 def test_a_change_of_direction_is_a_new_contact_and_a_change_of_nothing_is_not():
@@ -35,17 +37,9 @@ def test_a_change_of_direction_is_a_new_contact_and_a_change_of_nothing_is_not()
 @pytest.mark.parametrize(
     ("scene", "words"),
     [
-        (
-            sie.Scene(profile=RIM, **SIMILAR, dundurs=0.2, normal_load=0.1),
-            "f = 0: no shear acts back",
-        ),
-        (
-            sie.Scene(
-                profile=RIM, **SIMILAR, dundurs=0.2, friction=0.5, sliding=1, normal_load=0.1
-            ),
-            "exponents 1/2 ±",
-        ),
-        (sie.Scene(profile=RIM, **SIMILAR, friction=0.5, sliding=1, normal_load=0.1), "uncoupled"),
+        (replace(PRESSED, dundurs=0.2), "f = 0: no shear acts back"),
+        (replace(PRESSED, dundurs=0.2, friction=0.5, sliding=1), "exponents 1/2 ±"),
+        (replace(PRESSED, friction=0.5, sliding=1), "uncoupled"),
         (bonded(0.3), "1/2 ± iη"),
     ],
 )
@@ -85,18 +79,9 @@ def test_the_remedy_for_dissimilar_bodies_keeps_all_but_their_coupling(loads):
 
 
 def test_bodies_that_differ_by_rounding_are_similar():
-    body, indenter = (
-        sie.Elastic(210e3, 0.3),
-        sie.Elastic(210e3 * (1.0 + 1e-15), 0.30000000000000004),
-    )
-    one = sie.Scene(
-        profile=sie.Parabola(50.0),
-        body=body,
-        indenter=indenter,
-        friction=0.3,
-        normal_load=200.0,
-        tangential_load=30.0,
-    )
+    body, other = sie.Elastic(210e3, 0.3), sie.Elastic(210e3 * (1.0 + 1e-15), 0.30000000000000004)
+    loads = {"friction": 0.3, "normal_load": 200.0, "tangential_load": 30.0}
+    one = sie.Scene(profile=sie.Parabola(50.0), body=body, indenter=other, **loads)
     assert one.beta == 0.0
     same = sie.solve(replace(one, indenter=body))
     assert sie.solve(one).energy_lost == pytest.approx(same.energy_lost, rel=1e-13)

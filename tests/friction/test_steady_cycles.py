@@ -18,12 +18,8 @@ from history_cases import (
     inside,
     scaled,
 )
-from hypothesis import given, settings
-from hypothesis import strategies as st
 
 import sie
-
-# -- the ladder of tilted contacts -----------------------------------------------------------------
 
 
 def test_out_of_phase_loads_run_through_a_diamond():
@@ -62,26 +58,10 @@ def test_an_edge_that_holds_up_the_slip_at_first_leaves_the_state_at_the_end_rig
 
 
 @pytest.mark.slow
-def test_a_front_that_is_held_up_is_that_of_the_step_in_parts():
-    """At the cut it has not passed all that slipped on beside the old stick zone."""
-    start, end = (1.3, 0.55, 0.2), (0.8, -0.3, -0.15)
-    midway = tuple(a + 0.6 * (b - a) for a, b in zip(start, end, strict=True))
-    whole, parts = (followed(HERTZ, [(1, 0, 0), start, *on, end])[-1] for on in ([], [midway]))
-    assert parts.stick[0] == pytest.approx(whole.stick[0], abs=1e-9)
-
-
-@pytest.mark.slow
 def test_a_trial_of_an_advancing_end_that_leaves_the_contact_gives_no_warning():
     points = [(1, 0, 0), (1.4031, 0.7101, 0.16746), (0.89323, -0.28385, -0.26637)]
     with suppress(sie.ContactError):  # the energy may depend on the way
         assert followed(HERTZ, points)[-1].energy_lost > 0.0
-
-
-def test_a_nested_loop_leaves_no_memory():
-    points = [(1, 0.6, 0.1), (0.95, -0.2, -0.05), (1.0, 0.1, 0.0), (0.95, -0.2, -0.05)]
-    _, before, _, after = followed(LOPSIDED, points)
-    x = inside(after, 31)
-    assert after.shear(x) == pytest.approx(before.shear(x), abs=1e-12)
 
 
 def test_a_layer_that_stuck_is_taken_off_before_slip_goes_on():
@@ -112,9 +92,6 @@ def test_a_moment_along_the_path_is_the_tilt_that_carries_it():
         assert one.moment == pytest.approx(moment, abs=1e-15)
         x = inside(other, 21)
         assert one.shear(x) == pytest.approx(other.shear(x), abs=1e-12)
-
-
-# -- steady cycles ---------------------------------------------------------------------------------
 
 
 STEADY = {
@@ -167,9 +144,7 @@ def test_a_cycle_that_sticks_dissipates_nothing():
     assert cycle.shear_range(x) == pytest.approx(0.2 * f * (larger - smaller), abs=1e-15)
 
 
-@pytest.mark.slow
-@given(st.floats(-0.4, 0.4), st.floats(-0.5, 0.5))
-@settings(max_examples=10)
+@pytest.mark.parametrize(("mean", "tension"), [(0.3, 0.0), (-0.2, 0.4)])
 def test_means_of_shear_and_bulk_stress_do_not_change_a_steady_cycle(mean, tension):
     A, B = (1.1, 0.3, 0.1), (0.95, -0.3, -0.05)
     plain = sie.steady_cycle(HERTZ, *scaled([A, B]))

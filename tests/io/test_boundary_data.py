@@ -148,9 +148,6 @@ def test_a_rigid_body_has_displacements_and_no_tractions():
         solution.boundary_data(box=box, body="indenter", kind="traction")
 
 
-# -- the command -----------------------------------------------------------------------------------
-
-
 def test_the_command_gives_the_nodes_of_a_set_their_displacements(folder, capsys):
     command = ["export-boundary", "scene.toml", "--nodes", "deck.inp", "--set", "outer"]
     assert main([*command, "--csv", "ends.csv", "--zero", "0,-2"]) == 0

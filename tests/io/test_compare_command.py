@@ -65,9 +65,6 @@ def test_columns_that_are_not_compared_are_named(run, tmp_path):
     assert read_mesh(bare).others == ("2",)
 
 
-# -- remedies --------------------------------------------------------------------------------------
-
-
 INNER = X[1:-1]
 PRESSED = SOLUTION.pressure(INNER)
 

@@ -1,6 +1,4 @@
-"""Cycles on the command line: the table of turning points, what --want cycle answers, and what is
-refused.
-"""
+"""Cycles on the command line."""
 
 import json
 import math

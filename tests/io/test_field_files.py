@@ -1,6 +1,4 @@
-"""Files and pictures of the stress hold what the solution says, and what cannot be written is
-refused before work.
-"""
+"""Files and pictures of the stress hold what the solution says."""
 
 import csv
 import io
@@ -16,13 +14,8 @@ from sie.io.scene_file import SceneFile
 from sie.io.stress_grid import Grid
 
 STEEL = sie.Elastic(210e3, 0.3)
-SCENE = sie.Scene(
-    profile=sie.RoundedFlat(1.0, 50.0),
-    body=STEEL,
-    normal_load=500.0,
-    friction=0.3,
-    tangential_load=150.0,
-)
+LOADS = {"normal_load": 500.0, "friction": 0.3, "tangential_load": 150.0}
+SCENE = sie.Scene(profile=sie.RoundedFlat(1.0, 50.0), body=STEEL, **LOADS)
 
 
 @pytest.fixture(scope="module")

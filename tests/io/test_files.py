@@ -1,6 +1,4 @@
-"""Files are read if they are ordinary, written whole or not at all, and nothing that is read is
-overwritten.
-"""
+"""Files are read if they are ordinary, and written whole or not at all."""
 
 import os
 import signal
@@ -22,16 +20,9 @@ load = { half_width = 1.0 }
 kind = "sampled"
 path = "trace.csv"
 """
-PLUS = """
-pair = { modulus = 1.0 }
-load = { half_width = 1.0 }
-[profile]
-kind = "parabola"
-radius = 1.0
-[[profile.plus]]
-kind = "sampled"
-path = "trace.csv"
-"""
+PLUS = SCENE.replace(
+    'kind = "sampled"', 'kind = "parabola"\nradius = 1.0\n[[profile.plus]]\nkind = "sampled"'
+)
 ROW = SCENE.replace('kind = "sampled"', 'kind = "row"\n[[profile.of]]\nkind = "sampled"')
 MESH = "x,p\n-0.5,0.4\n0.0,0.5\n0.5,0.4\n"
 
@@ -55,8 +46,6 @@ def refused(argv, capsys):
     assert out == "" and err.startswith("sie: ") and err.count("\n") == 1
     return err
 
-
-# -- what is read is not overwritten --------------------------------------------------------------
 
 TARGETS = {"scene.toml": "the scene file", "trace.csv": "a trace", "mesh.csv": "the mesh result"}
 LINKS = {
@@ -93,9 +82,6 @@ def test_a_scene_on_standard_input_is_not_overwritten(folder):
         found = run("solve", "-", "--csv", "scene.toml", stdin=scene)
     assert found.returncode == 2 and "would overwrite the scene file" in found.stderr
     assert listing(folder) == before
-
-
-# -- only regular files of reasonable length are read ---------------------------------------------
 
 
 def odd_file(kind):
@@ -139,8 +125,6 @@ def test_a_trace_of_too_many_points_is_refused_before_it_is_taken_apart(folder, 
     assert "thin the points out" in refused(["solve", "scene.toml"], capsys)
 
 
-# -- whole or not at all --------------------------------------------------------------------------
-
 KILLED = """
 import os, signal, sys
 from pathlib import Path
@@ -169,18 +153,12 @@ def test_standard_output_that_is_full_or_closed_is_reported_and_nothing_is_writt
     command = [sys.executable, "-m", "sie", "solve", "scene.toml", "--csv", "out.csv"]
     with open("/dev/full", "wb") as full:
         found = subprocess.run(command, stdout=full, stderr=subprocess.PIPE, check=False)
-    assert (found.returncode, found.stderr) == (
-        2,
-        b"sie: standard output: No space left on device\n",
-    )
-    found = subprocess.run(
-        ["sh", "-c", '"$@" >&-', "sh", *command], stderr=subprocess.PIPE, check=False
-    )
-    assert (
-        found.returncode == 2
-        and found.stderr.startswith(b"sie: standard output is closed")
-        and found.stderr.count(b"\n") == 1
-    )
+    full = b"sie: standard output: No space left on device\n"
+    assert (found.returncode, found.stderr) == (2, full)
+    closed = ["sh", "-c", '"$@" >&-', "sh", *command]
+    found = subprocess.run(closed, stderr=subprocess.PIPE, check=False)
+    assert found.returncode == 2 and found.stderr.count(b"\n") == 1
+    assert found.stderr.startswith(b"sie: standard output is closed")
     assert listing(folder) == before
 
 

@@ -22,8 +22,6 @@ from mesh_cases import (
 import sie
 from sie.io.mesh_files.names import meaning
 
-# -- names -----------------------------------------------------------------------------------------
-
 
 @pytest.mark.parametrize(
     ("quantity", "names"),
@@ -51,9 +49,6 @@ def test_the_names_of_the_codes_are_known(quantity, names):
 )
 def test_a_unit_behind_a_name_is_no_part_of_it(name):
     assert meaning(name) == "x"
-
-
-# -- what is found, and noted ----------------------------------------------------------------------
 
 
 def table(header, *columns):
@@ -159,9 +154,6 @@ def test_what_needs_an_unknown_poisson_ratio_is_passed_over_with_a_note(tmp_path
     comparison = compared(table("x,y,S11,S33", x, y, s.xx, s.zz), tmp_path, solution=solution)
     assert set(comparison.differences) == {"sxx"}
     assert any("szz is not compared" in note for note in comparison.mesh.notes)
-
-
-# -- what is refused -------------------------------------------------------------------------------
 
 
 REFUSED = {

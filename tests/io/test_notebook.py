@@ -69,9 +69,6 @@ def test_pictures_change_no_setting_and_leave_pyplot_alone():
     assert ("matplotlib.pyplot" in sys.modules) == loaded
 
 
-# -- what a notebook shows -------------------------------------------------------------------------
-
-
 def test_a_solution_is_shown_by_its_picture_where_there_is_matplotlib(monkeypatch):
     assert SHEARED._repr_png_().startswith(PNG)
     monkeypatch.setitem(sys.modules, "sie.plots.contact_plot", None)

@@ -1,12 +1,11 @@
-"""The picture shows the numbers of the solution, says what its axes are, and leaves Matplotlib as
-it was.
-"""
+"""The picture shows the numbers of the solution, and leaves Matplotlib as it was."""
 
 import functools
 import itertools
 
 import numpy as np
 import pytest
+from scenes import scene
 
 import sie
 from sie.io.scene_file import Units, example, parse
@@ -21,14 +20,10 @@ SCENES = {
     "rounded flat": parse(example("rounded-flat")).scene,
     "wedge": parse(example("wedge")).scene,
     "flat": parse(example("flat")).scene,
-    "tilted": sie.Scene(
-        profile=sie.RoundedFlat(2.0, 20.0).tilted(4e-4), body=STEEL, normal_load=500.0
-    ),
-    "thin rim": sie.Scene(profile=sie.RoundedFlat(0.999, 20.0), body=STEEL, half_width=1.0),
-    "one sharp edge": sie.Scene(profile=sie.Flat(5.0), body=STEEL, normal_load=50.0, tilt=1e-4),
-    "far from x = 0": sie.Scene(
-        profile=sie.Parabola(0.01).shifted(1.0), body=STEEL, normal_load=1e-3
-    ),
+    "tilted": scene(sie.RoundedFlat(2.0, 20.0).tilted(4e-4), body=STEEL, normal_load=500.0),
+    "thin rim": scene(sie.RoundedFlat(0.999, 20.0), body=STEEL, half_width=1.0),
+    "one sharp edge": scene(sie.Flat(5.0), body=STEEL, normal_load=50.0, tilt=1e-4),
+    "far from x = 0": scene(sie.Parabola(0.01).shifted(1.0), body=STEEL, normal_load=1e-3),
 }
 EVERY = pytest.mark.parametrize("name", SCENES)
 
@@ -128,8 +123,6 @@ def test_units_that_are_not_mm_keep_their_name_behind_a_power_of_ten():
     assert lower.get_xlabel() == "$x$ ($10^{-6}$ m)"
 
 
-# -- shear ----------------------------------------------------------------------------------------
-
 FRETTING = parse(example("fretting-cycle"))
 SHEARED = {
     "partial slip": sie.solve(parse(example("partial-slip")).scene),
@@ -222,22 +215,7 @@ def test_a_place_without_an_indenter_is_left_out_of_the_picture(profile):
     assert -np.inf < low < 0.0 < high < np.inf
 
 
-# -- stress ---------------------------------------------------------------------------------------
-
 stress = pytest.importorskip("sie.plots.stress_plot")
-NARROW_PEAK = solved("thin rim")
-
-
-@pytest.mark.parametrize("solution", [NARROW_PEAK, SHEARED["partial slip"]])
-def test_each_band_of_the_contours_has_its_part_of_the_field(solution):
-    """A level may be off by the rounding of its two digits."""
-    bar = stress.contours(solution).axes[1]
-    levels = bar.get_yticks()
-    root = np.sqrt(stress.Grid(solution, stress.NX, stress.NY).stress.j2)
-    shares = np.minimum(root / solution.elastic_limit().stress, 1.0)
-    counted = np.histogram(shares, levels)[0] / shares.size
-    assert len(stress.BELOW) - 2 <= len(counted) <= len(stress.BELOW) + 1
-    assert (counted >= 0.002).all() and counted.max() <= 0.4
 
 
 @pytest.mark.slow(but=1)

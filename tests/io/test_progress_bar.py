@@ -56,9 +56,6 @@ def bars(monkeypatch, clock):
     return drawn
 
 
-# -- what is drawn, and when ----------------------------------------------------------------------
-
-
 def test_nothing_is_drawn_in_the_first_second(clock, bars):
     with Progress("search", 3) as work:
         clock.now = 0.99
@@ -90,9 +87,6 @@ def test_the_line_is_wiped_whatever_ends_the_work(error, clock, bars):
     assert [bar.name for bar in bars] == ["search", "next"]
 
 
-# -- what tells its steps --------------------------------------------------------------------------
-
-
 @pytest.fixture
 def told(monkeypatch):
     """The names of the works that were opened, and how often each told of a step."""
@@ -118,13 +112,12 @@ SEVERAL = sie.Scene(profile=ROW, modulus=1.0, normal_load=0.3)
 PUNCH = parse(example("rounded-flat")).scene
 CYCLE = parse(example("fatigue"))
 NODES = np.linspace(-1.0, 1.0, 17)
-DISSIMILAR = sie.Scene(
-    profile=sie.Sampled(NODES, NODES**2 / 2.0),
-    modulus=1.0,
-    dundurs=0.1,
-    friction=0.3,
-    normal_load=0.3,
-)
+TRACE = sie.Sampled(NODES, NODES**2 / 2.0)
+DISSIMILAR = sie.Scene(profile=TRACE, modulus=1.0, dundurs=0.1, friction=0.3, normal_load=0.3)
+
+
+def followed():
+    return sie.follow(CYCLE.scene, CYCLE.load_path)
 
 
 def test_a_small_solve_opens_no_work(told):
@@ -142,12 +135,8 @@ def test_a_small_solve_opens_no_work(told):
         (lambda: sie.solve(SEVERAL).check(), "certificate", 1),
         (lambda: sie.solve(PUNCH).elastic_limit(), "largest stress", 5),
         (lambda: sie.solve(PUNCH).stress(np.zeros(9000), 0.1).j2, "stress, part", 3),
-        (lambda: sie.follow(CYCLE.scene, CYCLE.load_path), "load path", 4),
-        (
-            lambda: sie.follow(CYCLE.scene, CYCLE.load_path)[1].energy_lost,
-            "dissipated energy, step",
-            2,
-        ),
+        (followed, "load path", 4),
+        (lambda: followed()[1].energy_lost, "dissipated energy, step", 2),
         (lambda: sie.solve(DISSIMILAR).edges, "contact of dissimilar bodies", 5),
     ],
 )
@@ -155,8 +144,6 @@ def test_long_work_tells_its_steps(work, name, least, told):
     work()
     assert told[name] >= least, told
 
-
-# -- on a terminal --------------------------------------------------------------------------------
 
 SEVERAL_TOML = """
 [profile]
@@ -181,12 +168,8 @@ def on_terminal(arguments, folder):
     pytest.importorskip("tqdm")
     ours, theirs = pty.openpty()
     pytest.importorskip("termios").tcsetwinsize(theirs, (24, 80))
-    done = subprocess.Popen(
-        [sys.executable, "-c", COMMAND, *arguments],
-        stdout=subprocess.PIPE,
-        stderr=theirs,
-        cwd=folder,
-    )
+    command = [sys.executable, "-c", COMMAND, *arguments]
+    done = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=theirs, cwd=folder)
     os.close(theirs)
     written = b""
     with contextlib.suppress(OSError):  # Linux's word for the end

@@ -27,9 +27,6 @@ def without_python(requirements):
     return sorted(text for text in requirements if not text.startswith("python "))
 
 
-# -- the wheel and the source distribution --------------------------------------------------------
-
-
 @pytest.mark.parametrize("package", ["sie", "analytic"])
 def test_every_file_that_a_package_reads_is_in_its_data(package):
     patterns = PROJECT["tool"]["setuptools"]["package-data"]
@@ -51,9 +48,6 @@ def test_the_source_distribution_has_what_the_recipe_tests():
         assert name.rstrip("/") in [*rules, *always]
 
 
-# -- the recipe -----------------------------------------------------------------------------------
-
-
 def test_the_recipe_the_citation_and_the_changelog_have_the_version_of_the_package():
     assert RECIPE["context"]["version"] == sie.__version__
     citation = yaml.safe_load((ROOT / "CITATION.cff").read_text(encoding="utf-8"))
@@ -72,9 +66,6 @@ def test_the_recipe_has_the_requirements_and_the_commands_of_the_package():
     assert tested == conda(project["optional-dependencies"]["test"])
     scripts = [f"{name} = {place}" for name, place in project["scripts"].items()]
     assert RECIPE["build"]["python"]["entry_points"] == scripts
-
-
-# -- the paper ------------------------------------------------------------------------------------
 
 
 def test_the_paper_cites_what_it_lists_and_lists_what_it_cites():

@@ -1,6 +1,4 @@
-"""Scene files: what they say is what is solved, and what they cannot say is refused in one sentence
-with a remedy.
-"""
+"""What scene files say is what is solved."""
 
 import dataclasses
 
@@ -15,9 +13,6 @@ from sie.profiles import kinds
 
 def profile_of(text):
     return parse(PAIR + LOAD + text).scene.profile
-
-
-# -- examples --------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("kind", KINDS)
@@ -85,24 +80,12 @@ def test_the_showcase_still_works_with_its_commented_lines_switched_on():
     assert parse("\n".join(lines)).scene.profile == profile
 
 
-# -- what a file says ------------------------------------------------------------------------------
-
-
-def test_modifiers_are_applied_mirrored_then_tilted_then_shifted():
-    text = (
-        "[profile]\nshifted = 0.5\ntilted = 1e-3\nmirrored = true\n"
-        'kind = "polynomial"\ncoefficients = [0, 0, 1, 1]\n'
-    )
-    assert profile_of(text) == sie.Polynomial((0, 0, 1, 1)).mirrored().tilted(1e-3).shifted(0.5)
-
-
 def test_terms_add_up_and_modifiers_act_on_their_own_term():
-    text = (
-        PARABOLA
-        + '[[profile.plus]]\nkind = "wedge"\nslope = 0.1\nshifted = 1.0\n[[profile.plus]]\nkind = '
-        '"flat"\nhalf_width = 3\n'
-    )
-    assert profile_of(text) == sie.Parabola(10.0) + sie.Wedge(0.1).shifted(1.0) + sie.Flat(3.0)
+    text = '[[profile.plus]]\nkind = "wedge"\nslope = 0.1\nshifted = 1.0\n'
+    text += '[[profile.plus]]\nkind = "flat"\nhalf_width = 3\n'
+    assert profile_of(PARABOLA + text) == sie.Parabola(10.0) + sie.Wedge(0.1).shifted(
+        1.0
+    ) + sie.Flat(3.0)
 
 
 @pytest.mark.parametrize(
@@ -112,32 +95,20 @@ def test_a_rigid_indenter_is_a_word_at_the_top_or_a_table(text):
     assert parse(text + PARABOLA + LOAD).scene.indenter == sie.RIGID
 
 
-def test_the_bodies_and_every_load_of_a_scene_can_be_written():
+def test_the_bodies_of_a_scene_can_be_written():
     scene = parse(BODY + PARABOLA + LOAD).scene
     assert scene.indenter == scene.body == sie.Elastic(1e5, 0.3)
     text = BODY + "[indenter]\nyoung = 2e5\npoisson = 0.4\n[pair]\ndundurs = 0\n" + PARABOLA + LOAD
     bodies = {"body": sie.Elastic(1e5, 0.3), "indenter": sie.Elastic(2e5, 0.4)}
     given = {**bodies, "dundurs": 0.0, "normal_load": 5.0}
     assert parse(text).scene == sie.Scene(profile=sie.Parabola(10.0), **given)
-    scene = parse(
-        PAIR
-        + PARABOLA
-        + "[load]\nnormal_load = 1\nmoment = 2\nfriction = 0.5\ntangential_load = 3\nbulk_stress = "
-        "4\n"
-    ).scene
-    assert scene == sie.Scene(
-        profile=sie.Parabola(10.0), modulus=1e5, normal_load=1.0, moment=2.0, friction=0.5,
-        tangential_load=3.0, bulk_stress=4.0,
-    )  # fmt: skip
 
 
 def test_units_are_labels_and_default_to_mm_and_mpa():
     units = parse(PAIR + PARABOLA + LOAD).units
     assert (units.length, units.force, units.stress, units.moment) == ("mm", "N/mm", "MPa", "N")
-    assert (
-        parse('[units]\nlength = "m"\nforce = "kN"\n' + PAIR + PARABOLA + LOAD).units.moment
-        == "kN m"
-    )
+    text = '[units]\nlength = "m"\nforce = "kN"\n' + PAIR + PARABOLA + LOAD
+    assert parse(text).units.moment == "kN m"
 
 
 @pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16"])
@@ -145,9 +116,6 @@ def test_files_of_common_editors_and_shells_are_read(encoding, tmp_path):
     path = tmp_path / "scene.toml"
     path.write_text('title = "Grüße"\n' + BODY + PARABOLA + LOAD, encoding=encoding)
     assert read(path).title == "Grüße"
-
-
-# -- traces ----------------------------------------------------------------------------------------
 
 
 TRACE = """

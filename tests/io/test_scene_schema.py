@@ -1,6 +1,4 @@
-"""The schema accepts what the reader of scene files accepts, and refuses misspelt keys, values of
-another type, and tables that lack something.
-"""
+"""The schema accepts what the reader of scene files accepts, and no other tables."""
 
 import copy
 import json

@@ -1,6 +1,4 @@
-"""A sweep answers what single solutions answer, keeps failures and reasons, runs anywhere, and
-loses nothing.
-"""
+"""A sweep answers what single solutions answer, and keeps failures with their reasons."""
 
 from dataclasses import replace
 
@@ -16,15 +14,8 @@ def peak(solution):
 
 
 def test_every_point_equals_a_single_solution(executor):
-    found = plain(
-        sie.sweep(
-            SCENE,
-            over={"normal_load": LOADS, "tilt": TILTS},
-            want=["half_width", "edges"],
-            executor=executor,
-            chunk=2,
-        )
-    )
+    over = {"normal_load": LOADS, "tilt": TILTS}
+    found = plain(sie.sweep(SCENE, over, ["half_width", "edges"], executor=executor, chunk=2))
     assert found["half_width"].shape == (3, 2)
     for i, P in enumerate(LOADS):
         for j, tilt in enumerate(TILTS):
@@ -48,22 +39,13 @@ def test_parameters_of_the_profile_and_quantities_of_patches_are_those_of_single
 
 def a_punch(a, f):
     P = 0.1 + a
-    return sie.Scene(
-        profile=sie.RoundedFlat(a, 1.0),
-        modulus=1.0,
-        poisson=0.3,
-        normal_load=P,
-        friction=f,
-        tangential_load=f * P,
-    )
+    loads = {"normal_load": P, "friction": f, "tangential_load": f * P}
+    return replace(SCENE, profile=sie.RoundedFlat(a, 1.0), **loads)
 
 
 def test_a_function_may_build_the_scene():
-    found = plain(
-        sie.sweep(
-            a_punch, over={"a": [0.2, 0.4], "f": [0.1, 0.3]}, want=["elastic_limit", "peak_tension"]
-        )
-    )
+    over = {"a": [0.2, 0.4], "f": [0.1, 0.3]}
+    found = plain(sie.sweep(a_punch, over, ["elastic_limit", "peak_tension"]))
     alone = sie.solve(a_punch(0.4, 0.1)).elastic_limit()
     assert found["elastic_limit"][1, 0] == alone.ratio
     assert found["elastic_limit_y"][1, 0] == alone.y
@@ -72,14 +54,8 @@ def test_a_function_may_build_the_scene():
 
 def test_a_point_without_an_answer_keeps_its_reason(executor):
     flat = sie.Scene(profile=sie.Flat(1.0), modulus=1.0, normal_load=1.0)
-    found = plain(
-        sie.sweep(
-            flat,
-            over={"moment": [0.5, 2.0], "normal_load": [1.0, -1.0]},
-            want="half_width",
-            executor=executor,
-        )
-    )
+    over = {"moment": [0.5, 2.0], "normal_load": [1.0, -1.0]}
+    found = plain(sie.sweep(flat, over, "half_width", executor=executor))
     assert found["half_width"][0, 0] == 1.0
     assert np.isnan(found["half_width"]).tolist() == [[False, True], [True, True]]
     assert "moment 2" in found["reason"][1, 0] and "normal_load = -1" in found["reason"][0, 1]
@@ -87,24 +63,18 @@ def test_a_point_without_an_answer_keeps_its_reason(executor):
 
 def test_arrays_are_kept_with_their_own_dimensions():
     x = np.linspace(-0.3, 0.3, 5)
-    found = plain(
-        sie.sweep(SCENE, over={"normal_load": LOADS}, want={"p": lambda s: s.pressure(x)})
-    )
+    found = plain(sie.sweep(SCENE, {"normal_load": LOADS}, {"p": lambda s: s.pressure(x)}))
     assert found["p"].shape == (3, 5)
     assert (found["p"][2] == single(normal_load=0.4).pressure(x)).all()
 
 
 def test_the_normal_problem_is_solved_once_for_all_frictions(monkeypatch):
     solved = []
-    original = sie.frictionless.by_pieces
-    monkeypatch.setattr(
-        sie.frictionless, "by_pieces", lambda *args: solved.append(1) or original(*args)
-    )
-    sie.sweep(
-        SCENE,
-        over={"normal_load": [0.1, 0.2], "friction": np.linspace(0, 1, 10)},
-        want="half_width",
-    )
+    original = sie.answers.frictionless.by_pieces
+    counted = lambda *args: solved.append(1) or original(*args)  # noqa: E731
+    monkeypatch.setattr(sie.answers.frictionless, "by_pieces", counted)
+    over = {"normal_load": [0.1, 0.2], "friction": np.linspace(0, 1, 10)}
+    sie.sweep(SCENE, over, "half_width")
     assert len(solved) == 2
 
 
@@ -123,13 +93,8 @@ def test_a_value_of_another_rank_costs_itself_only(odd):
 
 @pytest.mark.parametrize("value", [[[1.0], [1.0, 2.0]], 1j, "wide", None])
 def test_a_value_that_is_no_number_is_reported_in_a_sentence(value):
-    found = plain(
-        sie.sweep(
-            SCENE,
-            over={"normal_load": LOADS},
-            want={"v": lambda s: value if s.normal_load == 0.2 else 1.0},
-        )
-    )
+    want = {"v": lambda s: value if s.normal_load == 0.2 else 1.0}
+    found = plain(sie.sweep(SCENE, {"normal_load": LOADS}, want))
     assert np.isnan(found["v"]).tolist() == [False, True, False]
     assert found["reason"][1].startswith("v is neither a number nor an array of numbers")
 
@@ -141,9 +106,8 @@ def test_a_quantity_is_nan_by_its_own_names_where_no_point_has_an_answer(want):
         plain(sie.sweep(sliding, over={"tangential_load": [Q]}, want=want)) for Q in (0.01, 9.0)
     )
     assert failed.keys() == answered.keys()
-    assert all(
-        np.isnan(failed[name]).all() for name in failed.keys() - {"tangential_load", "reason"}
-    )
+    values = failed.keys() - {"tangential_load", "reason"}
+    assert all(np.isnan(failed[name]).all() for name in values)
 
 
 @pytest.mark.parametrize(

@@ -13,8 +13,6 @@ import sie
 
 FOUR_WIDTHS = {"over": {"normal_load": [0.1, 0.2, 0.3, 0.4]}, "want": "half_width"}
 
-# -- interrupts and workers that die ---------------------------------------------------------------
-
 
 class Interrupting(Executor):
     """Runs two chunks and takes a third; then the user presses Ctrl-C."""
@@ -125,9 +123,7 @@ def test_an_executor_that_fails_costs_the_chunks_that_it_held(most, lost):
 
 
 def deadly(solution):
-    """A half-width, but loads above 1 kill the process, as the system does with one that takes all
-    memory.
-    """
+    """A half-width; loads above 1 kill the process, as the system does for want of memory."""
     if solution.normal_load > 1.0:
         os._exit(1)
     return solution.half_width

@@ -1,6 +1,4 @@
-"""What is printed fits in 80 columns, fills the terminal where it is a picture, and keeps its
-columns in plain ASCII.
-"""
+"""What is printed fits in 80 columns, a picture fills the terminal."""
 
 import io
 import sys

@@ -25,9 +25,6 @@ def reported(profile, **given):
     return report
 
 
-# -- the spline in use ----------------------------------------------------------------------------
-
-
 def test_the_misfit_of_a_repeated_trace_is_that_of_its_periodic_spline():
     x = np.linspace(0.0, 1.0, 201)
     h = 0.01 * np.cos(2.0 * np.pi * x)
@@ -35,9 +32,6 @@ def test_the_misfit_of_a_repeated_trace_is_that_of_its_periodic_spline():
     misfits = h - profile.height(x)
     found = reported(profile, normal_load=0.005)
     assert found.misfit == pytest.approx(np.sqrt(np.mean(misfits**2)), rel=1e-9)
-
-
-# -- the error of the pressure --------------------------------------------------------------------
 
 
 def largest_error(found, exact):
@@ -69,9 +63,7 @@ CASES = [(profile, "load") for profile in PROFILES] + [
 @pytest.mark.slow(but=1)
 @pytest.mark.parametrize(("profile", "asked"), CASES)
 def test_the_stated_error_covers_the_true_one_and_is_no_multiple_of_it(profile, asked):
-    """Noise of 1e-4 of the height; 2.5 standard deviations cover 9 of 10 cases with much to
-    spare.
-    """
+    """Noise of 1e-4 of the height; 2.5 standard deviations cover 9 of 10 cases."""
     h, shape = PROFILES[profile]
     exact = solved(shape, **ASKED[asked])
     stated, true, edges, moved = [], [], [], []
@@ -115,9 +107,6 @@ def test_a_trace_without_noise_is_distinguished_from_a_noisy_one(smoothing):
 def test_a_profile_that_is_no_trace_has_no_report():
     assert solved(sie.Parabola(1.0)).trace_reports() == ()
     assert solved(sie.Flat(1.0), friction=float("inf")).trace_reports() == ()
-
-
-# -- outliers, gaps, mending, levelling -----------------------------------------------------------
 
 
 @pytest.mark.parametrize("smoothing", [0.0, 1e-4, "gcv"])
@@ -185,9 +174,6 @@ def test_the_report_notes_only_a_pad_that_was_not_levelled(sign):
     assert reported(askew.tilted(-sign * 2e-3)).tilt == pytest.approx(0.0, abs=1e-12)
 
 
-# -- where it is read -----------------------------------------------------------------------------
-
-
 def test_the_reports_of_a_scene_file_keep_noise_and_certificate_apart():
     h = 0.5 * (X**2 + 1e-4 * white(1))
     h[40] += 0.01
@@ -209,9 +195,6 @@ def test_the_reports_of_a_scene_file_keep_noise_and_certificate_apart():
     assert [gap["missing"] for gap in trace["gaps"]] == [20]
     assert [x for x, _ in trace["outliers"]] == [X[40]]
     assert "traces" not in json.loads(export.json_text(solved(sie.Parabola(1.0)), file))
-
-
-# -- several patches -------------------------------------------------------------------------------
 
 
 @pytest.mark.slow

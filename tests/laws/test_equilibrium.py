@@ -63,9 +63,7 @@ def test_a_half_width_given_is_in_equilibrium_too(scene, factor):
 
 @given(strategies.scenes(), strategies.between(-0.2, 0.2))
 def test_a_moment_given_is_the_moment_of_the_pressure(scene, lever):
-    """Where the profile can carry it: a lever of 0.2 r may tilt a wedge or a sharp punch beyond its
-    slopes.
-    """
+    """Unless a lever of 0.2 r tilts a wedge or a sharp punch beyond its slopes."""
     upright = sie.solve(scene)
     wanted = upright.moment + lever * scene.normal_load * upright.half_width
     solution = upright.with_(moment=wanted)
@@ -93,16 +91,8 @@ def test_the_pressure_is_positive_inside_zero_outside_and_never_nan(scene, seed)
     (x1, x2), r = solution.edges, solution.half_width
     inside = x1 + 2 * r * np.random.default_rng(seed).uniform(1e-6, 1 - 1e-6, 200)
     assert (solution.pressure(inside) > 0).all()
-    outside = np.array(
-        [
-            np.nextafter(x1, -np.inf) - 1e-15 * r,
-            np.nextafter(x2, np.inf) + 1e-15 * r,
-            x1 - r,
-            x2 + 1e6 * r,
-            -np.inf,
-            np.inf,
-        ]
-    )
+    beside = np.nextafter(x1, -np.inf) - 1e-15 * r, np.nextafter(x2, np.inf) + 1e-15 * r
+    outside = [*beside, x1 - r, x2 + 1e6 * r, -np.inf, np.inf]
     assert (solution.pressure(outside) == 0).all()
 
 

@@ -1,6 +1,4 @@
-"""E*/2 h' = 1/π PV∫ p(ξ)/(x - ξ) dξ in contact, and the potential F(z) = 1/π ∫ p(t)/(z - t) dt of
-which it is the limit.
-"""
+"""E*/2 h' = 1/π PV∫ p(ξ)/(x - ξ) dξ in contact, the limit of F(z) = 1/π ∫ p(t)/(z - t) dt."""
 
 from itertools import product
 
@@ -27,9 +25,6 @@ def interior(solution, seed, n=6, margin=0.02):
     return x[np.abs(x[:, None] - marks).min(axis=1) > margin * r][:n]
 
 
-# -- the equation ---------------------------------------------------------------------------------
-
-
 @given(strategies.scenes(), st.integers(0, 2**32 - 1))
 def test_the_pressure_solves_the_integral_equation(scene, seed):
     solution = sie.solve(scene)
@@ -53,23 +48,20 @@ def test_the_pressure_agrees_with_the_40_digit_reference(case: Case):
         assert abs(mp.mpf(float(value)) - e) <= PROMISE * peak
 
 
-# -- the potential --------------------------------------------------------------------------------
-
-
 def places(case: Case) -> list[complex]:
     """Off the axis next to the surface, breaks and edges; beside the contact; far away."""
     solution = solved(case)
     (x1, x2), r, m = solution.edges, solution.half_width, solution.centre
     about = (
-        (-0.83, 1e-9),
-        (0.11, 1e-3),
-        (0.37, 0.6),
-        (0.95, -0.02),
-        (1.3, 0.01),
-        (-1.2, -1e-7),
-        (0.2, 9.0),
+        -0.83 + 1e-9j,
+        0.11 + 1e-3j,
+        0.37 + 0.6j,
+        0.95 - 0.02j,
+        1.3 + 0.01j,
+        -1.2 - 1e-7j,
+        0.2 + 9j,
     )
-    z = [complex(m + s * r, d * r) for s, d in about]
+    z = [m + r * s for s in about]
     z += [complex(x2 + 1e-5 * r, 1e-5 * r), complex(x1 - 1e-3 * r, 1e-9 * r)]
     z += [complex(x2 + 0.01 * r), complex(x1 - 0.4 * r), complex(x2 + 30 * r)]
     z += [complex(b + 1e-6 * r, 1e-6 * r) for b in case.profile.breaks[:3]]
@@ -85,11 +77,8 @@ def test_the_potential_agrees_with_the_40_digit_reference(case: Case):
     z = places(case)
     for where, value in zip(z, solution.pressure.cauchy(z), strict=True):
         e = truth.potential(where)
-        size = (
-            max(peak, abs(complex(e)))
-            if abs(where - solution.centre) < 4 * solution.half_width
-            else abs(complex(e))
-        )
+        near = abs(where - solution.centre) < 4 * solution.half_width
+        size = max(peak if near else 0.0, abs(complex(e)))
         assert abs(mp.mpmathify(complex(value)) - e) <= PROMISE * size, where
 
 
@@ -122,9 +111,7 @@ def test_the_potential_jumps_by_the_pressure_across_the_contact(scene, seed):
 
 @given(strategies.scenes(), st.integers(0, 2**32 - 1))
 def test_the_potential_reaches_its_limit_at_the_surface_continuously(scene, seed):
-    """Down to a depth of 1e-12 r the difference from the surface is the depth times the derivative,
-    and rounding.
-    """
+    """The difference is the depth times the derivative, and rounding."""
     solution = sie.solve(scene)
     r = solution.half_width
     beside = (
@@ -161,26 +148,6 @@ def test_far_away_the_potential_is_that_of_a_line_load_to_full_relative_accuracy
             expected, rel=2 * PROMISE + 2 * k**-3
         )
 
-
-def test_infinities_are_infinite_and_nothing_is_nan():
-    tip = sie.solve(sie.Scene(profile=sie.Wedge(0.5), modulus=1.0, normal_load=1.0))
-    assert tip.pressure(0.0) == np.inf
-    assert np.isfinite(tip.pressure(np.array([-5e-324, 5e-324, 1e-300]))).all()
-    shifted = sie.solve(
-        sie.Scene(
-            profile=sie.Wedge(0.5).shifted(0.3) + sie.Parabola(1.0),
-            modulus=1.0,
-            normal_load=1.0,
-            tilt=0.1,
-        )
-    )
-    assert shifted.pressure(0.3) == np.inf
-    flat = sie.solve(sie.Scene(profile=sie.Flat(1.0), modulus=1.0, normal_load=1.0))
-    assert (flat.pressure(np.array([-1.0, 1.0])) == np.inf).all()
-    assert (flat.pressure(np.array([-np.nextafter(1.0, 2), np.nextafter(1.0, 2)])) == 0).all()
-
-
-# -- the gap --------------------------------------------------------------------------------------
 
 SAMPLED = (
     "rounded-P=0.2",
@@ -236,13 +203,8 @@ def test_the_slope_of_the_gap_is_that_of_the_profile_less_that_of_the_surface(sc
     assert difference == pytest.approx(slope, rel=1e-5, abs=1e-6)
 
 
-# -- the reference itself -------------------------------------------------------------------------
-
-
 def test_the_reference_reproduces_the_closed_form_of_the_rounded_punch():
-    """p(0) = E*/(πR) [bθ - a arccosh(b/a)], P = E*b²/(2R) (θ - sin θ cos θ), and F at one point: to
-    30 digits.
-    """
+    """p(0) = E*/(πR) [bθ - a arccosh(b/a)], P = E*b²/(2R) (θ - sin θ cos θ), and one F."""
     a, b = mp.mpf(1) / 2, mp.mpf(1)
     pieces = normal_contact.Pieces(
         (-mp.inf, -a, a, mp.inf), (lambda t: t + a, lambda t: 0 * t, lambda t: t - a)

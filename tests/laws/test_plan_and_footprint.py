@@ -1,6 +1,4 @@
-"""What a scene does not need is skipped: the footprint is the plan's, and every economy leaves the
-answer as it is.
-"""
+"""The footprint of an answer is the plan's, and every economy leaves the answer as it is."""
 
 from contextlib import suppress
 
@@ -9,41 +7,34 @@ import numpy as np
 import pytest
 import strategies
 from hypothesis import given
+from scenes import scene
 
 import sie
 
 STAGES = {"bonded", "normal", "pressure", "rises", "tangential", "tractions", "certificate"}
-PUNCH, CYLINDER = sie.RoundedFlat(1.0, 2.0), sie.Parabola(2.0)
+CYLINDER = sie.Parabola(2.0)
 SINH = {"slope": "sinh(x)", "domain": (-9.0, 9.0)}
 FLATS = sie.Piecewise(
     (-3.0, -2.0, -0.5, 0.5, 1.0), ((1.0, 0.5), (-0.5,), (-0.5,), (0.0,), (0.0,), (-2.0, 2.0))
 )
 
 
-def pressed(profile=PUNCH, **given):
-    bodies = {} if "body" in given else {"modulus": 1.0}
-    loads = {} if "half_width" in given else {"normal_load": 1.0}
-    return sie.Scene(profile=profile, **(bodies | loads | given))
-
-
 SCENES = {
-    "convex": pressed(),
-    "tilted": pressed(tilt=0.05),
-    "moment": pressed(moment=0.1),
-    "cylinder": pressed(CYLINDER, half_width=0.5),
-    "function": pressed(sie.FromFunction(**SINH)),
-    "even function": pressed(sie.FromFunction(**SINH, parity="even")),
-    "flat": pressed(sie.Flat(1.0)),
-    "many flats": pressed(FLATS, half_width=2.75),
-    "partial slip": pressed(friction=0.5, tangential_load=0.3),
-    "full sliding": pressed(friction=0.5, tangential_load=-0.5),
-    "both signs": pressed(CYLINDER, half_width=1.0, friction=0.5, bulk_stress=0.3),
-    "rough, not sheared": pressed(CYLINDER, half_width=1.0, friction=0.5),
-    "dissimilar": pressed(
-        CYLINDER, body=sie.Elastic(1.0, 0.3), indenter=sie.RIGID, normal_load=0.5
-    ),
-    "dissimilar, sliding": pressed(dundurs=0.2, friction=0.5, sliding=1),
-    "bonded": pressed(sie.Flat(1.0), dundurs=0.2, friction=float("inf"), tangential_load=0.3),
+    "convex": scene(),
+    "tilted": scene(tilt=0.05),
+    "moment": scene(moment=0.1),
+    "cylinder": scene(CYLINDER, half_width=0.5),
+    "function": scene(sie.FromFunction(**SINH)),
+    "even function": scene(sie.FromFunction(**SINH, parity="even")),
+    "flat": scene(sie.Flat(1.0)),
+    "many flats": scene(FLATS, half_width=2.75),
+    "partial slip": scene(friction=0.5, tangential_load=0.3),
+    "full sliding": scene(friction=0.5, tangential_load=-0.5),
+    "both signs": scene(CYLINDER, half_width=1.0, friction=0.5, bulk_stress=0.3),
+    "rough, not sheared": scene(CYLINDER, half_width=1.0, friction=0.5),
+    "dissimilar": scene(CYLINDER, body=sie.Elastic(1.0, 0.3), indenter=sie.RIGID, normal_load=0.5),
+    "dissimilar, sliding": scene(dundurs=0.2, friction=0.5, sliding=1),
+    "bonded": scene(sie.Flat(1.0), dundurs=0.2, friction=float("inf"), tangential_load=0.3),
 }
 ECONOMIES = ("symmetry", "transform", "zero panels", "convexity", "shear", "sliding")
 
@@ -82,26 +73,18 @@ def test_the_footprint_is_the_plan(name, economy):
         assert footprint(solution) == planned, want
 
 
-ATTRIBUTES = [
-    "half_width",
-    "centre",
-    "stick",
-    "slip",
-    "shift",
-    "energy_lost",
-    "elastic_limit",
-    "peak_tension",
-]
+ATTRIBUTES = ["half_width", "centre", "stick", "slip", "shift", "energy_lost"]
+ATTRIBUTES += ["elastic_limit", "peak_tension"]
 
 
 @pytest.mark.parametrize("want", ATTRIBUTES)
 def test_an_attribute_of_a_solution_may_be_wanted_by_its_name(want):
-    scene = pressed(poisson=0.3, friction=0.5, tangential_load=0.3)
-    solution = sie.solve(scene)
+    sheared = scene(poisson=0.3, friction=0.5, tangential_load=0.3)
+    solution = sie.solve(sheared)
     answer = getattr(solution, want)
     if callable(answer):
         answer(0.1) if want == "slip" else answer()
-    assert footprint(solution) == sie.plan(scene, want=want).stages
+    assert footprint(solution) == sie.plan(sheared, want=want).stages
 
 
 @pytest.mark.parametrize("want", [None, 3, "everything", ["edges", "slipping"], []])
@@ -110,24 +93,15 @@ def test_a_want_that_is_no_name_is_refused(want):
         sie.plan(SCENES["flat"], want=want)
 
 
-@pytest.mark.slow
-@given(strategies.scenes())
-def test_the_footprint_is_the_plan_for_random_scenes(scene):
-    for want, ask in ASK.items():
-        solution = sie.solve(scene)
-        ask(solution)
-        assert footprint(solution) == sie.plan(scene, want=want).stages
-
-
 def test_a_plan_prints_every_step_with_run_or_skip_and_a_reason():
-    for scene in SCENES.values():
-        for line in str(sie.plan(scene, want="check")).splitlines():
+    for asked in SCENES.values():
+        for line in str(sie.plan(asked, want="check")).splitlines():
             assert line.startswith(("run ", "skip"))
             assert len(line.split(maxsplit=2)) == 3
 
 
 def test_a_plan_gives_the_reason_why_the_shear_is_solved_for_or_not():
-    said = {name: str(sie.plan(scene, want="shear")) for name, scene in SCENES.items()}
+    said = {name: str(sie.plan(asked, want="shear")) for name, asked in SCENES.items()}
     assert "f = 0: there is no shear traction" in said["convex"]
     assert "Q = 0 and no bulk stress" in said["rough, not sheared"]
     assert "full sliding: q is f times the pressure, no second solve" in said["full sliding"]
@@ -160,9 +134,6 @@ def test_every_economy_leaves_the_answer_as_it_is(scene):
         assert wasteful.edges == pytest.approx((x1, x2), abs=1e-14 * r * far)
         assert wasteful.moment == pytest.approx(thrifty.moment, abs=1e-14 * P * r * far)
         assert wasteful.pressure(x) == pytest.approx(thrifty.pressure(x), abs=3e-14 * peak * far)
-
-
-# -- with_ ----------------------------------------------------------------------------------------
 
 
 def test_with_keeps_the_stages_that_cannot_have_changed():

@@ -159,9 +159,6 @@ def test_numbers_of_no_question_are_refused(given, what):
         sie.solve_many(sie.Parabola(1.0), modulus=1.0, **given)
 
 
-# -- sweeps ----------------------------------------------------------------------------------------
-
-
 PUNCH = sie.Scene(profile=sie.RoundedFlat(0.5, 1.0), modulus=1.0, normal_load=0.3)
 STEEL = sie.Scene(profile=sie.Parabola(2.0), body=sie.Elastic(200.0, 0.3), half_width=0.3)
 OVER = {"profile.half_flat": [0.2, 0.4, 0.6, 0.8], "normal_load": [0.1, 0.5, 1], "tilt": [0, 0.01]}

@@ -91,12 +91,8 @@ def test_what_is_no_row_is_refused(build, words):
 @pytest.mark.parametrize("seed", range(4))
 def test_profiles_are_equally_high_where_they_cross(seed):
     rng = np.random.default_rng(seed)
-    row = Row(
-        [
-            Parabola(float(10.0 ** rng.uniform(-0.7, 0.7))).shifted(float(x)).raised(float(z))
-            for x, z in zip(rng.uniform(0.0, 8.0, 8), rng.uniform(0.0, 0.1, 8), strict=True)
-        ]
-    )
+    sizes = 10.0 ** rng.uniform(-0.7, 0.7, 8), rng.uniform(0.0, 8.0, 8), rng.uniform(0.0, 0.1, 8)
+    row = Row([Parabola(R).shifted(x).raised(z) for R, x, z in np.array(sizes).T.tolist()])
     for (_, x, one), (_, _, other) in itertools.pairwise(row.lowest):
         z1, z2 = (float(row.profiles[k].height(x)) for k in (one, other))
         steep = np.ptp([float(row.profiles[k].slope(x)) for k in (one, other)])

@@ -9,8 +9,6 @@ from traces import H, X, pressed
 
 import sie
 
-# -- the spline ------------------------------------------------------------------------------------
-
 
 def test_the_interpolating_spline_is_not_a_knot():
     profile, spline = sie.Sampled(X, H), CubicSpline(X, H)
@@ -63,9 +61,7 @@ def test_a_smoothing_spline_tends_to_the_natural_one_through_the_points(n, lam):
 
 
 def test_cross_validation_finds_the_smallest_score():
-    """Against the definition, with the matrix from h to f(x) column by column from SciPy's
-    spline.
-    """
+    """By the matrix from h to f(x), column by column from SciPy's spline."""
     x, rng = np.linspace(0.0, 1.0, 60), np.random.default_rng(5)
     h = np.cos(4.0 * x) + 0.05 * rng.standard_normal(60)
 
@@ -75,9 +71,6 @@ def test_cross_validation_finds_the_smallest_score():
 
     found = sie.Sampled(x, h, "gcv").lam
     assert score(found) <= min(score(found * factor) for factor in (0.5, 0.8, 1.25, 2.0))
-
-
-# -- what is not a trace ---------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(
@@ -113,9 +106,6 @@ def test_mending_sorts_averages_and_leaves_out():
     mended = sie.Sampled([3, 1, 1, 2, 0, 4], [9, 0.5, 1.5, 4, 0, float("nan")], mend=True)
     assert mended == sie.Sampled([0, 1, 2, 3], [0, 1, 4, 9])
     assert hash(mended) == hash(sie.Sampled([0, 1, 2, 3], [0, 1, 4, 9]))
-
-
-# -- files -----------------------------------------------------------------------------------------
 
 
 TABLE = list(zip([-2.0, -1.0, 0.0, 1.0, 2.5], [4.0, 1.25, 0.0, 1.5, 6.0], strict=True))
@@ -211,9 +201,6 @@ def test_other_formats_are_surface_topography_s(tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "SurfaceTopography", Scan)
     read = sie.Sampled.read(file, scale=(1e-3, 1.0))
     assert read.points == pytest.approx(1e-3 * np.arange(5.0))
-
-
-# -- what a trace is like --------------------------------------------------------------------------
 
 
 def test_levelling_takes_out_the_line_and_nothing_else():

@@ -10,8 +10,6 @@ from traces import H, X, pressed
 
 import sie
 
-# -- repeated --------------------------------------------------------------------------------------
-
 
 def cosine(x):
     return 0.01 * np.cos(2.0 * np.pi * x) + 0.002 * np.sin(6.0 * np.pi * x)
@@ -86,9 +84,6 @@ def test_the_slope_of_a_noisy_trace_meets_within_its_noise(jump):
     assert bool(sie.Periodic(sie.Sampled(x, noisy, "gcv"), 1.0).joint) == jump
 
 
-# -- several patches -------------------------------------------------------------------------------
-
-
 @pytest.mark.parametrize(
     ("h", "says"),
     [
@@ -140,9 +135,6 @@ def test_waves_on_a_base_are_solved_or_refused(height, waves, load):
     except sie.ContactError as refused:
         says = str(refused)
     assert not says or "smooth" in says
-
-
-# -- all that follows from the pressure ------------------------------------------------------------
 
 
 def test_friction_stress_yield_and_tension_of_a_trace_are_those_of_its_function():

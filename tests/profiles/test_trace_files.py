@@ -10,7 +10,12 @@ from sie.cli import main
 from sie.io import scene_file
 
 ROWS = [(0.5 * k, 2.0 + 0.1 * (k - 4) ** 2) for k in range(9)]
-STYLUS = "Stylus,Radius: 2.5 µm\r\nLocation,0.0 um, 0.0 um\r\n\r\nLateral um,Raw Micrometer,\r\n"
+STYLUS = (
+    "Scan Parameters\r\r\nScan Type,Standard Scan\r\nStylus,Radius: 2.5 µm\r\n"
+    "Location,0.0 um, 0.0 um\r\nProfile,Hills&Valleys\r\n\r\r\nAnalytical Results\r\r\n"
+    "Function,R.Cur Pos,Result\r\nRa,4.0 um,0.00525 um\r\nSkew,4.0 um,6.96\r\n\r\r\n"
+    "Scan Data\r\r\nLateral um,Raw Micrometer,\r\n"
+)
 HEADS = {
     "stylus": (STYLUS, ",", ",,\r\n", "latin-1"),
     "a line of units and a count": ("µm µm\n9\n", ",   ", "\n", "utf-8"),
@@ -33,6 +38,7 @@ def test_units_in_a_head_are_used_and_contradicted_in_a_sentence(head, tmp_path)
     read = sie.Sampled.read(file, length="mm")
     assert read.points == pytest.approx(1e-3 * x, rel=1e-14)
     assert read.heights == pytest.approx(1e-3 * z, rel=1e-14)
+    assert read.reading.units == ("um", "um") and read.mended == (0, 0, False)
     assert read == sie.Sampled.read(file, scale=1e-3, length="mm")
     assert sie.Sampled.read(file, units=("mm", "nm"), length="m").heights.max() < 1e-8
     with pytest.raises(ValueError, match=r"x in um and h in um.*scale = .* contradicts"):
@@ -41,37 +47,6 @@ def test_units_in_a_head_are_used_and_contradicted_in_a_sentence(head, tmp_path)
         sie.Sampled.read(file, scale=1e-6, length="mm")
     with pytest.raises(ValueError, match='give length = "mm"'):
         sie.Sampled.read(file)
-
-
-STYLUS_SECTIONS = (
-    "Scan Parameters\r\r\nScan Type,Standard Scan\r\nStylus,Radius: 2.5 µm\r\n"
-    "Location,0.0 um, 0.0 um\r\nProfile,Hills&Valleys\r\n\r\r\nAnalytical Results\r\r\n"
-    "Function,R.Cur Pos,Result\r\nRa,4.0 um,0.00525 um\r\nSkew,4.0 um,6.96\r\n\r\r\n"
-    "Scan Data\r\r\nLateral um,Raw Micrometer,\r\n"
-)
-# head, a row, foot, encoding, rows, what one unit of x and of h is in mm
-FORMS = {
-    "sections": (STYLUS_SECTIONS, "{:.1f},{:.5f},,\r\n", "\r\r\n", "latin-1", 9, 1e-3),
-    "leading blanks": ("", "{:15.7e} {:15.7e}\n", "", "ascii", 9, None),
-    "trailing blanks, from 0": ("", "{:.8g}  {:.7e}            \n", "", "ascii", 9, None),
-    "units and a count": ("µm µm\n9\n", "{:16.7e},{:16.7e}\n", "", "utf-8", 9, 1e-3),
-    "tabs, 10001 lines": ("", "{:.6f}\t{:.6f}\n", "", "ascii", 10001, None),
-}
-
-
-@pytest.mark.slow(but=4)
-@pytest.mark.parametrize("form", FORMS)
-def test_the_forms_in_which_instruments_write_are_read_whole(form, tmp_path):
-    head, row, foot, encoding, count, factor = FORMS[form]
-    rows = [(0.5 * k, 2.0 + 0.1 * (k % 7 - 3)) for k in range(count)]
-    file = tmp_path / "scan.txt"
-    file.write_bytes((head + "".join(row.format(*xz) for xz in rows) + foot).encode(encoding))
-    read = sie.Sampled.read(file, length="mm")
-    x, z = (factor or 1.0) * np.transpose(rows)
-    assert read.points == pytest.approx(x, rel=1e-14)
-    assert read.heights == pytest.approx(z, rel=1e-14)
-    assert read.reading.units == (("um", "um") if factor else ("", ""))
-    assert read.mended == (0, 0, False)
 
 
 def test_heights_of_a_surface_are_turned_over_once(tmp_path):

@@ -120,6 +120,9 @@ CASES = {
     "half-width": (lambda v: scene(FLAT, half_width=v, tilt=0.03), 1.0, "half_width"),
     "wedge": (lambda v: scene(sie.Wedge(v)), 0.3, "profile.slope"),
     "power": (lambda v: scene(sie.Power(2.5, v)), 0.5, "profile.coefficient"),
+    "power, shifted": (
+        lambda v: scene(sie.Power(1.3, v).shifted(0.3)), 0.5, "profile.coefficient"
+    ),
     "exponent": (lambda v: scene(sie.Power(v, 0.5)), 2.5, "profile.exponent"),
     "corners": (lambda v: scene(sie.Flat(0.5), normal_load=v), 0.4, "normal_load"),
     "corners, tilt": (lambda v: scene(sie.Flat(0.5), tilt=v), 0.05, "tilt"),
@@ -223,9 +226,6 @@ def test_of_hertz_every_answer_follows_from_powers():
     assert by_load.pressure.resultant == pytest.approx(1.0, rel=1e-14)
 
 
-# -- quantities, gradients, uncertainty ------------------------------------------------------------
-
-
 SCENES = {
     "trace": lambda: scene(sie.Sampled(X, TRACE)),
     "tilted punch in sliding": lambda: scene(FLAT, tilt=0.15, friction=0.4, sliding=1),
@@ -286,9 +286,6 @@ def test_noise_of_a_trace_is_one_number_for_all_heights():
     gradient = solution.gradient("peak_pressure")["profile.heights"]
     found = solution.uncertainty({"profile.heights": 1e-4}).of("peak_pressure")
     assert found == pytest.approx(1e-4 * np.linalg.norm(gradient), rel=1e-14)
-
-
-# -- refusals --------------------------------------------------------------------------------------
 
 
 def test_where_slip_begins_or_ends_derivatives_are_one_sided():

@@ -1,6 +1,4 @@
-"""What a cycle does: histories are the states' stresses, ranges their extremes, and Ruiz'
-parameters their products.
-"""
+"""Histories, ranges and Ruiz' parameters of a cycle."""
 
 import sys
 
@@ -33,11 +31,9 @@ def cycle():
     """Sliding to and fro, with a bulk stress in phase."""
     Q = 0.4 * 0.3
     states = [(Q, 0.02, 1.0), (-Q, -0.01, -3.0), (Q, 0.02, 1.0)]
+    plain = sie.solve(SCENE)
     return sie.Cycle(
-        [
-            Moved(sie.solve(SCENE).with_(tangential_load=q, bulk_stress=s), slip)
-            for q, s, slip in states
-        ]
+        [Moved(plain.with_(tangential_load=q, bulk_stress=s), slip) for q, s, slip in states]
     )
 
 

@@ -1,6 +1,4 @@
-"""Fatigue parameters: no plane of a scan exceeds them, closed forms, and the place where they are
-largest.
-"""
+"""Fatigue parameters against closed forms and a scan of planes."""
 
 from types import SimpleNamespace
 
@@ -35,8 +33,6 @@ def parameters(cycle, *place):
         "fatemi-socie": cycle.fatemi_socie(*place, k=K, yield_stress=YIELD),
     }
 
-
-# -- planes --------------------------------------------------------------------------------------
 
 S = 200.0
 REVERSED = sie.Cycle([Uniform(S, 0.0, 0.0), Uniform(-S, 0.0, 0.0)])
@@ -115,8 +111,6 @@ def test_a_body_that_is_never_in_tension_has_no_smith_watson_topper():
     cycle = sie.Cycle([Uniform(-S, -S, 0.0), Uniform(-2.0 * S, -S, 10.0)])
     assert cycle.swt(0.0, 0.0).value == 0.0
 
-
-# -- places --------------------------------------------------------------------------------------
 
 SCENE = sie.Scene(profile=sie.RoundedFlat(1.0, 50.0), body=BODY, normal_load=500.0, friction=0.6)
 LOADS = sie.Path([(500.0, 250.0), (500.0, -150.0), (500.0, 250.0)])

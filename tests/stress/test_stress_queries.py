@@ -8,8 +8,6 @@ from stress_cases import PUNCH, STEEL, sliding
 
 import sie
 
-# -- invariants ------------------------------------------------------------------------------------
-
 
 @pytest.mark.parametrize("plane", ["strain", "stress"])
 def test_invariants_are_those_of_the_matrix_of_components(plane):
@@ -47,9 +45,6 @@ def test_where_a_traction_is_infinite_nothing_is_nan(solution):
         assert not np.isnan(values).any()
 
 
-# -- memory ----------------------------------------------------------------------------------------
-
-
 def test_a_million_points_hold_at_most_ten_arrays_of_that_size():
     solution = sliding(PUNCH)
     x, y = np.linspace(-2, 2, 1000), np.linspace(0, 3, 1000)[:, None]
@@ -59,9 +54,6 @@ def test_a_million_points_hold_at_most_ten_arrays_of_that_size():
     most = tracemalloc.get_traced_memory()[1]
     tracemalloc.stop()
     assert most <= 10 * 8e6
-
-
-# -- bad questions ---------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(

@@ -1,6 +1,4 @@
-"""What the tests of the closed forms share: contexts, principal values, and laws that any function
-of `analytic` keeps.
-"""
+"""Contexts, principal values, and laws that any function of `analytic` keeps."""
 
 import math
 from collections.abc import Callable, Sequence
@@ -51,9 +49,7 @@ def every_call(calls: Sequence[Call]) -> pytest.MarkDecorator:
 
 
 def call(function: Form, given: Given, **options: Any) -> Any:
-    """The value, a pair as an array or list, of the call with its position first, as users write
-    it.
-    """
+    """The value of the call with its position first, as users write it."""
     rest = {name: value for name, value in given.items() if name not in ("x", "z")}
     return function(*(given[name] for name in ("x", "z") if name in given), **rest, **options)
 
@@ -73,81 +69,74 @@ def pairs(one: Any, other: Any) -> Any:
     return zip(several(one), several(other), strict=True)
 
 
-def of_every_call(calls: Sequence[Call], precise: bool = False) -> type:
-    """The tests that every closed form passes, as a class for pytest to collect.
+def digits(number: int) -> Any:
+    context = mpmath.MPContext()
+    context.dps = number
+    return context
 
-    `precise`: those of one contact and no friction are held to more digits, and refuse more.
+
+class OfEveryCall:
+    """What every closed form passes; a subclass is parametrised by `every_call`.
+
+    Those of one contact and no friction are held to more digits, and refuse more.
     """
-    each_call = every_call(calls)
-    near, of_arrays, of_scales = (1e-14, 8, 200) if precise else (1e-13, 64, 1000)
-    digits, more, last = (50, 120, "1e-46") if precise else (25, 40, "1e-22")
-    fewer, many = mpmath.MPContext(), mpmath.MPContext()
-    fewer.dps, many.dps = digits, more
-    bad_values: list[Any] = [math.nan, math.inf, "one"]
-    bad_values += [-math.inf, 0.0, -1.0, None, 1j] if precise else []
 
-    class OfEveryCall:
-        @each_call
-        def test_numpy_and_mpmath_agree(self, function: Form, given: Given) -> None:
-            for value, exact in pairs(call(function, given), call(function, given, lib=fewer)):
-                assert abs(complex(value) - complex(exact)) <= near * abs(complex(exact))
+    near, of_arrays, of_scales = 1e-13, 64, 1000
+    digits, more, last = 25, 40, "1e-22"
+    bad: tuple[Any, ...] = (math.nan, math.inf, "one")
 
-        @each_call
-        def test_a_context_gives_all_its_digits(self, function: Form, given: Given) -> None:
-            before = mpmath.mp.dps
-            found, exact = (call(function, given, lib=lib) for lib in (fewer, many))
-            for value, right in pairs(found, exact):
-                assert abs(many.convert(value) - right) <= many.mpf(last) * abs(right)
-            assert mpmath.mp.dps == before
+    def test_numpy_and_mpmath_agree(self, function: Form, given: Given) -> None:
+        exact = call(function, given, lib=digits(self.digits))
+        for value, right in pairs(call(function, given), exact):
+            assert abs(complex(value) - complex(right)) <= self.near * abs(complex(right))
 
-        @each_call
-        def test_arrays_broadcast(self, function: Form, given: Given) -> None:
-            grown = {
-                name: np.full((3, 1) if i % 2 else 4, value)
-                for i, (name, value) in enumerate(given.items())
-                if name != "exponent"
-            }
-            expected = np.shape(np.broadcast_arrays(*grown.values())[0])
-            for grid, one in pairs(call(function, given | grown), call(function, given)):
-                assert np.shape(grid) == expected and np.ndim(one) == 0
-                np.testing.assert_allclose(grid, one, rtol=of_arrays * EPS, atol=0)
+    def test_a_context_gives_all_its_digits(self, function: Form, given: Given) -> None:
+        before, many = mpmath.mp.dps, digits(self.more)
+        found, exact = (call(function, given, lib=lib) for lib in (digits(self.digits), many))
+        for value, right in pairs(found, exact):
+            assert abs(many.convert(value) - right) <= many.mpf(self.last) * abs(right)
+        assert mpmath.mp.dps == before
 
-        @every_call([c for c in calls if c[1].get("exponent", 1) <= 3])  # or C leaves the doubles
-        @pytest.mark.parametrize(
-            ("length", "stress"), [(2.0**-300, 2.0**330), (2.0**300, 2.0**-330)]
-        )
-        def test_results_scale_with_lengths_and_moduli(
-            self, function: Form, given: Given, length: float, stress: float
-        ) -> None:
-            """Powers of 2, or positions next to an end would be rounded."""
-            units = UNITS | {"coefficient": (1.0 - given.get("exponent", 1.0), 0)}
-            scaled = {
-                name: value
-                * length ** units.get(name, (0, 0))[0]
-                * stress ** units.get(name, (0, 0))[1]
-                for name, value in given.items()
-            }
-            by = {
-                **dict.fromkeys(STRESS, stress),
-                **dict.fromkeys(NUMBERS, 1.0),
-                **dict.fromkeys(MOMENTS, stress * length * length),
-                **dict.fromkeys(("pair", "row"), stress * math.sqrt(length)),
-                "load": stress * length,
-                "potential_derivative": stress / length,
-            }.get(function.__name__.removeprefix("partial_"), length)
-            for value, one in pairs(call(function, scaled), call(function, given)):
-                assert abs(value - one * by) <= of_scales * EPS * abs(one * by)
+    def test_arrays_broadcast(self, function: Form, given: Given) -> None:
+        grown = {
+            name: np.full((3, 1) if i % 2 else 4, value)
+            for i, (name, value) in enumerate(given.items())
+            if name != "exponent"
+        }
+        expected = np.shape(np.broadcast_arrays(*grown.values())[0])
+        for grid, one in pairs(call(function, given | grown), call(function, given)):
+            assert np.shape(grid) == expected and np.ndim(one) == 0
+            np.testing.assert_allclose(grid, one, rtol=self.of_arrays * EPS, atol=0)
 
-        @each_call
-        def test_bad_numbers_are_refused(self, function: Form, given: Given) -> None:
-            for name, bad in product(given, bad_values):
-                if is_good(name, bad):
-                    continue
-                for lib in (np, fewer):
-                    with pytest.raises(ValueError, match=rf"{name} = .*; "):
-                        call(function, {**given, name: bad}, lib=lib)
+    @pytest.mark.parametrize(("length", "stress"), [(2.0**-300, 2.0**330), (2.0**300, 2.0**-330)])
+    def test_results_scale_with_lengths_and_moduli(
+        self, function: Form, given: Given, length: float, stress: float
+    ) -> None:
+        """Powers of 2, or positions next to an end would be rounded."""
+        exponent = given.get("exponent", 1.0)
+        if exponent > 3:
+            return  # the coefficient leaves the doubles
+        units = UNITS | {"coefficient": (1.0 - exponent, 0)}
+        scaled = {}
+        for name, value in given.items():
+            of_length, of_stress = units.get(name, (0, 0))
+            scaled[name] = value * length**of_length * stress**of_stress
+        by = {
+            **dict.fromkeys(STRESS, stress),
+            **dict.fromkeys(NUMBERS, 1.0),
+            **dict.fromkeys(MOMENTS, stress * length * length),
+            **dict.fromkeys(("pair", "row"), stress * math.sqrt(length)),
+            "load": stress * length,
+            "potential_derivative": stress / length,
+        }.get(function.__name__.removeprefix("partial_"), length)
+        for value, one in pairs(call(function, scaled), call(function, given)):
+            assert abs(value - one * by) <= self.of_scales * EPS * abs(one * by)
 
-    return OfEveryCall
+    def test_bad_numbers_are_refused(self, function: Form, given: Given) -> None:
+        for name, bad, lib in product(given, self.bad, (np, digits(self.digits))):
+            if not is_good(name, bad):
+                with pytest.raises(ValueError, match=rf"{name} = .*; "):
+                    call(function, {**given, name: bad}, lib=lib)
 
 
 def principal_value(density: Callable[[Any], Any], x: float, breaks: Sequence[Any]) -> Any:
@@ -180,9 +169,7 @@ def principal_value(density: Callable[[Any], Any], x: float, breaks: Sequence[An
 def resultant(
     density: Callable[[Any], Any], breaks: Sequence[Any], weight: Callable[[Any], Any] = lambda t: 1
 ) -> Any:
-    """∫ density(t) weight(t) dt from the first to the last of `breaks`, 30 digits, by the same
-    angle.
-    """
+    """∫ density(t) weight(t) dt over `breaks`, 30 digits, by the same angle."""
     lo, hi = mp.convert(breaks[0]), mp.convert(breaks[-1])
     m, r = (lo + hi) / 2, (hi - lo) / 2
 

@@ -19,6 +19,9 @@ IN_PHASE = [(1, 0, 0), (1.2, 0.55, 0.1), (0.9, -0.3, -0.1)]
 OUT_OF_PHASE = [(1, 0.4, 0), (1, 0, 0.2), (1, -0.4, 0), (1, 0, -0.2), (1, 0.4, 0)]
 
 
+MEAN_STRESS = [(1, 0, 0.3), (1, 0.5, 0.3), (1, -0.5, 0.3), (1, 0.5, 0.3)]
+
+
 def scaled(points: Points) -> list[tuple[float, ...]]:
     return [(P * P0, Q * F, sigma * S, *tilt) for P, Q, sigma, *tilt in points]
 

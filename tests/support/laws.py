@@ -23,9 +23,7 @@ NODES, WEIGHTS = np.polynomial.legendre.leggauss(16)
 
 
 def rule(interval: Ends, breaks: Places = (), extra: Places = ()) -> tuple[Array, Array]:
-    """Nodes x inside the contact and weights of ∫ dx; `extra` are places to grade to besides the
-    breaks (a principal value's).
-    """
+    """Nodes x inside the contact and weights of ∫ dx, graded to the breaks and to `extra`."""
     x1, x2 = interval
     m, r = 0.5 * (x1 + x2), 0.5 * (x2 - x1)
     inner = [b for b in {*breaks, *extra} if x1 < b < x2]
@@ -61,9 +59,7 @@ def load_and_moment(pressure: Pressure, interval: Ends, breaks: Places = ()) -> 
 
 
 def principal_value(pressure: Pressure, interval: Ends, x: float, breaks: Places = ()) -> float:
-    """1/π PV∫ p(t)/(x - t) dt at one x inside: p(x) taken out, whose own integral is a
-    logarithm.
-    """
+    """1/π PV∫ p(t)/(x - t) dt at one x inside: the integral of p(x) is a logarithm."""
     x1, x2 = interval
     t, weight = rule(interval, breaks, extra=(x,))
     here = float(pressure(np.array([x]))[0])
@@ -98,24 +94,14 @@ def rounding_of_principal_value(
 def rounding_of_x(pressure: Pressure, interval: Ends, breaks: Places = ()) -> float:
     """∫|p(x + 1 ulp) - p(x)| dx: what no pressure of a double x can avoid."""
     x, weight = rule(interval, breaks)
-    return float(
-        (
-            weight
-            * np.abs(pressure(np.nextafter(x, 0.5 * (interval[0] + interval[1]))) - pressure(x))
-        ).sum()
-    )
+    beside = np.nextafter(x, 0.5 * (interval[0] + interval[1]))
+    return float((weight * np.abs(pressure(beside) - pressure(x))).sum())
 
 
 def peak(pressure: Pressure, interval: Ends, breaks: Places = ()) -> float:
-    """The largest pressure between 1e-3 r of the edges and 1e-6 r of the breaks, where it may be
-    infinite.
-    """
+    """The largest pressure 1e-3 r from the edges and 1e-6 r from the breaks, or farther."""
     x1, x2 = interval
     r = 0.5 * (x2 - x1)
-    x = np.concatenate(
-        (
-            np.linspace(x1 + 1e-3 * r, x2 - 1e-3 * r, 201),
-            *[[b - 1e-6 * r, b + 1e-6 * r] for b in breaks],
-        )
-    )
+    beside = [b + 1e-6 * r * side for b in breaks for side in (-1.0, 1.0)]
+    x = np.append(np.linspace(x1 + 1e-3 * r, x2 - 1e-3 * r, 201), beside)
     return float(pressure(x[(x > x1) & (x < x2) & ~np.isin(x, breaks)]).max())

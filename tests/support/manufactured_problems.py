@@ -46,9 +46,6 @@ def inside(d: Manufactured) -> Any:
     return d.x1 + (d.x2 - d.x1) * np.array([0.01, 0.1, 0.33, 0.5, 0.77, 0.93, 0.99])
 
 
-# -- manufactured solutions ------------------------------------------------------------------------
-
-
 reals = st.tuples(between(-3.0, 3.0), st.sampled_from([1.0, -1.0, 0.3]))
 nearly_real = st.builds(complex, between(0.8, 1.2), between(-0.1, 0.1))
 complexes = st.tuples(
@@ -62,9 +59,7 @@ constants = reals | complexes
 def densities(
     draw: st.DrawFn, a: Any, b: Any, ends: Any, interval: tuple[float, float]
 ) -> Manufactured:
-    """A polynomial of degree up to 5, and a pole as far from the interval as half its
-    half-width.
-    """
+    """A polynomial of degree up to 5, and a pole half a half-width from the interval."""
     polynomial = (*draw(st.lists(between(-1.0, 1.0), max_size=5)), 1.0)
     poles: tuple[Any, ...] = ()
     if draw(st.booleans()):
@@ -79,9 +74,7 @@ def densities(
 
 @st.composite
 def problems(draw: st.DrawFn, intervals: int = 1) -> Any:
-    """(densities, a, b, ends, kernels) with kernels as smooth as those of a layer of twice the
-    half-width.
-    """
+    """(densities, a, b, ends, kernels), kernels as smooth as those of a thick layer."""
     a, b = draw(constants)
     start, out, ends = draw(between(-2.0, 2.0)), [], []
     for _ in range(intervals):
@@ -96,11 +89,8 @@ def problems(draw: st.DrawFn, intervals: int = 1) -> Any:
             draw(between(-0.15, 0.15)),
             complex(draw(between(-1.0, 1.0)), height * draw(between(1.0, 2.0))),
         )
-        kernels = (
-            ((c, shift),)
-            if isinstance(a, complex) or isinstance(b, complex)
-            else ((c, shift), (c, shift.conjugate()))
-        )
+        is_complex = isinstance(a, complex) or isinstance(b, complex)
+        kernels = ((c, shift),) if is_complex else ((c, shift), (c, shift.conjugate()))
     return out, a, b, ends, kernels
 
 

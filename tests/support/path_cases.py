@@ -1,7 +1,5 @@
 """Paths of loads, and what a state on them is compared with."""
 
-from typing import Any
-
 import sie
 
 E, F, P = 2.0, 0.5, 0.375
@@ -19,10 +17,3 @@ FP = F * P
 
 def at_constant_load(scene: sie.Scene, *fractions: float) -> sie.History:
     return sie.follow(scene, sie.Path([(P, k * FP) for k in fractions]))
-
-
-def fields(scene: sie.Scene) -> dict[str, Any]:
-    return {
-        name: getattr(scene, name)
-        for name in ("profile", "modulus", "normal_load", "friction", "tilt")
-    }

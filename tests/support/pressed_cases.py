@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
+from scenes import dissimilar
+
 import sie
 
 PROFILES = {
@@ -20,14 +22,5 @@ PROFILES = {
 }
 
 
-def scene(
-    profile: sie.Profile | None = None, beta: float = 0.3, friction: float = 0.3, **loads: Any
-) -> sie.Scene:
-    loads = loads or {"normal_load": 1.0}
-    return sie.Scene(
-        profile=profile or sie.Parabola(1.0), modulus=2.0, dundurs=beta, friction=friction, **loads
-    )
-
-
 def solved(*args: Any, **kwargs: Any) -> sie.Solution:
-    return sie.solve(scene(*args, **kwargs))
+    return sie.solve(dissimilar(*args, **kwargs))

@@ -12,16 +12,8 @@ E, F, P = 2.0, 0.5, 0.375
 
 
 def sheared(profile: sie.Profile, fraction: float, load: float = P, **more: Any) -> sie.Solution:
-    return sie.solve(
-        sie.Scene(
-            profile=profile,
-            modulus=E,
-            normal_load=load,
-            friction=F,
-            tangential_load=fraction * F * load,
-            **more,
-        )
-    )
+    loads: dict[str, Any] = {"normal_load": load, "tangential_load": fraction * F * load}
+    return sie.solve(sie.Scene(profile=profile, modulus=E, friction=F, **loads, **more))
 
 
 def left_over(solution: sie.Solution) -> Any:

@@ -17,9 +17,7 @@ Floats = st.SearchStrategy[float]
 
 
 def between(lo: float, hi: float) -> Floats:
-    """Numbers of a size that contacts have: what the ends of the range of doubles do is tested
-    apart.
-    """
+    """Numbers of a size that contacts have."""
     return st.floats(lo, hi, allow_nan=False).map(lambda v: v if abs(v) > 1e-100 else 0.0)
 
 
@@ -34,9 +32,7 @@ def dyadic(lo: float, hi: float, bits: int = 8) -> Floats:
 
 @st.composite
 def chains(draw: st.DrawFn, jumps: bool = True) -> sie.Piecewise:
-    """Convex, piecewise linear slope on 2 to 8 pieces, from below -1/2 to above 1/2: unequal
-    corners, flats, two radii, wedges.
-    """
+    """Convex, piecewise linear slope on 2 to 8 pieces: corners, flats, radii, wedges."""
     n = draw(st.integers(2, 8))
     gaps = draw(st.lists(dyadic(1 / 256, 1), min_size=n - 2, max_size=n - 2))
     inner = draw(
@@ -129,9 +125,7 @@ def profiles(draw: st.DrawFn) -> sie.Profile:
 
 @st.composite
 def scenes(draw: st.DrawFn, profile: sie.Profile | None = None, sharp: bool = True) -> sie.Scene:
-    """A profile, a load or (round profiles) a half-width, a tilt that the profile's slopes can
-    bear.
-    """
+    """A profile, a load, and a tilt that the profile's slopes can bear."""
     if profile is None and sharp and draw(st.integers(0, 4)) == 0:
         E, P, tilt = draw(log_between(0.1, 10)), draw(log_between(1e-3, 3)), draw(dyadic(-0.2, 0.2))
         return sie.Scene(profile=draw(sharp_profiles()), modulus=E, normal_load=P, tilt=tilt)

@@ -1,6 +1,4 @@
-"""The paper's equations (24) to (35) on random punches: quadrature, both packages, and the forms
-that are misprinted.
-"""
+"""The paper's equations (24) to (35) on random punches, and the forms that are misprinted."""
 
 import pytest
 from hypothesis import given, settings

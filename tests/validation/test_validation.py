@@ -1,6 +1,4 @@
-"""The validation's own machinery: verdicts come from numbers, a measure that cannot fail is called
-blind, the page needs nothing else.
-"""
+"""Verdicts come from numbers, and a measure that cannot fail is called blind."""
 
 import math
 
@@ -21,8 +19,6 @@ from validation.rivals.problems import kinked, sliding, wavy
 from validation.topics import paper, speed, stability, sweeps
 from validation.topics.sweeps import SPOILED
 from validation.wrong_programs.mutants import BAR, MUTANTS
-
-# -- verdicts --------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(
@@ -51,11 +47,8 @@ def test_no_measure_ignores_a_nan(place):
     assert math.isnan(largest([1e-16, math.nan, 1e-15]))
     assert math.isnan(smallest([1e-16, math.nan, 1e-15]))
     found = [1.0, 2.0, 3.0]
-    assert (
-        measures.apart(found, [1, 2, 3])
-        == sweeps._outcome(None, found, [1, 2, 3], 1.0, 0.0).error
-        == 0.0
-    )
+    outcome = sweeps._outcome(None, found, [1, 2, 3], 1.0, 0.0)
+    assert measures.apart(found, [1, 2, 3]) == outcome.error == 0.0
     found[place] = math.nan
     assert math.isnan(measures.apart(found, [1, 2, 3]))
     assert math.isnan(sweeps._outcome(None, found, [1, 2, 3], 1.0, 0.0).error)
@@ -67,18 +60,13 @@ def test_a_pressure_of_nan_fails_the_figures_of_the_paper(monkeypatch):
     class Holed(sie.Solution):
         def __getattribute__(self, name):
             right = super().__getattribute__(name)
-            return (
-                (lambda x: np.where(np.arange(len(x)) == 3, np.nan, right(x)))
-                if name == "pressure"
-                else right
-            )
+            holed = lambda x: np.where(np.arange(len(x)) == 3, np.nan, right(x))  # noqa: E731
+            return holed if name == "pressure" else right
 
-    punch = charts.punch
-    monkeypatch.setattr(
-        charts,
-        "punch",
-        lambda ratio: Holed(punch(ratio).scene, 1e-13) if ratio == 0.9 else punch(ratio),
-    )
+    def punch(ratio, right=charts.punch):
+        return Holed(right(ratio).scene, 1e-13) if ratio == 0.9 else right(ratio)
+
+    monkeypatch.setattr(charts, "punch", punch)
     made = next(r for r in paper.figure_2() if isinstance(r, Claim))
     assert not made.ok
 
@@ -92,10 +80,8 @@ def test_a_refusal_in_a_map_fails_its_claim(monkeypatch):
         return right(length, modulus)
 
     monkeypatch.setattr(sweeps, "scale", refused)
-    made = next(
-        r for r in stability.maps(quick=True) if isinstance(r, Claim) and "lengths" in r.what
-    )
-    assert made.verdict == "fails"
+    claims = (r for r in stability.maps(quick=True) if isinstance(r, Claim))
+    assert next(made for made in claims if "lengths" in made.what).verdict == "fails"
 
 
 def test_an_interrupt_ends_the_run_with_a_message(monkeypatch, tmp_path, capsys):
@@ -112,36 +98,16 @@ def test_a_failing_claim_is_printed_and_sets_the_exit_status(capsys, tmp_path):
     sections = [Section("one", "One", "", Found([claim(0.5, 2.0), claim(3.0, 2.0)]), (), 0.1)]
     assert summary(sections, 0.1, tmp_path) == 1
     assert "FAILS: one: what" in capsys.readouterr().out
-    assert (
-        summary([Section("one", "One", "", Found([claim(0.5, 2.0)]), (), 0.1)], 0.1, tmp_path) == 0
-    )
+    sections = [Section("one", "One", "", Found([claim(0.5, 2.0)]), (), 0.1)]
+    assert summary(sections, 0.1, tmp_path) == 0
 
 
-# -- topics ----------------------------------------------------------------------------------------
-
-
-TRIED = (
-    "appendix",
-    "collocation",
-    "cracks",
-    "economy",
-    "growth",
-    "paper",
-    "pressure",
-    "speed",
-    "stress",
-    "slip",
-    "sliding",
-    "sampled",
-    "patches",
-    "stability",
-    "certificate",
-    "mutation",
-)
+TRIED = """appendix collocation cracks economy growth paper pressure speed stress slip sliding
+sampled patches stability certificate mutation"""
 
 
 @pytest.mark.slow(but=2)
-@pytest.mark.parametrize("name", TRIED)
+@pytest.mark.parametrize("name", TRIED.split())
 def test_every_claim_of_a_topic_holds_and_its_control_does_not(name):
     (section,), _ = run([name], quick=True)
     assert section.found.claims
@@ -176,9 +142,6 @@ def test_a_sweep_detects_a_wrong_answer():
     outcome = sweep.run(0.5)
     assert outcome.error < 1e-13
     assert outcome.spoiled == pytest.approx(SPOILED, rel=0.5)
-
-
-# -- peers and truths ------------------------------------------------------------------------------
 
 
 def test_the_peers_are_right_where_they_should_be():
@@ -219,9 +182,6 @@ def test_the_truth_of_sliding_agrees_with_the_closed_form():
             x, normal_load=P, half_flat=0.5, radius=1.0, modulus=1.0, coupling=0.3
         )
         assert float(truth.pressure(x)) == pytest.approx(float(closed), rel=1e-12)
-
-
-# -- wrong programs, which their checkers catch ----------------------------------------------------
 
 
 @pytest.mark.parametrize("mutant", MUTANTS, ids=lambda m: m.name)

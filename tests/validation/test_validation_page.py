@@ -16,8 +16,6 @@ from validation.harness.report import Section, page
 from validation.harness.running import run
 from validation.topics import economy, pressure
 
-# -- the page --------------------------------------------------------------------------------------
-
 
 def a_section(name="one"):
     found = Found(
@@ -31,14 +29,8 @@ def a_section(name="one"):
     drawing, ax = axes()
     draw(ax, found.curves("figure"))
     labelled(ax, "x [mm]", "y", log="y")
-    return Section(
-        name,
-        "Title",
-        "Words.\n\nMore words.",
-        found,
-        [drawn(Figure(name, drawing, "What is seen."))],
-        0.1,
-    )
+    figures = [drawn(Figure(name, drawing, "What is seen."))]
+    return Section(name, "Title", "Words.\n\nMore words.", found, figures, 0.1)
 
 
 def test_the_page_needs_no_network_and_fits_a_phone():
@@ -106,9 +98,6 @@ def test_one_topic_by_the_command_line(tmp_path, capsys):
     assert "report.html" in capsys.readouterr().out
 
 
-# -- the README's table ----------------------------------------------------------------------------
-
-
 KEPT = json.loads(readme.KEPT.read_text(encoding="utf-8"))
 
 
@@ -122,9 +111,7 @@ def test_a_table_is_the_one_that_was_measured_and_a_change_by_hand_is_detected(d
 
 @pytest.mark.parametrize("kept_row", KEPT["rows"], ids=lambda row: row[0])
 def test_the_numbers_of_the_readme_still_hold(kept_row):
-    """Errors within a factor of ten, or both below 1e-15; no more evaluations; times are the
-    machine's, and are not compared.
-    """
+    """Errors within a factor of ten, or both below 1e-15; times are the machine's."""
     case = next(c for c in cases.chosen(quick=True) if str(c) == kept_row[0])
     now = pressure.row(case)
     for then, fresh in zip(kept_row[1:4], (now.error, now.load, now.estimated), strict=True):

@@ -21,13 +21,8 @@ def of_parabola(ratio, **more):
 def test_a_worn_cylinder_is_exact(ratio):
     worn, exact = of_parabola(ratio), worn_parabola(ratio)
     deepest = math.sqrt((1.0 + exact.stick**2) / 2.0)
-    found = [
-        worn.stick[1],
-        2.0 * worn.pressure(0.0),
-        worn.worn[1],
-        worn.depth(deepest),
-        worn.volume,
-    ]
+    found = [worn.stick[1], 2.0 * worn.pressure(0.0), worn.worn[1]]
+    found += [worn.depth(deepest), worn.volume]
     assert np.abs(np.array(found, float) / np.array(exact, float) - 1.0).max() <= 1e-12
     assert worn.worn[0] == pytest.approx(-worn.worn[1], rel=1e-14)
     assert worn.check().ok
@@ -135,9 +130,6 @@ def test_what_has_no_limit_is_refused(loads, more, error, word):
     scene = sie.Scene(**HERTZ, normal_load=LOAD, **loads)
     with pytest.raises(error, match=word):
         sie.wear_limit(scene, **more)
-
-
-# -- the modes of Galin ----------------------------------------------------------------------------
 
 
 def test_the_eigenvalues_of_galin():

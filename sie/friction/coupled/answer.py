@@ -18,12 +18,12 @@ from sie.errors import ContactError
 from sie.friction.state import intervals
 from sie.numerics.graded_panels import Pieces
 
-from .step import Loaded
 from .view import View
 from .work import work
 
 if TYPE_CHECKING:
     from .pressed import Pressed
+    from .step import Loaded
 
 Array = NDArray[np.float64]
 
@@ -55,7 +55,7 @@ class LoadedContact(View):
 
     def under(self, Q: float, tau: float) -> LoadedContact:
         """The state after a step to Q and τ; ContactError where friction is kept by none."""
-        known = float(np.abs(self._first.state.missed).max())
+        known = float(np.abs(self.loaded.first.state.missed).max())
         if not known <= PRESSED:
             raise ContactError(
                 f"the slip that the normal load left is known to {known:.1g} of f p alone, too "
@@ -65,14 +65,6 @@ class LoadedContact(View):
         if after is None:
             raise refused(self, Q)
         return replace(self, loaded=after, previous=self)
-
-    @property
-    def _first(self) -> Loaded:
-        """The state under P alone."""
-        first = self.loaded
-        while first.before is not None:
-            first = first.before
-        return first
 
     # -- slip --------------------------------------------------------------------------------------
 
@@ -118,11 +110,6 @@ class LoadedContact(View):
         if self.previous is None:
             return self.pressed.energy
         done = work(self.previous.loaded, self.loaded)
-        if done is None:
-            raise ContactError(
-                "the energy of this step is a sum over states on the way, of which one was not "
-                "found; give the step in two parts"
-            )
         return self.previous.energy + done / self.half_modulus
 
     @cached_property
@@ -134,7 +121,7 @@ class LoadedContact(View):
         """
         from scipy.special import digamma  # noqa: PLC0415 -- heavy, and seldom asked for
 
-        first, ends = self._first, self._first.zones.ends
+        first, ends = self.loaded.first, self.loaded.first.zones.ends
         middle, b = 0.5 * float(ends[0] + ends[-1]), 0.5 * float(np.ptp(ends))
         edge = max(float(ends[-1]), float(self.loaded.zones.ends[-1]))  # beyond both contacts
         question = self.loaded.question

@@ -7,16 +7,19 @@ power of the distance they have at an end, they are smooth in v.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.special import sici
 
-from .pieces import Places
-from .state import State
+from .state import Pair, State, across
+
+if TYPE_CHECKING:
+    from .pieces import Places
 
 Array = NDArray[np.float64]
 
@@ -41,21 +44,24 @@ class Fields:
 
     def __call__(self, x: Array, rest: Array | None = None) -> Array:
         """Rows of p, q and γ at places in contact, at distances `rest` from the nearer edge."""
-        k, lo, hi = self._located(x, rest)
-        with np.errstate(divide="ignore"):
-            v = np.log(np.maximum(lo, 0.0)) - np.log(np.maximum(hi, 0.0))
-        v, rows = np.clip(v, -LAST, LAST), np.empty((3, len(x)))
+        (k, v), rows = self._located(x, rest), np.empty((3, len(x)))
         for piece in np.unique(k).tolist():
             rows[:, k == piece] = self.on_piece(piece, v[k == piece])
         return rows
 
+    def gamma(self, x: Array) -> Array:
+        """γ in contact."""
+        (k, v), values = self._located(x, None), np.empty(len(x))
+        for piece in np.unique(k).tolist():
+            own = k == piece
+            values[own] = self._told(piece, v[own], [2], self._last_pressure)[0]
+        return values
+
     def on_piece(self, piece: int, v: Array) -> Array:
         """Rows of p, q and γ at places of a piece."""
-        pieces, rows, (first, table) = self.state.pieces, np.empty((3, len(v))), self.tables[piece]
-        step = pieces.fineness.step / SHIFTS
+        pieces, rows = self.state.pieces, np.empty((3, len(v)))
         for row, far in (([0, 2], self._last_pressure), ([1], self._last_shear)):
-            place = np.clip(v, -far(piece, -1), far(piece, 1)) - first
-            rows[row] = interpolated(table[row], place / step)
+            rows[row] = self._told(piece, v, row, far)
         for side in (-1, 1):
             if 0 <= piece + side < len(pieces.lengths):
                 self._next_to_cut(piece, side, v, rows)
@@ -67,7 +73,20 @@ class Fields:
             rows[1] = sign * self.state.question.friction * rows[0]
         return rows
 
-    def _located(self, x: Array, rest: Array | None) -> tuple[NDArray[np.intp], Array, Array]:
+    def _told(self, piece: int, v: Array, row: list[int], far: Callable[[int, int], float]) -> Any:
+        """Some rows by the table of a piece, as far as that tells them."""
+        first, table = self.tables[piece]
+        place = np.clip(v, -far(piece, -1), far(piece, 1)) - first
+        return interpolated(table[row], place * (SHIFTS / self.state.pieces.fineness.step))
+
+    def _located(self, x: Array, rest: Array | None) -> tuple[NDArray[np.intp], Array]:
+        """The piece of each place, and v on it."""
+        k, lo, hi = self._distances(x, rest)
+        with np.errstate(divide="ignore"):
+            v = np.log(np.maximum(lo, 0.0)) - np.log(np.maximum(hi, 0.0))
+        return k, np.clip(v, -LAST, LAST)
+
+    def _distances(self, x: Array, rest: Array | None) -> tuple[NDArray[np.intp], Array, Array]:
         """The piece of each place, and its distances from the ends of that."""
         pieces = self.state.pieces
         cuts, last = pieces.cuts, len(pieces.cuts) - 2
@@ -138,11 +157,6 @@ class Fields:
                 continue
             rows[row, near] = both[row, 0] + rise * beyond
 
-    def gamma(self, x: Array) -> Array:
-        """γ in contact."""
-        values: Array = self(x)[2]
-        return values
-
     @cached_property
     def whole(self) -> tuple[Places, Array]:
         """The nodes of all shifts, ascending, and rows of p, q and γ.
@@ -154,22 +168,29 @@ class Fields:
         which gives γ in slip and q in stick. By (1) q would lose digits like 1/β, and next to slip
         what the rule leaves out at the end, a point mass over β f, would put q beyond f p.
         """
-        state, beta = self.state, self.state.question.beta
-        every = state.pieces.rule(0.0, finer=SHIFTS)
+        every = self.state.pieces.rule(0.0, finer=SHIFTS)
         rules = [every.chosen(slice(shift, None, SHIFTS)) for shift in range(SHIFTS)]
         rules = [at._replace(weight=SHIFTS * at.weight) for at in rules]
-        rows = state.rows(rules)
+        half = SHIFTS // 2
+        pairs = [self._on_pair((rules[k], rules[k + half])) for k in range(half)]
+        rows = [pair[k] for k in (0, 1) for pair in pairs]
+        return every, np.stack(rows, axis=2).reshape(3, -1)
+
+    def _on_pair(self, rules: Pair) -> list[Array]:
+        """p, q and γ on rules half a step apart."""
+        state, beta = self.state, self.state.question.beta
+        kernel = state.cauchy(*rules)
+        rows = state.rows(rules, kernel)
         roots, held = [state.root(at) for at in rules], [state.sticks(at) for at in rules]
         sources = [
             np.where(sticks, beta * p - gamma, q) * at.weight / root
             for sticks, (p, q, gamma), at, root in zip(held, rows, rules, roots, strict=True)
         ]
-        for k, (at, sticks) in enumerate(zip(rules, held, strict=True)):
-            other = (k + SHIFTS // 2) % SHIFTS
-            flow = roots[k] * state.psi(at, rules[other], sources[other])
-            rows[k][2, ~sticks] = (beta * rows[k][0] + flow)[~sticks]
-            rows[k][1, sticks] = flow[sticks]
-        return every, np.stack(rows, axis=2).reshape(3, -1)
+        flows = across(kernel, sources)
+        for row, sticks, root, flow in zip(rows, held, roots, flows, strict=True):
+            row[2, ~sticks] = (beta * row[0] + root * flow)[~sticks]
+            row[1, sticks] = (root * flow)[sticks]
+        return rows
 
     @cached_property
     def tables(self) -> list[tuple[float, Array]]:
@@ -208,13 +229,11 @@ class Fields:
 def interpolated(table: Array, place: Any, points: int = POINTS) -> Any:
     """Columns of a table at fractional places, or next to the line, by Lagrange's polynomials."""
     first = np.clip(np.floor(place.real).astype(int) - points // 2 + 1, 0, table.shape[1] - points)
-    apart, total = place - first, np.zeros_like(place)
-    values = np.zeros((len(table), len(place)), dtype=place.dtype)
-    for j, weight in enumerate(_binomial(points).tolist()):
-        share = weight / np.where(np.abs(apart - j) < AT_NODE, AT_NODE, apart - j)
-        total += share
-        values += share * table[:, first + j]
-    return values / total
+    nodes = np.arange(points)[:, None]
+    apart = (place - first) - nodes
+    apart[np.abs(apart) < AT_NODE] = AT_NODE
+    share = _binomial(points)[:, None] / apart
+    return np.einsum("ijk,jk->ik", table[:, first + nodes], share) / share.sum(axis=0)
 
 
 @lru_cache(maxsize=4)

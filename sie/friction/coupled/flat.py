@@ -40,7 +40,7 @@ from sie.numerics.elliptic import Modulus, modulus_of_ratio
 
 from .fields import SHIFTS, Fields, cumulative, interpolated
 from .pieces import FINE, Pieces
-from .state import HalfSlope, Question, State
+from .state import HalfSlope, Question, Solved, State
 
 Array = NDArray[np.float64]
 
@@ -223,7 +223,7 @@ class _Flat(State):
     pressure: Array = field(repr=False)
 
     @cached_property
-    def _solved(self) -> tuple[Array, Array, Array]:
+    def _solved(self) -> Solved:
         t, eta = self.nodes, self.beside
         sticks = self.sticks(t)
         half = self.pressure[: (np.count_nonzero(sticks) + 1) // 2]
@@ -231,7 +231,7 @@ class _Flat(State):
         mass[sticks] = p * t.weight[sticks] / self.chi(t)[sticks]
         chi = np.exp(self.pieces.log_chi(eta))
         D: Array = chi / math.pi * ((1.0 / self.pieces.apart(eta, t)) @ mass)
-        return mass, D, p
+        return Solved(mass, D, self.psi(self.halfway, t, mass))
 
 
 # -- the stick zone --------------------------------------------------------------------------------

@@ -22,6 +22,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,8 +30,10 @@ from numpy.typing import NDArray
 from sie.numerics.elliptic import modulus_of_ratio
 
 from .flat import NARROWEST_RATIO, FlatPunch, half_rule, squares
-from .pieces import Places
-from .state import Rates, State
+from .state import Pair, State, across
+
+if TYPE_CHECKING:
+    from .pieces import Places
 
 Array = NDArray[np.float64]
 
@@ -52,54 +55,50 @@ class Uncoupled(State):
         values: Array = -self.question.slope(at.x) * at.weight / self._w(at)
         return values
 
-    def pressure(self, at: Places, sources: Places) -> Array:
-        """p at places half a step from the sources."""
-        values: Array = self._w(at) * self.psi(at, sources, self._mass(sources))
+    def pressure(self, at: Places, flow: Array) -> Array:
+        """p from the integral of H1/w."""
+        values: Array = self._w(at) * flow
         return values
 
     def pressure_in_slip(self, at: Places) -> Array:
-        return self.pressure(at, self.nodes)
+        return self.pressure(at, self.psi(at, self.nodes, self._mass(self.nodes)))
 
-    def _known(self, at: Places, sources: Places) -> Array:
-        """p, q in slip, and γ in stick."""
-        p, sticks = self.pressure(at, sources), self.sticks(at)
-        gamma = np.zeros(len(p))
-        gamma[sticks] = self.question.gamma(at.x[sticks])
-        return np.stack((p, self.pieces.sign[at.zone] * self.question.friction * p, gamma))
-
-    def rows(self, rules: list[Places]) -> list[Array]:
-        half = len(rules) // 2
-        return [self._known(at, rules[k - half]) for k, at in enumerate(rules)]
+    def rows(self, rules: Pair, kernel: Array) -> list[Array]:
+        found, question = [], self.question
+        flows = across(kernel, [self._mass(at) for at in rules])
+        for at, flow in zip(rules, flows, strict=True):
+            p, gamma, sticks = self.pressure(at, flow), np.zeros(len(at.x)), self.sticks(at)
+            gamma[sticks] = question.gamma(at.x[sticks])
+            found.append(np.stack((p, self.pieces.sign[at.zone] * question.friction * p, gamma)))
+        return found
 
     @cached_property
-    def _on_nodes(self) -> tuple[Array, float]:
-        """ν times weights on the nodes, and ∫p dt."""
-        t = self.nodes
-        p, q, gamma = self._known(t, self.halfway)
+    def _on_nodes(self) -> tuple[Array, float, Array]:
+        """ν times weights on the nodes, ∫p dt, and q on the nodes halfway."""
+        at, t = self.halfway, self.nodes
+        kernel = self.cauchy(at, t)
+        (_, shear, _), (p, q, gamma) = self.rows((at, t), kernel)
         sources = np.where(self.sticks(t), self.question.beta * p - gamma, q) / self.root(t)
-        return sources * t.weight, float(p @ t.weight)
+        sources *= t.weight
+        shear = np.where(self.sticks(at), self.root(at) * (kernel @ sources), shear)
+        return sources, float(p @ t.weight), shear
 
     @cached_property
     def shear_halfway(self) -> Array:
-        at = self.halfway
-        _, q, _ = self._known(at, self.nodes)
-        sticks = self.sticks(at)
-        held = at.chosen(sticks)
-        q[sticks] = self.root(held) * self.psi(held, self.nodes, self._on_nodes[0])
-        return q
+        return self._on_nodes[2]
 
     @cached_property
     def missed(self) -> Array:
         question, arm, mass = self.question, self._arm(self.nodes), self._mass(self.nodes)
         of_p = np.array([mass.sum(), mass @ arm - question.P]) / question.P
-        n, (sources, carried) = self.pieces.signs.count(0), self._on_nodes
+        n, (sources, carried, _) = self.pieces.signs.count(0), self._on_nodes
         powers = np.array([sources @ arm**k for k in range(n + 1)]) * self.half_width**n
         # Q as a part of what p is on the same nodes: next to sliding their errors are one
         load = question.Q * carried / question.P
         of_q = np.append(powers[:n], (powers[n] - load) / question.friction) / question.P
         return np.append(of_p, of_q)
 
-    def rates(self, dQ: float, strain: float) -> Rates:
+    def rates(self, dQ: float, strain: float) -> tuple[Places, Array]:
         """p stays; q changes in the stick zone, by the gradient of a strip bonded there."""
         places = self.pieces.rule(0.5, 1.0)
         places = places.chosen(~self.sticks(places))
@@ -108,14 +107,14 @@ class Uncoupled(State):
         from_first, from_last = (self.pieces.from_cut(places, cut) for cut in (first, last))
         far = dQ / math.pi - 0.5 * strain * (from_first + from_last)
         gamma = strain + np.sign(from_first) * far / np.sqrt(from_first * from_last)
-        return Rates(places, gamma)
+        return places, gamma
 
 
 @dataclass(frozen=True, eq=False)
 class UncoupledFlat(Uncoupled):
     """The same under a flat punch, whose edges are corners."""
 
-    def pressure(self, at: Places, sources: Places) -> Array:
+    def pressure(self, at: Places, flow: Array) -> Array:
         to_left, to_right = self._to_edges(at)
         values: Array = self.question.P / (math.pi * np.sqrt(to_left * to_right))
         return values

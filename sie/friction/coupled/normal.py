@@ -60,11 +60,11 @@ def coupled_contact(
     common = math.copysign(1.0, scene.beta), 0.5 * scene.Estar, scene.friction
     if _flat(slope, contact):
         assert scene.normal_load is not None
-        state: Grown | Flat = Flat(flat, scene.normal_load, *common, contact.m, contact.r)
+        state: Grown | Flat = Flat(flat, scene.normal_load, *common, contact.r, contact.m)
     else:
         march, s, P = _grown(scene, flat, slope, contact)
         frozen, events = Frozen(flat, tuple(march.panels)), (march.base, *march.kinks)
-        state = Grown(flat, P, *common, frozen, events, slope, s)
+        state = Grown(flat, P, *common, s, frozen, events, slope)
         _refuse_unresolved(state, P)
     return state.edges, state
 

@@ -14,6 +14,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -233,18 +234,15 @@ class Pieces:
 
     def apart(self, one: Places, other: Places) -> Array:
         """x - t of all pairs."""
-        out: Array = np.subtract.outer(one.offset, other.offset)
-        rows, columns = (
-            np.searchsorted(p.anchor, np.arange(len(self.cuts) + 1)) for p in (one, other)
-        )
+        out, numbers = np.empty((len(one.x), len(other.x))), np.arange(len(self.cuts) + 1)
+        rows, columns = (np.searchsorted(p.anchor, numbers).tolist() for p in (one, other))
         between = self._between
-        for i in range(len(self.cuts)):
-            if rows[i] == rows[i + 1]:
-                continue
-            block = out[rows[i] : rows[i + 1]]
-            for j in range(len(self.cuts)):
-                if i != j and columns[j] < columns[j + 1]:
-                    block[:, columns[j] : columns[j + 1]] += between[i, j]
+        for i, (first, last) in enumerate(pairwise(rows)):
+            for j, (start, stop) in enumerate(pairwise(columns)):
+                # from cuts places are less than half as far as these from each other
+                block = out[first:last, start:stop]
+                offset = between[i, j] + one.offset[first:last]
+                np.subtract.outer(offset, other.offset[start:stop], out=block)
         return out
 
     def from_cut(self, at: Places, cut: int) -> Array:

@@ -11,23 +11,26 @@ import itertools
 import math
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from sie.numerics.gauss_jacobi import with_weight
 from sie.numerics.interval import Interval
-from sie.profiles.slope import Slope
 
 from .fields import Fields
-from .flat import FlatPunch
 from .frozen import Frozen, Gradient
 from .pieces import FINE, Pieces
 from .search import state_of
 from .state import HalfSlope, Question
 from .step import Loaded
 from .view import View
+
+if TYPE_CHECKING:
+    from sie.profiles.slope import Slope
+
+    from .flat import FlatPunch
 
 Array = NDArray[np.float64]
 
@@ -51,6 +54,7 @@ class Pressed(View):
     sign            of β
     half_modulus    E*/2
     friction        f of the scene; where nothing would slip that of `flat` is smaller
+    half_width      of the contact
     """
 
     flat: FlatPunch
@@ -58,6 +62,7 @@ class Pressed(View):
     sign: float
     half_modulus: float
     friction: float
+    half_width: float
 
     shift = strain_kept = 0.0
 
@@ -70,10 +75,6 @@ class Pressed(View):
     def middle(self) -> float:
         """That of the contact."""
         return self.origin
-
-    @property
-    def half_width(self) -> float:
-        raise NotImplementedError
 
     @property
     def kept(self) -> tuple[tuple[float, float], Any]:
@@ -137,26 +138,20 @@ class Pressed(View):
 
 @dataclass(frozen=True, eq=False)
 class Grown(Pressed):
-    """A contact that grew to the half-width s.
+    """A contact that grew.
 
     frozen      integrals over all contacts
     events      half-widths at which the growth began, or an edge passed a kink of the profile
     slope       h'
-    s           half the width
     """
 
     frozen: Frozen
     events: tuple[float, ...]
     slope: Slope
-    s: float
-
-    @property
-    def half_width(self) -> float:
-        return self.s
 
     @property
     def middle(self) -> float:
-        return self.frozen.middle(self.s)
+        return self.frozen.middle(self.half_width)
 
     @property
     def base(self) -> float:
@@ -166,7 +161,8 @@ class Grown(Pressed):
     @property
     def axis(self) -> float:
         """The middle if it stayed, as under a symmetric profile; nan if it moved."""
-        return self.origin if abs(self.middle - self.origin) <= STAYED * self.s else math.nan
+        moved = abs(self.middle - self.origin) > STAYED * self.half_width
+        return math.nan if moved else self.origin
 
     @cached_property
     def origin(self) -> float:  # type: ignore[override]
@@ -180,15 +176,15 @@ class Grown(Pressed):
     @cached_property
     def gradient(self) -> Gradient:
         """γ where the bodies stick."""
-        c, m = self.flat.c * self.s, self.frozen.middle(self.s)
+        c, m = self.flat.c * self.half_width, self.middle
         stick = m - c, m + c
         return Gradient(self.frozen, self.marks_of_growth, stick, self.axis)
 
     @cached_property
     def loaded(self) -> Loaded:  # type: ignore[override]
         """The state about the origin."""
-        s, flat, origin, gradient = self.s, self.flat, self.origin, self.gradient
-        m = self.frozen.middle(s) - origin
+        s, flat, origin, gradient = self.half_width, self.flat, self.origin, self.gradient
+        m = self.middle - origin
         slope = self.slope.shifted(-origin) if origin else self.slope
         window = m - WINDOW * s, m + WINDOW * s
         half = HalfSlope(slope, self.half_modulus, window)
@@ -224,18 +220,18 @@ class Grown(Pressed):
         at, base, g = x + self.origin, self.frozen.base, np.zeros(len(x))
         for side, own in ((1.0, at > base[1]), (-1.0, at < base[0])):
             if own.any():
-                g[own] = side * self.frozen.slip(at[own], side, self.s)
+                g[own] = side * self.frozen.slip(at[own], side, self.half_width)
         return g
 
     @property
     def kept(self) -> tuple[tuple[float, float], Grown]:
         """What stuck under a lighter load, and the state under that."""
-        before = self.at(self.base + LIGHTER * (self.s - self.base))
+        before = self.at(self.base + LIGHTER * (self.half_width - self.base))
         return before.stick[0], before
 
     def at(self, s: float) -> Grown:
         """The state when the contact was so wide."""
-        before = replace(self, s=s, load=self.frozen.load(s))
+        before = replace(self, half_width=s, load=self.frozen.load(s))
         before.__dict__["gradient"] = self.gradient
         return before
 
@@ -250,8 +246,9 @@ class Grown(Pressed):
         many = len(self.events) > FEW
         events = self.events[:1] if many else self.events
         nodes, total = MANY_NODES if many else ENERGY_NODES, 0.0
-        passings = self.frozen.passings(events, self.s)
-        cuts = sorted({*events, *(s for s in passings if s < self.s), self.s})
+        end = self.half_width
+        passings = self.frozen.passings(events, end)
+        cuts = sorted({*events, *(s for s in passings if s < end), end})
         first = self.frozen.panels[0]
         for lo, hi in itertools.pairwise(cuts):
             start = lo == cuts[0]
@@ -270,30 +267,24 @@ class Flat(Pressed):
     """A flat punch, whose edges are corners.
 
     origin      its middle
-    b           half its width
     """
 
     origin: float
-    b: float
     sharp = True
 
     @property
     def axis(self) -> float:
         return self.origin
 
-    @property
-    def half_width(self) -> float:
-        return self.b
-
     @cached_property
     def loaded(self) -> Loaded:  # type: ignore[override]
-        state = self.flat.state(self.b, self.load)
+        state = self.flat.state(self.half_width, self.load)
         return Loaded(Fields(state), 0.0, 0.0, friction=self.friction)
 
     def _slip(self, x: Array) -> Array:
-        t, flat = np.abs(x) / self.b, self.flat
+        t, flat = np.abs(x) / self.half_width, self.flat
         slips, g = t > flat.c, np.zeros(len(x))
-        e = np.maximum((self.b - np.abs(x[slips])) / self.b, 1e-300)
+        e = np.maximum((self.half_width - np.abs(x[slips])) / self.half_width, 1e-300)
         g[slips] = self.load * flat.slip(np.maximum(flat.rest - e, 1e-300), e)
         return np.sign(x) * g
 

@@ -5,11 +5,7 @@ they stay positive, and keep their digits. The zones are found by a quick rule f
 derivatives serve for the last digits.
 
 The zones that Newton's method starts from are those of cells, narrower towards the edges, as if
-bodies were alike and p were known: with dq = s f p - q0 where cells slip, those that stick obey
-
-    1/π ∫dq ln|x - t| dt = τ x + constant,
-
-and slip goes along q. Cells change between stick and slip until both hold.
+bodies were alike and p were known.
 """
 
 from __future__ import annotations
@@ -21,6 +17,8 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
+
+from sie.friction.cells import compliance, slip_of_cells
 
 from .goodman import Uncoupled
 from .pieces import FINE, QUICK, Fineness, Pieces
@@ -34,7 +32,6 @@ MOST_STEPS, HALVINGS = 25, 5
 DIFFERENCE, NARROWEST = 1e-6, 1e-6  # for derivatives: of widths, and of zones at the edges
 FOLDS = 1.0  # by which a step may change a width
 CELLS = 72
-ROUNDS = 40
 LEAST = 1e-9  # of a cell, and of what it carries
 STALE = 0.4  # of what was missed: a slower step asks for new derivatives
 
@@ -269,10 +266,13 @@ def cuts_between(x1: float, x2: float) -> Array:
 
 def zones_on_cells(cells: Carried, dQ: float, strain: float) -> Zones | None:
     """The zones after changes of Q and the strain; None where no cell sticks."""
-    signs, change = _signs(cells, dQ, strain)
-    stuck = np.flatnonzero(signs == 0)
-    if not stuck.size:
+    edges = np.stack((cells.cuts[:-1], cells.cuts[1:]), axis=1)
+    A = compliance(edges, float(np.ptp(cells.cuts)))
+    found = slip_of_cells(edges, (cells.before, cells.limit), (dQ, strain), A)
+    if found is None or found[0].all():
         return None
+    signs, change = found[0].astype(int), found[1] - cells.before
+    stuck = np.flatnonzero(signs == 0)
     signs[stuck[0] : stuck[-1]] = 0  # slip inside the stick zone is not solved
     stretches = _runs(signs)
     if len(stretches) == 1 and signs.any():
@@ -288,28 +288,6 @@ def zones_on_cells(cells: Carried, dQ: float, strain: float) -> Zones | None:
     return zones_between(np.array(ends), tuple(kinds))
 
 
-def _signs(cells: Carried, dQ: float, strain: float) -> tuple[NDArray[np.intp], Array]:
-    """The sign of slip on each cell, 0 where it sticks, and the change of q."""
-    width, x = np.diff(cells.cuts), 0.5 * (cells.cuts[1:] + cells.cuts[:-1])
-    lifts, n = _potentials(cells.cuts, x), len(x)
-    signs, change = np.zeros(n, dtype=int), np.zeros(n)
-    for _ in range(ROUNDS):
-        sticks = signs == 0
-        matrix, right = np.zeros((n + 1, n + 1)), np.zeros(n + 1)
-        matrix[:n, :n] = np.where(sticks[:, None], lifts, np.eye(n))
-        matrix[:n, n] = np.where(sticks, 1.0, 0.0)
-        right[:n] = np.where(sticks, strain * x, signs * cells.limit - cells.before)
-        matrix[n, :n], right[n] = width, dQ
-        change, constant = np.split(np.linalg.solve(matrix, right), [n])
-        slip, q = lifts @ change + constant - strain * x, cells.before + change
-        beyond = sticks & (np.abs(q) > cells.limit)
-        back = ~sticks & (signs * slip < 0.0)
-        signs = np.where(beyond, np.sign(q).astype(int), np.where(back, 0, signs))
-        if signs.all() or not (beyond.any() or back.any()):
-            break
-    return signs, change
-
-
 def _narrow(cells: Carried, change: Array, cell: int) -> tuple[float, int]:
     """Width and sign of a slip zone within a cell at an edge, by the change if all of it sticks.
 
@@ -320,14 +298,6 @@ def _narrow(cells: Carried, change: Array, cell: int) -> tuple[float, int]:
     left = max(cells.limit[cell] - sign * cells.before[cell], LEAST * cells.limit[cell])
     part = 2.0 / 3.0 * abs(float(change[cell])) / left
     return width * min(max(part, LEAST), 0.5), sign
-
-
-def _potentials(cuts: Array, x: Array) -> Array:
-    """1/π ∫ln|x - t| dt over each cell."""
-    d = x[:, None] - cuts[None, :]
-    whole = d * np.log(np.abs(d)) - d
-    potentials: Array = (whole[:, :-1] - whole[:, 1:]) / math.pi
-    return potentials
 
 
 def _runs(signs: NDArray[np.intp]) -> list[tuple[int, int, int]]:

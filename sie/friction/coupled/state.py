@@ -18,7 +18,7 @@ n of slip zones; that with k = n is P. D is found from its values on the nodes b
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, NamedTuple
@@ -33,6 +33,7 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 Gradient = Callable[[Array], Array]
+Pair = tuple[Places, Places]
 
 
 class HalfSlope(NamedTuple):
@@ -108,18 +109,17 @@ class State:
     def chi(self, at: Places) -> Array:
         """χ in stick, and in slip its real factor; in units of half_width^n."""
         size = np.exp(self.pieces.log_chi(at) - self.pieces.slip_zones * math.log(self.half_width))
-        turn = self.pieces.turns[at.zone]
-        values: Array = np.where(self.sticks(at), turn, -turn) * size
+        values: Array = np.where(self.sticks(at), 1.0, -1.0) * self.pieces.turns[at.zone] * size
         return values
 
     def sticks(self, at: Places) -> NDArray[np.bool_]:
         return self.pieces.sign[at.zone] == 0.0
 
     @cached_property
-    def _solved(self) -> tuple[Array, Array, Array]:
-        """μ times weights on the nodes, D beside the contact, and p on the nodes that stick."""
+    def _solved(self) -> Solved:
         beta, n, t, eta = self.question.beta, self.pieces.slip_zones, self.nodes, self.beside
-        sticks, chi = self.sticks(t), self.chi(t)
+        sticks, chi, halfway = self.sticks(t), self.chi(t), self.halfway
+        across = self.cauchy(halfway, t)
         size = np.exp(self.pieces.log_chi(eta) - n * math.log(self.half_width))
         chi_beside = np.where(eta.anchor == 0, (-1.0) ** n, 1.0) * size
         kernel, weight = self.cauchy(eta, t), t.weight / chi
@@ -129,16 +129,16 @@ class State:
         M = kernel.T[sticks] * eta.weight
         slip = -math.cos(math.pi * self.question.theta) * self.question.slope(t.x[~sticks])
         d0 = L[:, ~sticks] @ slip
-        stuck = t.chosen(sticks)
-        source = (self.of_slope(stuck, self.halfway) - beta * self.question.gamma(stuck.x)) / (
-            1.0 - beta**2
-        )
+        of_slope = (self.question.slope(halfway.x) * halfway.weight) @ across
+        source = of_slope[sticks] - beta * self.question.gamma(t.x[sticks])
+        source /= 1.0 - beta**2
         L, M = L[:, sticks], M / (1.0 - beta**2)
         D = np.asarray(np.linalg.solve(np.eye(len(d0)) - L @ M, L @ source + d0), dtype=float)
         p = M @ D + source
         mass = np.empty(len(t.x))
         mass[sticks], mass[~sticks] = p, slip
-        return mass * weight, D, p
+        mass *= weight
+        return Solved(mass, D, across @ mass)
 
     def _arm(self, at: Places) -> Array:
         """(x - middle) over half the width."""
@@ -150,16 +150,12 @@ class State:
         last = len(self.pieces.cuts) - 1
         return self.pieces.from_cut(at, 0), -self.pieces.from_cut(at, last)
 
-    def of_slope(self, at: Places, sources: Places) -> Array:
-        """1/π PV∫H1/(t - x) dt over the contact, at places half a step from the sources."""
-        return -self.psi(at, sources, self.question.slope(sources.x) * sources.weight)
-
     # -- fields ------------------------------------------------------------------------------------
 
     def psi(self, at: Places, sources: Places | None = None, mass: Array | None = None) -> Array:
         """PVΨ at places half a step from the sources, the nodes unless given."""
         kernel = self.cauchy(at, self.nodes if sources is None else sources)
-        values: Array = kernel @ (self._solved[0] if mass is None else mass)
+        values: Array = kernel @ (self._solved.mass if mass is None else mass)
         return values
 
     def cauchy(self, at: Places, sources: Places) -> Array:
@@ -167,37 +163,33 @@ class State:
         kernel = self.pieces.apart(at, sources)
         return np.divide(1.0 / math.pi, kernel, out=kernel)
 
-    def A(self, at: Places, sources: Places) -> Array:
-        """A in contact, at places half a step from the sources."""
-        D = self.beside.weight * self._solved[1]
-        values: Array = self.of_slope(at, sources) - self.cauchy(at, self.beside) @ D
-        return values
+    def rows(self, rules: Pair, kernel: Array) -> list[Array]:
+        """p, q in slip, and γ in stick on rules half a step apart, 0 for the others.
 
-    def rows(self, rules: list[Places]) -> list[Array]:
-        """p, q in slip, and γ in stick on rules at equidistant shifts; 0 for the others."""
-        question, found = self.question, []
-        cos, beta = math.cos(math.pi * question.theta), question.beta
-        held, chi, H1 = (
-            [self.sticks(at) for at in rules],
-            [self.chi(at) for at in rules],
-            [question.slope(at.x) for at in rules],
-        )
-        masses, gammas = [-cos * H for H in H1], [np.zeros(len(H)) for H in H1]
-        half = len(rules) // 2
-        for k, (sticks, mass, gamma) in enumerate(zip(held, masses, gammas, strict=True)):
-            places = rules[k].chosen(sticks)
-            gamma[sticks] = question.gamma(places.x)
-            mass[sticks] = (self.A(places, rules[k - half]) - beta * gamma[sticks]) / (
-                1.0 - beta**2
-            )
-        for k, (at, sticks) in enumerate(zip(rules, held, strict=True)):
-            sources, slips, flow = rules[k - half], ~sticks, np.zeros(len(at.x))
-            mass = masses[k - half] * sources.weight / chi[k - half]
-            flow[slips] = chi[k][slips] * self.psi(at.chosen(slips), sources, mass)
-            limit = self.pieces.sign[at.zone] * question.friction
-            p = np.where(sticks, masses[k], self._in_slip(at, flow, H1[k]))
-            found.append(np.stack((p, limit * p, gammas[k])))
+        `kernel` is that of `cauchy` from the second rule to the first.
+        """
+        loads = [self.question.slope(at.x) * at.weight for at in rules]
+        known = [self._in_stick(*pair) for pair in zip(rules, across(kernel, loads), strict=True)]
+        sources = [p * at.weight / self.chi(at) for at, (p, _) in zip(rules, known, strict=True)]
+        found, flows = [], across(kernel, sources)
+        for at, (stuck, gamma), flow in zip(rules, known, flows, strict=True):
+            p = np.where(self.sticks(at), stuck, self._in_slip(at, flow))
+            limit = self.pieces.sign[at.zone] * self.question.friction
+            found.append(np.stack((p, limit * p, gamma)))
         return found
+
+    def _in_stick(self, at: Places, flow: Array) -> tuple[Array, Array]:
+        """μ χ, which is p in stick, and γ there, from PV∫H1/(x - t) dt/π."""
+        question, sticks, D = self.question, self.sticks(at), self.beside.weight * self._solved.D
+        mass, gamma = (
+            -math.cos(math.pi * question.theta) * question.slope(at.x),
+            np.zeros(len(at.x)),
+        )
+        stuck = at.chosen(sticks)
+        gamma[sticks] = question.gamma(stuck.x)
+        A = -flow[sticks] - self.cauchy(stuck, self.beside) @ D
+        mass[sticks] = (A - question.beta * gamma[sticks]) / (1.0 - question.beta**2)
+        return mass, gamma
 
     def root(self, at: Places) -> Array:
         """ω in slip; in stick, where ω is imaginary, i ω above the contact."""
@@ -215,25 +207,25 @@ class State:
     @cached_property
     def shear_halfway(self) -> Array:
         """q on the nodes halfway."""
-        at, question = self.halfway, self.question
-        flow, H1 = self.chi(at) * self.psi(at), question.slope(at.x)
+        at, question, flow = self.halfway, self.question, self._solved.flow
         limit = self.pieces.sign[at.zone] * question.friction
-        slip = limit * self._in_slip(at, flow, H1)
-        values: Array = np.where(self.sticks(at), (flow - H1) / question.beta, slip)
+        stick = (self.chi(at) * flow - question.slope(at.x)) / question.beta
+        values: Array = np.where(self.sticks(at), stick, limit * self._in_slip(at, flow))
         return values
 
-    def _in_slip(self, at: Places, flow: Array, H1: Array) -> Array:
-        """p in slip by χ Ψ."""
-        kappa = self.pieces.sign[at.zone] * self.question.beta * self.question.friction
-        cos = math.cos(math.pi * self.question.theta)
-        values: Array = cos * flow - kappa * H1 / (1.0 + kappa**2)
+    def _in_slip(self, at: Places, flow: Array) -> Array:
+        """p in slip by Ψ."""
+        question, H1 = self.question, self.question.slope(at.x)
+        kappa = self.pieces.sign[at.zone] * question.beta * question.friction
+        cos = math.cos(math.pi * question.theta)
+        values: Array = cos * self.chi(at) * flow - kappa * H1 / (1.0 + kappa**2)
         return values
 
     @cached_property
     def missed(self) -> Array:
         """What moments, P and Q miss, as parts of P and of f P; 0 for the right zones."""
         question, n = self.question, self.pieces.slip_zones
-        arm, mass = self._arm(self.nodes), self._solved[0]
+        arm, mass = self._arm(self.nodes), self._solved.mass
         moments = np.array([mass @ arm**k for k in range(n + 1)]) / question.P
         moments[n] -= 1.0
         Q = float(self.halfway.weight @ self.shear_halfway)
@@ -241,8 +233,8 @@ class State:
 
     # -- rates -------------------------------------------------------------------------------------
 
-    def rates(self, dQ: float, strain: float) -> Rates:
-        """The rates of p, q and γ with these zones while Q grows by dQ and γ by strain in stick.
+    def rates(self, dQ: float, strain: float) -> tuple[Places, Array]:
+        """Places that slip, and the rate of γ there, while Q grows by dQ and γ in stick by strain.
 
         All ends e move, so that exponents are smaller by 1: F = χ (Ψ + polynomial)/Π(z - e), the
         polynomial of the degree n - 2 as P is constant.
@@ -259,7 +251,7 @@ class State:
         places = at.chosen(~sticks)
         A = -self.cauchy(places, eta) @ (eta.weight * chi_beside * (D @ mixed))
         gamma = (A - (1.0 - beta**2) * (slipping[~sticks] @ mixed)) / beta
-        return Rates(places, gamma)
+        return places, gamma
 
     def _rates_solved(self, at: Places, eta: Places, chi_beside: Array) -> tuple[Array, Array]:
         """F/χ at places in contact, and D/χ beside it, of the polynomial 1 and of γ = 1 in stick.
@@ -283,7 +275,7 @@ class State:
 
     def pressure_in_slip(self, at: Places) -> Array:
         """p at places in slip half a step from the nodes."""
-        return self._in_slip(at, self.chi(at) * self.psi(at), self.question.slope(at.x))
+        return self._in_slip(at, self.psi(at))
 
     def _chi_of_rates(self, at: Places, beside: bool = False) -> Array:
         n = self.pieces.slip_zones
@@ -293,8 +285,19 @@ class State:
         return values
 
 
-class Rates(NamedTuple):
-    """The rate of γ at places that slip."""
+class Solved(NamedTuple):
+    """What the integral equation gives.
 
-    at: Places
-    gamma: Array
+    mass    μ times weights on the nodes
+    D       D beside the contact
+    flow    PVΨ on the nodes halfway
+    """
+
+    mass: Array
+    D: Array
+    flow: Array
+
+
+def across(kernel: Array, masses: Sequence[Array]) -> tuple[Array, Array]:
+    """PV integrals of masses on each of two rules, at the places of the other one."""
+    return kernel @ masses[1], -(masses[0] @ kernel)

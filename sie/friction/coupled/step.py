@@ -12,14 +12,26 @@ import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .fields import Fields, cumulative, summed
-from .pieces import Places
-from .search import Carried, Zones, cuts_between, settled, zones_between, zones_of, zones_on_cells
-from .state import Question, State
+from .search import (
+    ROUGHLY,
+    Carried,
+    Zones,
+    cuts_between,
+    settled,
+    zones_between,
+    zones_of,
+    zones_on_cells,
+)
+
+if TYPE_CHECKING:
+    from .pieces import Places
+    from .state import Question, State
 
 Array = NDArray[np.float64]
 
@@ -146,7 +158,7 @@ class Loaded:
                 change = gamma[sticks] - self.fields.gamma(at.x[sticks]) - (strain - self.strain)
                 if float(np.abs(change).max()) <= TOLERATED * float(np.abs(gamma).max()):
                     step = Q - self.Q, strain - self.strain
-                    base = self.before if self.turned_from(turn) else self
+                    base = self if self.before is turn else self.before
                     return replace(turn, step=step, base=base)
         return None
 
@@ -158,10 +170,6 @@ class Loaded:
             found.append(turn)
             turn = turn.before
         return tuple(found)
-
-    def turned_from(self, turn: Loaded) -> bool:
-        """Whether the loads are on their way back to that state already."""
-        return self.before is not turn
 
     def within(self, other: Loaded) -> bool:
         """Whether only what stuck there sticks."""
@@ -176,6 +184,25 @@ class Loaded:
         return self.question._replace(
             friction=self.friction, Q=Q, gamma=lambda x: gamma(x) + change
         )
+
+    @property
+    def first(self) -> Loaded:
+        """The state under P alone."""
+        return self.before.first if self.before is not None else self
+
+    @cached_property
+    def _sliding(self) -> dict[int, Fields | None]:
+        return {}
+
+    def sliding(self, sign: int) -> Fields | None:
+        """The fields, roughly, of full sliding under the same P, which no history matters to."""
+        first = self.first
+        if sign not in first._sliding:
+            question = first.asked(sign * self.friction * self.question.P, 0.0)
+            start = zones_between(first.zones.ends[[0, -1]], (sign,))
+            state = settled(question, start, (), ROUGHLY)
+            first._sliding[sign] = Fields(state) if state is not None else None
+        return first._sliding[sign]
 
     @cached_property
     def verdict(self) -> Verdict:
@@ -231,8 +258,8 @@ def verdict(after: Loaded) -> Verdict:
         change[touched] = gamma[touched] - before.fields.gamma(at.x[touched])
         change[touched] -= after.strain - before.strain
         slip = least_along(after.state, at.chosen(touched), change[touched])
-        rates = after.state.rates(*after.step)
-        rate = least_along(after.state, rates.at, rates.gamma - after.step[1])
+        slips, growth = after.state.rates(*after.step)
+        rate = least_along(after.state, slips, growth - after.step[1])
     return Verdict(deficit, float(p.min()) / peak, slip, rate)
 
 
@@ -266,10 +293,10 @@ def guess(base: Loaded, Q: float, strain: float) -> Zones | None:
         sign = 1 if dQ > 0.0 else -1
         limit = sign * base.friction * P
         part = dQ / (limit - base.Q)
-        sliding = settled(base.asked(limit, strain), zones_between(old, (sign,)), ())
+        sliding = base.sliding(sign)
         if sliding is not None:
             states = [(1.0 - part, base.fields, old)]
-            states.append((part, Fields(sliding), sliding.pieces.ends))
+            states.append((part, sliding, sliding.state.pieces.ends))
     x1, x2 = np.sum([part * ends for part, _, ends in states], axis=0).tolist()
     cuts = cuts_between(x1, x2)
     x = 0.5 * (cuts[1:] + cuts[:-1])
@@ -282,7 +309,7 @@ def guess(base: Loaded, Q: float, strain: float) -> Zones | None:
     carried = Carried(cuts, base.friction * p, q)
     found = zones_on_cells(carried, dQ, strain - base.strain)
     if found is None:
-        return nearly_sliding(base, Q, sliding) if sliding is not None else None
+        return nearly_sliding(base, (Q, strain), sliding) if sliding is not None else None
     return kept_within(found, base.zones, abs(dQ) / (base.friction * P))
 
 
@@ -302,20 +329,21 @@ def beyond_marks(near: Zones | None, marks: tuple[float, ...]) -> Iterator[Zones
         yield zones_between(np.array([x1, first, last, x2]), near.signs)
 
 
-def nearly_sliding(base: Loaded, Q: float, sliding: State) -> Zones | None:
+def nearly_sliding(base: Loaded, loads: tuple[float, float], sliding: Fields) -> Zones | None:
     """Zones of a Q next to sliding: what slips least then sticks, over a length like a root."""
-    (sign,), question = sliding.pieces.signs, sliding.question
-    lo, hi = sliding.pieces.ends
+    question, (sign,) = base.asked(*loads), sliding.state.pieces.signs
+    lo, hi = sliding.state.pieces.ends
     x = lo + (hi - lo) * np.linspace(0.0, 1.0, 203)[1:-1]
     x = x[(x > base.zones.ends[0]) & (x < base.zones.ends[-1])]
-    slips = sign * (Fields(sliding).gamma(x) - question.gamma(x))
+    slips = sign * (sliding.gamma(x) - question.gamma(x))
     k = int(np.argmin(np.cumsum((slips[1:] + slips[:-1]) * np.diff(x)))) + 1
     k = k if slips[k] > 0.0 else min(k + 1, len(x) - 1)
     rise = (slips[k] - slips[k - 1]) / (x[k] - x[k - 1])
     if rise <= 0.0:
         return None
     x0 = float(np.clip(x[k] - slips[k] / rise, x[0], x[-1]))
-    half = math.sqrt(2.0 * abs(question.Q - Q) / (math.pi * rise))
+    left = sign * base.friction * question.P - question.Q
+    half = math.sqrt(2.0 * abs(left) / (math.pi * rise))
     ends = np.array([lo, max(x0 - half, 0.5 * (lo + x0)), min(x0 + half, 0.5 * (hi + x0)), hi])
     return zones_between(ends, (sign, 0, sign))
 

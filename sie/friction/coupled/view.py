@@ -10,21 +10,16 @@ from numpy.typing import ArrayLike, NDArray
 
 from sie.contact.known_contact import Edges
 from sie.numerics.interval import Interval
-from sie.profiles.base import Profile
-from sie.traction.base import FAR_AWAY, on_line, zero_or_nan
-from sie.traction.in_contact import InContact
+from sie.traction.base import FAR_AWAY, InContact, on_line, zero_or_nan
 
-from .step import Loaded
 from .traction import EDGE, REACH, OnPieces, Piece, places, tabulated
 
 if TYPE_CHECKING:
-    pass
+    from sie.profiles.base import Profile
+
+    from .step import Loaded
 
 Array = NDArray[np.float64]
-
-LEAST = 1e-300
-ONE = 1e-13  # of the contact: marks that are nearer are one
-PRESSED = 1e-9  # of P: what the state of the normal load may miss
 
 
 class View:

@@ -13,6 +13,7 @@ from bisect import insort
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import pairwise
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,8 +21,10 @@ from numpy.typing import NDArray
 from sie.errors import ContactError
 
 from .search import ROUGHLY, Zones, passing, settled, zones_of
-from .state import Question, State
 from .step import Loaded, guess, slip_along
+
+if TYPE_CHECKING:
+    from .state import Question, State
 
 Array = NDArray[np.float64]
 
@@ -214,9 +217,9 @@ class Way:
 
 def power(state: State, dQ: float, strain: float) -> float:
     """∫ f p |dg| dx of a rate."""
-    rates = state.rates(dQ, strain)
-    slip = slip_along(state, rates.at, rates.gamma - strain)
-    lost = rates.at.weight * state.question.friction * state.pressure_in_slip(rates.at) * slip
+    at, growth = state.rates(dQ, strain)
+    slip = slip_along(state, at, growth - strain)
+    lost = at.weight * state.question.friction * state.pressure_in_slip(at) * slip
     if lost[lost < 0.0].sum() < -TURNED * lost.sum():
         raise _unknown()
     return float(lost.sum())

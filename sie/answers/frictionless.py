@@ -13,23 +13,22 @@ from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
-from .contact.convexity import may_have_merged, rises, rises_beside, turns_away
-from .contact.known_contact import Normal
-from .contact.normal import by_pieces, not_one_patch, of_one_patch, one_series
-from .contact.pressure import pressure
-from .contact.window import window_of
-from .errors import ContactError
-from .problem.request import ECONOMY
-from .profiles.lowest_points import lowest_points
-from .profiles.placed_traces import explained, smoothing_remedy
-from .profiles.row import asks_for_patches
+from sie.contact.convexity import may_have_merged, rises, rises_beside, turns_away
+from sie.contact.known_contact import Normal
+from sie.contact.normal import by_pieces, not_one_patch, of_one_patch, one_series
+from sie.contact.pressure import pressure
+from sie.contact.window import window_of
+from sie.errors import ContactError
+from sie.problem.request import ECONOMY
+from sie.profiles.lowest_points import lowest_points
+from sie.profiles.placed_traces import explained, smoothing_remedy
 
 if TYPE_CHECKING:  # patches are imported where one patch is no answer
-    from .patches.answer import SeveralPatches
-    from .patches.full import FullContact
-    from .problem.scene import Scene
-    from .profiles.slope import Slope
-    from .traction.of_slope import SlopeDensity
+    from sie.patches.answer import SeveralPatches
+    from sie.patches.full import FullContact
+    from sie.problem.scene import Scene
+    from sie.profiles.slope import Slope
+    from sie.traction.of_slope import SlopeDensity
 
 # of a patch: the pressure on more of them is more exact as that of several patches
 MOST_PANELS = 128
@@ -76,7 +75,7 @@ class Frictionless:
     def rises(self) -> bool:
         """Whether the slope rises from place to place of the indenter."""
         profile, series = self.scene.profile, self._of_one_series
-        if asks_for_patches(profile):
+        if profile.of_several:
             return False
         if series is not None:
             contact = series.edges.contact
@@ -87,13 +86,13 @@ class Frictionless:
     @property
     def _in_patches(self) -> Normal | SeveralPatches | FullContact:
         """The contact as patches; as one patch where a profile without walls touches in one."""
-        from .patches.answer import several_patches
+        from sie.patches.answer import several_patches
 
         slope = self.scene.profile.pieces.tilted(self.scene.tilt)
         if not slope.functions and self.scene.moment is None:
             lowest_points(slope)  # raises LoadError where there are none, and no contact
         found = several_patches(self.scene)
-        if asks_for_patches(self.scene.profile) or len(found.patches) > 1:
+        if self.scene.profile.of_several or len(found.patches) > 1:
             return found
         patch = cast("SeveralPatches", found)  # a contact without edges is periodic
         panels = len(patch.found.operator.panels.piece)
@@ -155,7 +154,7 @@ class Frictionless:
 
         ContactError if no patches are certified.
         """
-        from .patches.answer import several_patches
+        from sie.patches.answer import several_patches
 
         return several_patches(self._without_shear(load, tilt))
 

@@ -1,6 +1,6 @@
-"""A scene as the tables of a scene file, values for JSON, and the scene of such tables.
+"""A scene as the tables of a scene file, values for JSON, and the arguments of a scene from them.
 
-The tables are what `scene_file` reads: reading them gives an equal scene, to the last digit. The
+Reading the tables of a scene gives an equal one, to the last digit. The
 heights of a trace stand in the tables, not the name of its file.
 
 >>> from sie import Parabola, Scene
@@ -13,14 +13,13 @@ from __future__ import annotations
 import inspect
 from collections.abc import Mapping
 from dataclasses import fields
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from sie.problem.material import Body, Elastic
-from sie.problem.scene import Scene
-from sie.profiles.base import Profile
-from sie.profiles.derived import Placed, parts_of
+from sie.problem.material import RIGID, Body, Elastic
+from sie.profiles.base import Placed, Profile, parts_of
 from sie.profiles.expression import Expression
 from sie.profiles.from_function import FromFunction
 from sie.profiles.kinds import KINDS
@@ -29,8 +28,8 @@ from sie.profiles.row import Periodic, Row
 from sie.profiles.sampled import Sampled
 from sie.profiles.shapes import Wedge
 
-from .scene_file import from_tables
-from .scene_keys import TABLES
+from .profile_tables import Files, profile_of
+from .scene_keys import TABLES, TOP, naming, remedy, require, values_of
 
 Tables = dict[str, Any]
 
@@ -45,20 +44,78 @@ HELD_BY: Mapping[type, Mapping[str, str]] = {
 }
 
 
-def scene_of(tables: Mapping[str, Any]) -> Scene:
-    """The scene of tables. ValueError for none, or for a path of loads."""
+def arguments_of(tables: Mapping[str, Any]) -> dict[str, Any]:
+    """The arguments of the scene of tables. ValueError for none, or for a path of loads."""
     if not isinstance(tables, Mapping):
         raise ValueError(f"{tables!r} are no tables: give a dict, like that of Scene.to_dict()")
     try:
-        file = from_tables(_with_infinities(tables))
+        top = _with_infinities(tables)
+        refuse_no_question(top)
+        loads = values_of("load", top)
+        if "path" in loads:
+            raise ValueError(
+                "[load] has a path, which is more than one scene: give normal_load, "
+                "tangential_load and bulk_stress, or read the file by sie.io.scene_file"
+            )
+        beside = Files(Path(), values_of("units", top).get("length", ""))
+        return indenter_and_bodies(top, beside) | loads
     except RecursionError:
         raise ValueError("the tables are nested too deeply for those of a scene") from None
-    if file.load_path:
+
+
+def refuse_no_question(top: Tables) -> None:
+    """ValueError for a table that is not known, and where there is no profile or load."""
+    for key in top:
+        if key not in TOP:
+            raise ValueError(f'there is no key or table "{key}": {remedy(key, TOP, "")}')
+    for name, content in (
+        ("profile", 'kind = "parabola" or another'),
+        ("load", "normal_load or half_width"),
+    ):
+        if name not in top:
+            raise ValueError(f"there is no [{name}]: give [{name}] with {content}")
+
+
+def indenter_and_bodies(top: Tables, beside: Files) -> dict[str, Any]:
+    """The profile, and body and indenter, or modulus, dundurs and poisson."""
+    return {"profile": profile_of(top["profile"], beside), **_bodies(top)}
+
+
+def _bodies(top: dict[str, Any]) -> dict[str, Any]:
+    """The scene's body and indenter, or modulus, dundurs and poisson."""
+    pair = values_of("pair", top)
+    named = [name for name in ("body", "indenter") if name in top]
+    if "pair" in top and named and not pair.keys() <= {"dundurs", "coupling"}:
         raise ValueError(
-            "[load] has a path, which is more than one scene: give normal_load, tangential_load "
-            "and bulk_stress, or read the file by sie.io.scene_file"
+            f"both [pair] and [{named[0]}] are given: [pair] stands for both bodies, leave one "
+            "out; or give dundurs = 0 or coupling alone in it"
         )
-    return file.scene
+    if "body" not in top:
+        if "pair" not in top:
+            raise ValueError(
+                "there is neither [body] nor [pair]: "
+                "give [body] with young and poisson, or [pair] with modulus"
+            )
+        require("[pair]", pair, ["modulus"])
+    return {name: _read_body(name, top) for name in named} | pair
+
+
+def _read_body(name: str, top: dict[str, Any]) -> Body:
+    if isinstance(top[name], str):
+        if top[name] != "rigid":
+            raise ValueError(
+                f'{name} = "{top[name]}" is not known: '
+                f'write {name} = "rigid", or a table [{name}] with young and poisson'
+            )
+        return RIGID
+    values = values_of(name, top)
+    if values.pop("rigid", False):
+        if values:
+            raise ValueError(f"[{name}] is rigid and has {', '.join(values)}: leave one out")
+        return RIGID
+    require(f"[{name}]", values, ("young", "poisson"))
+    with naming(f"[{name}]"):
+        return Elastic(**values)
 
 
 def _with_infinities(value: Any) -> Any:
@@ -75,8 +132,8 @@ def _with_infinities(value: Any) -> Any:
     return float(value) if isinstance(value, str) and value in INFINITIES else value
 
 
-def tables_of(scene: Scene) -> Tables:
-    """The tables of a scene. ValueError if a scene file cannot name its profile."""
+def tables_of(scene: Any) -> Tables:
+    """The tables of a `Scene`. ValueError if a scene file cannot name its profile."""
     both = ((f, getattr(scene, f.name)) for f in fields(scene))
     given = {f.name: value for f, value in both if value != f.default}
     if scene.modulus is not None and scene.beta == 0.0:

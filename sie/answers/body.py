@@ -8,12 +8,11 @@ from typing import TYPE_CHECKING
 
 from numpy.typing import ArrayLike
 
-from .errors import ContactError
-from .problem.material import Elastic
-from .problem.request import refuse_unknown_poisson
-from .sheared import Sheared
-from .stress.half_plane import Stress, Tractions
-from .stress.yield_limit import (
+from sie.errors import ContactError
+from sie.problem.material import Elastic
+from sie.problem.request import refuse_unknown_poisson
+from sie.stress.half_plane import Stress, Tractions
+from sie.stress.yield_limit import (
     Criterion,
     Peak,
     YieldPoint,
@@ -21,15 +20,19 @@ from .stress.yield_limit import (
     peak_tension,
     refuse_unknown_criterion,
 )
-from .traction.combination import scaled
+from sie.traction.combination import scaled
 
 if TYPE_CHECKING:
-    from .cracks.edge_intensity import EdgeIntensity
-    from .io.boundary_data import BoundaryData
-    from .stress.displacement import Displacement
+    from sie.cracks.edge_intensity import EdgeIntensity
+    from sie.io.boundary_data import BoundaryData
+    from sie.stress.displacement import Displacement
+
+    from .sheared import Sheared as Stages  # a part of a solution, which has the stages
+else:
+    Stages = object
 
 
-class StressAnswers(Sheared):
+class BodyAnswers(Stages):
     """What a solution answers about the body below the surface, and next to the edges."""
 
     @cached_property
@@ -139,7 +142,7 @@ class StressAnswers(Sheared):
         >>> bool(abs(above.y - below.y - scene.profile.height(x)) < 1e-15)
         True
         """
-        from .stress.displacement import displacement_of  # what is not asked for is not imported
+        from sie.stress.displacement import displacement_of  # what is not asked for is not imported
 
         return displacement_of(self, x, y, body, zero=zero, rotation=rotation)
 
@@ -194,8 +197,8 @@ class StressAnswers(Sheared):
         >>> round(data.resultant[1], 10)
         -500.0
         """
-        from . import __version__
-        from .io.boundary_data import asked_places, boundary_data  # a higher layer
+        from sie import __version__
+        from sie.io.boundary_data import asked_places, boundary_data  # a higher layer
 
         places = asked_places(points, box, spacing, kind)
         about = f"sie {__version__}: {kind} in the {body}", repr(self.scene)
@@ -299,7 +302,7 @@ class StressAnswers(Sheared):
                 f"contact in {len(self.patches)} patches: what sticks at one edge depends on all; "
                 "give the profile of one patch and its load"
             )
-        from .cracks.edge_intensity import edge_intensity
+        from sie.cracks.edge_intensity import edge_intensity
 
         left = side == "left"
         loads = self.tangential_load, self.scene.tau

@@ -12,31 +12,32 @@ from dataclasses import fields, replace
 from functools import cached_property, partial
 from typing import TYPE_CHECKING, Any, cast
 
-from .contact.known_contact import Edges, Normal
-from .contact.normal import contact_under
-from .contact.pressure import pressure
-from .errors import InequalityError
+from sie.contact.known_contact import Edges, Normal
+from sie.contact.normal import contact_under
+from sie.contact.pressure import pressure
+from sie.errors import InequalityError
+from sie.problem.coverage import held_moment
+from sie.problem.request import sheared
+from sie.problem.scene import Scene
+from sie.traction.combination import ZERO, scaled
+from sie.traction.of_slope import SlopeDensity
+
 from .frictionless import Frictionless
-from .problem.coverage import held_moment
-from .problem.request import sheared
-from .problem.scene import Scene
-from .traction.combination import ZERO, scaled
-from .traction.of_slope import SlopeDensity
 
 if TYPE_CHECKING:  # what a stage needs is imported when it is computed
-    from .cauchy.density import JacobiDensity
-    from .certificate.result import Certificate, ShearCertificate
-    from .friction.coupled.answer import LoadedContact
-    from .friction.coupled.pressed import Pressed
-    from .friction.coupled.traction import OnPieces
-    from .friction.full_stick import Component
-    from .friction.slip_state import Slip, Step
-    from .numerics.interval import Interval
-    from .patches.answer import SeveralPatches
-    from .patches.friction import PatchesUnder
-    from .patches.full import FullContact
-    from .patches.result import PatchCertificate
-    from .traction.base import Density
+    from sie.cauchy.density import JacobiDensity
+    from sie.certificate.result import Certificate, ShearCertificate
+    from sie.friction.coupled.answer import LoadedContact
+    from sie.friction.coupled.pressed import Pressed
+    from sie.friction.coupled.traction import OnPieces
+    from sie.friction.full_stick import Component
+    from sie.friction.slip_state import Slip, Step
+    from sie.numerics.interval import Interval
+    from sie.patches.answer import SeveralPatches
+    from sie.patches.friction import PatchesUnder
+    from sie.patches.full import FullContact
+    from sie.patches.result import PatchCertificate
+    from sie.traction.base import Density
 
 FIELDS = frozenset(f.name for f in fields(Scene))
 # The fields and properties of a scene that each stage depends on.
@@ -72,8 +73,8 @@ class Sheared(Frictionless):
         """The same; of dissimilar bodies that slide one patch, whose inequalities are verified."""
         if not self.scene.epsilon:
             return super()._not_convex
-        from .certificate.pressure_check import certificate
-        from .contact.gap import TOLERATED, shown
+        from sie.certificate.pressure_check import certificate
+        from sie.certificate.result import TOLERATED, shown
 
         found = self.unverified
         density = pressure(found, self.scene, self.tol, self.economy)
@@ -93,7 +94,7 @@ class Sheared(Frictionless):
     @cached_property
     def bonded(self) -> tuple[Edges, JacobiDensity]:
         """The edges of a flat punch in full stick, and p + i q."""
-        from .friction.full_stick import full_stick_contact
+        from sie.friction.full_stick import full_stick_contact
 
         return full_stick_contact(self.scene, self.tol)
 
@@ -115,7 +116,7 @@ class Sheared(Frictionless):
     @cached_property
     def pressed(self) -> tuple[Edges, Pressed]:
         """The same under the normal load alone."""
-        from .friction.coupled.normal import coupled_contact
+        from sie.friction.coupled.normal import coupled_contact
 
         scene = self._upright
         if not scene.profile.convex:
@@ -137,7 +138,7 @@ class Sheared(Frictionless):
     @cached_property
     def locked_in(self) -> LoadedContact:
         """The same with what it locks in, from which Q and bulk stress lead to other states."""
-        from .friction.coupled.answer import pressed_contact
+        from sie.friction.coupled.answer import pressed_contact
 
         return pressed_contact(self.pressed[1])
 
@@ -166,7 +167,7 @@ class Sheared(Frictionless):
             If the profile carries no such load.
         """
         if self.scene.bonded:
-            from .friction.full_stick import Component
+            from sie.friction.full_stick import Component
 
             return Component(self.normal_and_shear, imaginary=False)
         _ = self.normal
@@ -212,12 +213,12 @@ class Sheared(Frictionless):
         if Q exceeds f P, or no zones of stick and slip meet all conditions.
         """
         if self._several is None:
-            from .friction.partial_slip import slip
+            from sie.friction.partial_slip import slip
 
             step = self.load_step(*loads, near)
             if self.convex or self._sticks_in_one_patch(step):
                 return slip(step, one_sign)
-        from .patches.friction import PatchSlip
+        from sie.patches.friction import PatchSlip
 
         state = PatchSlip(self.scene, self.in_patches, loads, under)
         _ = state.corrective
@@ -225,7 +226,7 @@ class Sheared(Frictionless):
 
     def _sticks_in_one_patch(self, step: Step) -> bool:
         """Whether the stick zone of slip in one direction is one patch; there may be none."""
-        from .friction.partial_slip import corrective_loads
+        from sie.friction.partial_slip import corrective_loads
 
         f, Q = self.scene.friction, step.Q
         slides = not 0.0 < abs(Q) < f * step.normal_load
@@ -251,7 +252,7 @@ class Sheared(Frictionless):
         `near` is a stick zone that may be close to the one sought. It saves work, and does not
         change the answer.
         """
-        from .friction.slip_state import Step
+        from sie.friction.slip_state import Step
 
         scene, tol, economy, normal = self.scene, self.tol, self.economy, self.as_one_patch
         under: Callable[[float, float], Normal] = partial(
@@ -273,22 +274,22 @@ class Sheared(Frictionless):
     def certificate(self) -> Certificate | PatchCertificate:
         """The certificate that `check` returns, measured once."""
         if self.scene.bonded:
-            from .certificate.coupled_check import full_stick_certificate
+            from sie.certificate.coupled_check import full_stick_certificate
 
             return full_stick_certificate(
                 self.normal.edges, self.normal_and_shear, self.scene, self.tol
             )
         if self.scene.coupled:
-            from .certificate.coupled_check import coupled_certificate
+            from sie.certificate.coupled_check import coupled_certificate
 
             return coupled_certificate(self.coupled[1], self._upright, self.tol)
         others = self.tangential.contacts if self.sheared else ()
         if others or self._several is not None:
-            from .patches.result import worst_of
+            from sie.patches.result import worst_of
 
             each = [c.certificate(self.tol) for c in (self.in_patches, *others)]
             return replace(worst_of(each), shear=self._shear_certificate(each))
-        from .certificate.pressure_check import certificate
+        from sie.certificate.pressure_check import certificate
 
         found = certificate(self.slope_density, self._slope, self.tol)
         return replace(found, shear=self._shear_certificate())
@@ -299,7 +300,7 @@ class Sheared(Frictionless):
         """The certificate of the shear, on several patches with those of its pressures."""
         if not self.sheared:
             return None
-        from .certificate.shear_check import shear_certificate
+        from sie.certificate.shear_check import shear_certificate
 
         p: Density = self.pressure
         tol = min((c.tol for c in of_pressures), default=self.tol)
@@ -351,7 +352,7 @@ class Sheared(Frictionless):
             As for `pressure`; zero everywhere without friction.
         """
         if self.scene.bonded:
-            from .friction.full_stick import Component
+            from sie.friction.full_stick import Component
 
             return Component(self.normal_and_shear, imaginary=True)
         if self.scene.epsilon:

@@ -49,7 +49,7 @@ class DerivativeAnswers:
         >>> round(sie.solve(scene).derivative("profile.radius").half_width, 10)
         0.5240149793
         """
-        from sie.sensitivity.derivative import Derivative  # noqa: PLC0415 -- a higher layer
+        from sie.sensitivity.derivative import Derivative
 
         return Derivative(self, name)
 
@@ -82,7 +82,7 @@ class DerivativeAnswers:
         >>> round(sie.solve(scene).gradient("peak_pressure")["profile.radius"], 6)
         -0.282095
         """
-        from sie.sensitivity.gradient import gradient  # noqa: PLC0415 -- a higher layer
+        from sie.sensitivity.gradient import gradient
 
         return gradient(self, quantity)
 
@@ -108,6 +108,6 @@ class DerivativeAnswers:
         >>> round(spread.of("half_width"), 6)
         0.056419
         """
-        from sie.sensitivity.gradient import Uncertainty  # noqa: PLC0415 -- a higher layer
+        from sie.sensitivity.gradient import Uncertainty
 
         return Uncertainty(self, deviations)
