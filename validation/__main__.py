@@ -57,7 +57,7 @@ def parsed(arguments: Sequence[str] | None) -> argparse.Namespace:
     add = parser.add_argument
     topics = f"one topic (may be repeated): {', '.join(TOPICS)}"
     folder = Path("build/validation")
-    add("--quick", action="store_true", help="less of each topic: under 30 s")
+    add("--quick", action="store_true", help="less of each topic: about a minute")
     add("--only", choices=TOPICS, metavar="NAME", action="append", help=topics)
     add("--out", type=Path, default=folder, metavar="DIR", help="where the report goes")
     add("--readme", action="store_true", help="write the README's table anew from this run")

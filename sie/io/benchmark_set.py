@@ -66,7 +66,7 @@ def case_files(name: str, solved: Solver) -> dict[str, bytes]:
     """The content of the files of one case."""
     scene = (SET / f"{name}.toml").read_bytes()
     file = replace(parse(scene, f"{name}.toml"), want=WANT)
-    states = _states(solved(file))
+    states = _states(file, solved)
     solution = states[-1]
     curves, answer = csv_text(solution, file), json_text(solution, file)
     r = max(map(abs, solution.edges))
@@ -95,15 +95,15 @@ def case_files(name: str, solved: Solver) -> dict[str, bytes]:
     return encoded | _picture(solution, file)
 
 
-def _states(solution: Any) -> list[Any]:
+def _states(file: SceneFile, solved: Solver) -> list[Any]:
     """The states that a code has to lead through: bodies of one material press without friction."""
-    scene, history = solution.scene, list(solution.history or [solution])
+    solution, scene = solved(file), file.scene
+    history = list(solution.history or [solution])
     if not scene.friction or scene.coupled:
         return history
-    pressed = history[0].with_(
-        normal_load=history[0].normal_load, bulk_stress=0.0, **WITHOUT_FRICTION
-    )
-    return [pressed, *history]
+    P = history[0].normal_load
+    pressed = replace(scene, normal_load=P, half_width=None, bulk_stress=0.0, **WITHOUT_FRICTION)
+    return [solved(replace(file, scene=pressed, load_path=None)), *history]
 
 
 def _page(name: str, title: str, rows: list[tuple[str, str, str]], certificate: float) -> str:

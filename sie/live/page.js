@@ -44,20 +44,24 @@ function nameOf(values) {
 
 const kept = (values) => !page.answers || nameOf(values) in page.answers;
 
-// Why a slider that is at 0 cannot move, in words, or "".
+// Dissimilar bodies with friction: two patches have no answer; partial slip under a tilted punch
+// takes more than half a second.
+function barred(v) {
+  if (v.beta * v.friction === 0) return "";
+  if (v.shape === "two parabolas") return "not for two parabolas with friction and β ≠ 0";
+  const shifts = v.tilt === 0 || v.shape === "parabola" || Math.abs(v.share) === 1;
+  return shifts ? "" : "tilt with β ≠ 0 only where Q = ±f P";
+}
+
+// Why a slider cannot move, in words, or "".
 function obstacle(name, v) {
-  const coupled = v.beta !== 0 && v.friction > 0;
-  const shifts = v.shape === "parabola" || Math.abs(v.share) === 1; // tilt is no obstacle there
   if (name === "share" && v.friction === 0) return "no tangential load without friction";
-  if (name === "tilt" && v.tilt === 0 && coupled && !shifts) return "only with β = 0, or Q = ±f P";
-  if (name === "beta" && v.beta === 0 && v.friction > 0) {
-    if (v.shape === "two parabolas") return "not for two parabolas with friction";
-    if (v.tilt !== 0 && !shifts) return "only without tilt, or with Q = ±f P";
-  }
   const control = page.controls.find((c) => c.name === name);
   if (control.values.length < 2) return `always ${control.values[0]} here`;
-  const others = control.values.filter((value) => value !== v[name] && kept({ ...v, [name]: value }));
-  return others.length ? "" : "no other value is kept for these settings";
+  const moved = control.values.filter((value) => value !== v[name]).map((value) => ({ ...v, [name]: value }));
+  const bar = barred(v) ? "" : moved.map(barred).find((why) => why) ?? "";
+  if (bar) return bar;
+  return moved.some(kept) ? "" : "no other value is kept for these settings";
 }
 
 function shortened(value) {
@@ -355,6 +359,7 @@ function addControl(control) {
 function choose(event) {
   haunt("shape", event.timeStamp);
   if (element("shape").value === "two parabolas") set("beta", 0);
+  if (barred(setting())) set("tilt", 0);
   for (const name of ["beta", "bulk", "tilt"]) if (!kept(setting())) set(name, 0);
   update();
 }

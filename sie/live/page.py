@@ -21,8 +21,9 @@ KEPT = (
     "The answers for the sliders' steps are kept in this page; <code>sie live</code> solves "
     "everything between. "
 )
-IN_RADII = 'Lengths are in radii R, stresses in E*: see <a href="#letters">the symbols</a>.'
-OF_A_FILE = f"The first punch is that of the scene file, in its units. Of the others: {IN_RADII}"
+UNITS = 'lengths are in radii R, stresses in E*: see <a href="#letters">the symbols</a>.'
+IN_RADII = f"Here {UNITS}"
+OF_A_FILE = f"The first punch is that of the scene file, in its units; for the others, {UNITS}"
 HOME = '<nav><a href="index.html">Home: what this package computes</a></nav>'
 LOADS = "10⁻⁴ E* R"
 

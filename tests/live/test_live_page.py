@@ -334,7 +334,14 @@ def test_every_slider_moves_the_answer_by_the_keyboard(server, browser, width, s
         settled(page, lambda shape=shape: page.select_option("#shape", shape))
         assert page.inner_text("#status") == ""
     assert page.is_disabled("#beta")
-    assert page.inner_text("#beta-why") == "not for two parabolas with friction"
+    assert page.inner_text("#beta-why") == "not for two parabolas with friction and β ≠ 0"
+    settled(page, lambda: page.select_option("#shape", "wedge"))
+    moved(page, "beta")
+    assert page.inner_text("#tilt-why") == "tilt with β ≠ 0 only where Q = ±f P"
+    moved(page, "share", "End")
+    assert page.is_enabled("#tilt")
+    moved(page, "tilt")
+    assert page.is_disabled("#share")
     assert page.evaluate("document.documentElement.scrollWidth") <= width
     assert not page.mistakes
     page.close()

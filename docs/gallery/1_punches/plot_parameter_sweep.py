@@ -2,8 +2,9 @@
 A sweep over friction and tilt
 ==============================
 
-`sie.sweep` solves a grid of scenes and returns labelled arrays; chunks of neighbours share what
-does not change. Here: the edge tension over friction and tilt of a rounded punch.
+The largest tension beside a rounded punch under one Q: it rises with friction, and with a tilt that
+presses the trailing edge down. A sweep solves a grid of scenes and returns labelled arrays; chunks
+of neighbours share what does not change.
 """
 
 import matplotlib.pyplot as plt

@@ -2,9 +2,9 @@
 A chart of yield for a designer
 ===============================
 
-Which load makes a punch of a given flat and edge radius yield? Elasticity has no length of its own:
-the contact of E* = R = b = 1 says at which width every punch of its a/b yields. One table of a/b
-serves all radii.
+The load at which a punch of steel yields first grows with the flat part and with the radius of the
+edges. Elasticity has no length of its own: the contact of E* = R = b = 1 says at which width every
+punch of its a/b yields, so that one table of a/b serves all radii.
 """
 
 import matplotlib.pyplot as plt
