@@ -86,11 +86,7 @@ def kernel(x, t):
 @given(constants, between(-1.0, 1.0), between(0.5, 2.0), st.sampled_from(KINDS[1:3]))
 @example((1.5260179849842392, 0.3), 1.0, 1.5214466, KINDS[2])  # next to an eigenvalue
 def test_the_adjoint_equation_has_the_adjoint_solution(ab, m, r, ends):
-    """T φ = g and T' ψ = g', T' with -b, the kernel transposed and the other ends: then ∫ ψ g = ∫ φ
-    g', as sums of total and moment.
-
-    Where r is near that of an eigenvalue both are large, and have the error that they state.
-    """
+    """∫ ψ g = ∫ φ g'; where r is near that of an eigenvalue both have the error that they state."""
     a, b = ab
     interval = (m - r, m + r)
     phi = sie.CauchyEquation(

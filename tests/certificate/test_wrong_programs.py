@@ -18,14 +18,7 @@ from hypothesis import given
 import sie
 from sie.certificate import coupled_check
 from validation.cases import CASES, Case, solved
-from validation.wrong_programs.pressures import (
-    PUNCH,
-    SKEW,
-    Wrong,
-    WrongState,
-    closed_form,
-    root,
-)
+from validation.wrong_programs.pressures import PUNCH, SKEW, Wrong, WrongState, closed_form, root
 
 
 def certificate(scene, values=None, **claims):

@@ -1,8 +1,4 @@
-"""Where an edge lies on or beside a break of the slope: where h'' jumps, or h' itself.
-
-The truth is `validation.topics.kinks`: the conditions of the edges in 100 digits, with exact
-integrals of polynomial pieces.
-"""
+"""Edges on breaks of the slope, against conditions in 100 digits (validation.topics.kinks)."""
 
 from dataclasses import replace
 

@@ -5,18 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from history_cases import (
-    FALLING,
-    HERTZ,
-    LOPSIDED,
-    P0,
-    S,
-    f,
-    followed,
-    hertz_stick,
-    inside,
-    scaled,
-)
+from history_cases import FALLING, HERTZ, LOPSIDED, P0, S, f, followed, hertz_stick, inside, scaled
 
 import sie
 from sie.contact import edges

@@ -1,7 +1,4 @@
-"""Bulk stress and tilt that change with P and Q, on several patches and per period.
-
-A row of one profile is solved as several patches are, and has the answers of the profile.
-"""
+"""Bulk stress and tilt that change with P and Q; a row of one is solved as patches are."""
 
 import numpy as np
 import pytest
@@ -95,10 +92,7 @@ def test_two_patches_agree_with_a_mesh_that_knows_no_superposition(points):
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("profile", "A", "B"),
-    [
-        (EVEN, (1.0, 0.1, 0.01), (1.0, -0.1, -0.01)),
-        (TWO, (0.4, 0.06, 0.0), (0.34, -0.036, 0.0)),
-    ],
+    [(EVEN, (1.0, 0.1, 0.01), (1.0, -0.1, -0.01)), (TWO, (0.4, 0.06, 0.0), (0.34, -0.036, 0.0))],
     ids=["bulk stress", "P and Q"],
 )
 def test_a_steady_cycle_of_two_patches_is_that_of_the_path_that_settles(profile, A, B):

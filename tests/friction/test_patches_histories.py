@@ -1,7 +1,4 @@
-"""Friction on several patches and per period: one step, paths, cycles, energy.
-
-The mesh solver does not use superposition.
-"""
+"""Friction at constant normal load, on one patch, several ones and per period."""
 
 from functools import cache
 
@@ -134,10 +131,7 @@ def test_patches_that_have_merged_stick_in_several_zones():
 @settings(max_examples=4)
 @given(st.sampled_from(["row", "wavy punch", "merged patches", "period"]), st.integers(0, 999))
 def test_histories_agree_with_a_mesh_to_its_error(name, seed):
-    """First order: a third of the element, less than half of the error of q.
-
-    The error depends on where in an element a zone ends: three meshes of each size are averaged.
-    """
+    """First order, of three meshes each: the error depends on where in an element a zone ends."""
     scene = SCENES[name]
     turns = np.random.default_rng(seed).uniform(0.2, 0.9, 3) * [1.0, -0.8, 0.6]
     history = at_constant_load(scene, *turns)

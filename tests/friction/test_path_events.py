@@ -230,36 +230,3 @@ def test_certificate_and_plan_say_which_steps_are_followed_part_by_part():
     assert "followed part by part, as Q and bulk stress change in another" in str(
         history[1].check()
     )
-
-
-EVENTFUL = {
-    "an edge leaves slip behind": (
-        (sie.Parabola(1.0), 0.26),
-        ((0.7278, 0.0799, -0.1932), (0.913, 0.0072, -0.0347)),
-    ),
-    "slip stops at once, and the end advances": (
-        (sie.Power(3.0, 1.0), 0.211),
-        ((1.039, -0.083, 0.123), (1.144, -0.0097, 0.2936)),
-    ),
-    "slip begins at an earlier end": (
-        (sie.Polynomial((0.0, 0.0, 1.0, 0.3, 0.5)), 0.21),
-        ((0.709, -0.0118, 0.3296), (1.2695, -0.1937, 0.0021)),
-    ),
-    "an end comes to an edge that grows": (
-        (sie.RoundedFlat(0.5, 1.0), 0.2957),
-        ((1.3649, -0.2634, -0.006), (1.0912, -0.1271, 0.2176), (1.1953, 0.0552, 0.0308)),
-    ),
-}
-
-
-@pytest.mark.slow(but=1)
-@pytest.mark.parametrize(("body", "points"), EVENTFUL.values(), ids=EVENTFUL)
-def test_a_step_with_events_is_that_of_its_halves(body, points):
-    profile, friction = body
-    scene = sie.Scene(profile=profile, modulus=1.0, normal_load=1.0, friction=friction)
-    whole, halves = (sie.follow(scene, sie.Path(points).subdivided(n))[-1] for n in (1, 2))
-    x = inside(whole, 41)
-    assert whole.check().ok and halves.check().ok
-    assert np.ravel(whole.stick) == pytest.approx(np.ravel(halves.stick), abs=1e-9)
-    assert whole.shear(x) == pytest.approx(halves.shear(x), abs=1e-9)
-    assert whole.energy_lost == pytest.approx(halves.energy_lost, rel=1e-8)

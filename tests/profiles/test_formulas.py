@@ -1,7 +1,4 @@
-"""A formula given as text is arithmetic and nothing else: refused in one sentence, or evaluated.
-
-The work of either is bounded by the length of the text.
-"""
+"""A formula given as text is arithmetic, evaluated or refused with work bounded by its length."""
 
 import numpy as np
 import pytest
