@@ -120,17 +120,6 @@ def test_the_mirror_image_of_a_path_has_the_mirrored_answer(case):
         )
 
 
-@given(paths())
-def test_reversed_shear_and_bulk_stress_reverse_the_answer(case):
-    scene, path = case
-    if any(path.turns) or len({P for P, _, _ in path.points}) > 1:
-        return
-    back = sie.Path([(P, -Q, -sigma) for P, Q, sigma in path.points])
-    for one, other in zip(sie.follow(scene, path), sie.follow(scene, back), strict=True):
-        x = inside(one)
-        assert (other.shear(x) == -one.shear(x)).all()
-
-
 @settings(max_examples=3)
 @given(paths(KNOWN), st.integers(2, 4))
 def test_a_path_cut_into_parts_gives_the_same(case, parts):
