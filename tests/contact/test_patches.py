@@ -229,8 +229,11 @@ def test_the_wave_in_full_contact():
     assert not solution.gap(x).any()
 
 
+SHEARED = {"friction": 0.5, "tangential_load": 0.1}
+
+
 def test_the_shear_of_a_row_of_one_is_that_of_its_profile():
-    loads = {"normal_load": 0.4, "friction": 0.5, "tangential_load": 0.1, "bulk_stress": 0.05}
+    loads = {**SHEARED, "normal_load": 0.4, "bulk_stress": 0.05}
     one = solved(profile=sie.Parabola(1.0), **loads)
     row = solved(profile=sie.Row([sie.Parabola(1.0)]), **loads)
     x = np.linspace(-0.7, 0.7, 15)
@@ -245,14 +248,8 @@ def test_the_shear_of_a_row_of_one_is_that_of_its_profile():
     ("asked", "words"),
     [
         ({**SCENES["wave"], "moment": 0.1}, "leave out tilt and moment"),
-        (
-            {"profile": sie.Sampled([-1, 0, 1, 2], [1, 0, 0.5, 0]), "normal_load": 0.5},
-            "end of the trace",
-        ),
-        (
-            {**SCENES["wave"], "friction": 0.5, "tangential_load": 0.1, "bulk_stress": 0.1},
-            "no periodic answer",
-        ),
+        ({"profile": sie.Sampled([-1, 0, 1, 2], [1, 0, 0.5, 0])}, "end of the trace"),
+        ({**SCENES["wave"], **SHEARED, "bulk_stress": 0.1}, "no periodic answer"),
         ({**SCENES["row"], "friction": 0.5, "bulk_stress": 0.1}, "slip to either side"),
         ({**SCENES["row"], "friction": float("inf")}, "full stick"),
     ],
