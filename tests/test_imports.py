@@ -25,13 +25,7 @@ APART = {
 # From the ground up: a folder or a module at the top imports only from its own row and from rows
 # before it.
 LAYERS = (
-    (
-        "inheritance",
-        "errors",
-        "files",
-        "arguments",
-        "progress_bar",
-    ),
+    ("inheritance", "errors", "files", "arguments", "progress_bar"),
     ("numerics",),
     ("profiles",),
     ("problem", "traction"),

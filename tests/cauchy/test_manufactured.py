@@ -1,7 +1,4 @@
-"""Manufactured solutions of Cauchy equations: exponents, kernels, intervals and poles drawn at
-random.
-
-The reference (`oracles.manufactured`) is in 40 digits and uses no orthogonal polynomials."""
+"""Manufactured solutions of Cauchy equations; references are in 40 digits."""
 
 import mpmath
 import numpy as np
@@ -53,10 +50,7 @@ def test_a_manufactured_density_is_found_with_few_more_nodes_than_it_needs(probl
 
 
 def nodes_for(d, g):
-    """Twice as many as f and g need. Sizes grow by 1.45 until the last two coefficients are below a
-    tenth of the tolerance, one later than those of g for two singular ends: where few are needed,
-    the size after that may be more than twice.
-    """
+    """Twice as many as f and g need, or the size after that: sizes grow by 1.45."""
     enough, tenth = (max(needed([d], t)[0], needed([d], t, g)[0]) for t in (PROMISE, 0.1 * PROMISE))
     return max(2 * max(enough, 4), 1.45 * (tenth + 3) + 1)
 
@@ -100,23 +94,10 @@ def reach(d, z):
 @pytest.mark.parametrize("gap", [1e-1, 1e-3, 1e-6])
 @pytest.mark.parametrize(
     ("a", "ends"),
-    [
-        (0.0, KINDS[0]),
-        (0.3, KINDS[1]),
-        (0.2j, KINDS[0]),
-        (0.2, KINDS[3]),
-        (0.3, KINDS[0]),
-        (0.0, KINDS[3]),
-        (0.3, KINDS[2]),
-    ],
+    [(0.2j, KINDS[0]), *((a, ends) for a in (0.0, 0.3) for ends in KINDS)],
 )
 def test_next_to_a_narrow_gap_ten_digits_are_kept_and_the_error_is_stated(a, ends, gap, at):
-    """Bounded ends at the gap, too, where the density is far below its peak: its coefficient there
-    as well, at x = 0, where doubles resolve the gap.
-
-    The error is that of φ over its peak, singular ends divided out, to a factor of three; where g
-    varies across a gap, doubles x limit it.
-    """
+    """At bounded ends too, where φ is far below its peak; the error to a factor of three."""
     intervals, both = ((at - 1.0, at), (at + gap, at + 1.5)), (ends, ends[::-1])
     manufactured = [
         Manufactured(*i, *exponents(a, 1.0, e), p)
@@ -166,10 +147,7 @@ def test_far_from_zero_the_density_has_the_error_of_its_positions_and_states_it(
 
 @pytest.mark.parametrize("distance", [1.0, 1e-4, 1e-8])
 def test_near_an_eigenvalue_the_density_has_the_error_of_rounding_and_states_it(distance):
-    """k = c t has φ = A x/sqrt(1 - x²), A (1 + π/2 c) = 1: c is the nearer to an eigenvalue, the
-    less is left of 1 + π/2 c, and A has the error of rounding over what is left. No residual shows
-    it.
-    """
+    """k = c t has φ = A x/sqrt(1 - x²), A (1 + π/2 c) = 1; no residual shows the error of A."""
     c = -2.0 / np.pi * (1.0 - distance)
     density = sie.CauchyEquation(
         (-1.0, 1.0), 1.0, k=lambda x, t: c * t + 0.0 * x, total=0.0

@@ -6,6 +6,7 @@ the right one within 0.95 r of the centre, relative to the peak; the certificate
 must own up to at least a third of it.
 """
 
+from dataclasses import replace
 from functools import cache
 
 import laws
@@ -17,14 +18,7 @@ from hypothesis import given
 import sie
 from sie.certificate import coupled_check
 from validation.cases import CASES, Case, solved
-from validation.wrong_programs.pressures import (
-    PUNCH,
-    SKEW,
-    Wrong,
-    WrongState,
-    closed_form,
-    root,
-)
+from validation.wrong_programs.pressures import PUNCH, SKEW, Wrong, WrongState, closed_form, root
 
 
 def certificate(scene, values=None, **claims):
@@ -200,3 +194,10 @@ def test_a_traction_of_dissimilar_bodies_that_is_off_in_stick_is_caught(kind, ro
     off = OffBy(solution.coupled[1], row, size)
     found = coupled_check.coupled_certificate(off, solution.scene, 1e-13)
     assert found.ok == (not size)
+
+
+@pytest.mark.parametrize("kind", DISSIMILAR)
+def test_another_mismatch_of_dissimilar_bodies_is_caught(kind):
+    solution = answered(kind)
+    other = replace(solution.scene, dundurs=0.3001)
+    assert not coupled_check.coupled_certificate(solution.coupled[1], other, 1e-13).ok

@@ -147,11 +147,7 @@ def test_slip_of_the_rounded_flat_follows_from_its_shear(part: float) -> None:
 
 @pytest.mark.parametrize("part", [0.05, 0.4, 0.9])
 def test_energy_of_a_cycle_is_the_work_of_friction_on_the_slip(part: float) -> None:
-    """In a cycle each point of the slip zones slips there and back under q = f p: W = 4 ∫ f p s dx,
-    s of the whole range.
-
-    Slip from -Q to Q is twice that of a first loading to Q.
-    """
+    """W = 4 ∫ f p s dx; s from -Q to Q is twice that of a first loading to Q."""
     given = with_load(ROUNDED, part)
     shape = {name: given[name] for name in ("normal_load", "half_flat", "radius", "modulus")}
     rim, slip = rounded_flat.rim(**shape), cattaneo_rounded.slip_width(**given)
@@ -189,10 +185,6 @@ def test_cycles_close_and_reverse(module, given, friction: float) -> None:
         )
 
 
-SLID = {**HERTZ, "tangential_load": 0.35}
-PART = {**ROUNDED, "tangential_load": 0.05}
-
-
 def test_bulk_tension_that_reverses_slip_is_refused() -> None:
     given = with_load(HERTZ, 0.5)
     limit = cattaneo.slip_width(**given) * 8 * 0.3 * 2.0 / math.pi  # e = pi sigma b²/(8fP)
@@ -201,29 +193,23 @@ def test_bulk_tension_that_reverses_slip_is_refused() -> None:
         cattaneo.bulk_shear(0.0, **given, bulk_stress=-1.01 * limit)
 
 
+CYCLE = {"x": 0.0, **HERTZ, "largest_load": 0.4}
+REFUSED = [
+    *((function, {"x": 0.0, **given, "tangential_load": Q}, words)
+      for function, given in ((cattaneo.shear, HERTZ), (cattaneo_rounded.shear, ROUNDED))
+      for Q, words in ((0.7, r"exceeds friction \* normal_load = .*slide"),
+                       (-0.1, r"= -0\.1\d* is not zero or positive"))),
+    (cattaneo.unloading_shear, {**CYCLE, "tangential_load": 0.5}, "not between ± largest_load"),
+    (cattaneo.reloading_shear, {**CYCLE, "least_load": -0.1, "tangential_load": -0.2},
+     r"= -0\.2\d* is not between least_load = -0\.1"),
+    (cattaneo_rounded.loading_ratio,
+     {"half_flat": 0.5, "half_width": 1.0, "stick_half_width": 0.2},
+     r"stick_half_width = 0\.2\d* is not between half_flat = 0\.5"),
+]  # fmt: skip
+
+
 @pytest.mark.parametrize("lib", [np, coarse])
 def test_loads_that_slide_or_are_out_of_order_are_refused(lib) -> None:
-    for function, given in (
-        (cattaneo.shear, {"x": 0.0, **SLID}),
-        (cattaneo_rounded.shear, {"x": 0.0, **PART}),
-    ):
-        with pytest.raises(
-            ValueError, match=r"tangential_load = 0\.\d+ exceeds friction \* normal_load = .*slide"
-        ):
-            call(function, {**given, "tangential_load": 0.7}, lib=lib)
-        with pytest.raises(ValueError, match=r"tangential_load = -0\.1\d* is not zero or positive"):
-            call(function, {**given, "tangential_load": -0.1}, lib=lib)
-    with pytest.raises(
-        ValueError, match=r"tangential_load = 0\.5 is not between ± largest_load = 0\.4"
-    ):
-        cattaneo.unloading_shear(0.0, **HERTZ, largest_load=0.4, tangential_load=0.5, lib=lib)
-    with pytest.raises(
-        ValueError, match=r"tangential_load = -0\.2\d* is not between least_load = -0\.1"
-    ):
-        cattaneo.reloading_shear(
-            0.0, **HERTZ, largest_load=0.4, least_load=-0.1, tangential_load=-0.2, lib=lib
-        )
-    with pytest.raises(
-        ValueError, match=r"stick_half_width = 0\.2\d* is not between half_flat = 0\.5"
-    ):
-        cattaneo_rounded.loading_ratio(half_flat=0.5, half_width=1.0, stick_half_width=0.2, lib=lib)
+    for function, given, words in REFUSED:
+        with pytest.raises(ValueError, match=words):
+            call(function, given, lib=lib)

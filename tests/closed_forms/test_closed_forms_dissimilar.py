@@ -6,12 +6,7 @@ import numpy as np
 import pytest
 from closed_forms import EPS, call, coarse, short
 
-from analytic import (
-    bonded_flat,
-    sliding_flat,
-    sliding_hertz,
-    sliding_rounded_flat,
-)
+from analytic import bonded_flat, sliding_flat, sliding_hertz, sliding_rounded_flat
 
 COUPLINGS = [0.49, -1e-9, -0.3, 9.9]
 either_way = pytest.mark.parametrize("k", COUPLINGS)

@@ -1,8 +1,4 @@
-"""Spence's stick zone and the loads under power forms: literature of one's own, limits, the solver.
-
-The table is of a computation with 32 digits by the same equations; a second one, without exponents
-in the densities, agrees with it to 7e-12.
-"""
+"""Spence's stick zone and loads against other formulations, limits and the solver."""
 
 import math
 

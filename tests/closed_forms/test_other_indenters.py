@@ -120,12 +120,7 @@ def test_flat_tilt_and_moment_are_inverse(part: float) -> None:
     tilt = flat.tilt(**given, moment=M)
     assert tilt == pytest.approx(-4 * M / (math.pi * 5.0 * 4.0), rel=4 * EPS, abs=1e-300)
     assert flat.moment(**given, tilt=tilt) == pytest.approx(M, rel=4 * EPS, abs=1e-300)
-
-
-@given(st.floats(0.5, 0.999), st.sampled_from([-1, 1]))
-def test_partial_flat_tilt_and_moment_are_inverse(part: float, sign: int) -> None:
-    given = {"half_width": 2.0, "normal_load": 3.0, "modulus": 5.0}
-    M = sign * part * 6.0
+    M = math.copysign(3.0 + 2.9 * abs(part), part)  # a corner lifts off
     tilt = flat.partial_tilt(**given, moment=M)
-    assert tilt * sign < 0
-    assert flat.partial_moment(**given, tilt=tilt) == pytest.approx(M, rel=8 * EPS, abs=0)
+    assert tilt * M < 0
+    assert flat.partial_moment(**given, tilt=tilt) == pytest.approx(M, rel=8 * EPS)

@@ -1,8 +1,4 @@
-"""Where an edge lies on or beside a break of the slope: where h'' jumps, or h' itself.
-
-The truth is `validation.topics.kinks`: the conditions of the edges in 100 digits, with exact
-integrals of polynomial pieces.
-"""
+"""Edges on breaks of the slope, against conditions in 100 digits (validation.topics.kinks)."""
 
 from dataclasses import replace
 
@@ -10,6 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from scenes import scene
 
 import sie
 from sie.contact import edges
@@ -34,12 +31,8 @@ UNEQUAL = straight(
         [-1.209095426825833, 2.555887256164669], [-7.155678871675851, 5.895372269565693],
     ],
 )  # fmt: skip
-THIN_RIM = sie.Scene(
-    profile=FLAT.profile, modulus=1.0, normal_load=0.04299531364007295, tilt=0.02583284228002516
-)
-STEEP = sie.Scene(
-    profile=UNEQUAL.profile, modulus=1.0, normal_load=0.3357363415498418, tilt=-2.419532543582873
-)
+THIN_RIM = scene(FLAT.profile, normal_load=0.04299531364007295, tilt=0.02583284228002516)
+STEEP = scene(UNEQUAL.profile, normal_load=0.3357363415498418, tilt=-2.419532543582873)
 
 
 TINY = straight(

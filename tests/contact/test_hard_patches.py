@@ -202,21 +202,6 @@ def test_a_flat_in_a_bowl_is_at_its_own_height(distance, load):
     assert whole.check().ok
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("load", [1e-4, 1e-3])
-def test_a_moment_that_jumps_from_wave_to_wave_ends_the_search_for_one_patch(load, monkeypatch):
-    calls, original = [], sie.contact.normal._edges_at
-
-    def counted(*args, **given):
-        calls.append(1)
-        return original(*args, **given)
-
-    monkeypatch.setattr(sie.contact.normal, "_edges_at", counted)
-    scene = sie.Scene(profile=BOWL, modulus=1.0, normal_load=load, moment=-0.1 * load)
-    assert len(sie.solve(scene).patches) == 2
-    assert len(calls) < 30
-
-
 @pytest.mark.parametrize("moment", [{}, {"moment": 0.3}])
 def test_a_load_under_which_no_search_settles_is_refused_by_its_name(moment, monkeypatch):
     calls = []

@@ -28,39 +28,27 @@ def harmonics(x):
 REFERENCES = {
     "two parabolas": (
         {"profile": TWO, "normal_load": 0.4},
-        (-1.58325986638602757, -0.53524903797441766, 0.603485211237481694, 1.269847059573996219),
+        (-1.583259866386028, -0.5352490379744177, 0.6034852112374817, 1.269847059573996),
     ),
     "two parabolas under a moment": (
         {"profile": TWO, "normal_load": 0.4, "moment": 0.05},
-        (-1.45864941190000681, -0.54334310800098487, 0.587826018451422709, 1.345480218825823384),
+        (-1.4586494119000068, -0.5433431080009849, 0.5878260184514227, 1.3454802188258234),
     ),
     "wavy punch": (
         {"profile": sie.FromFunction(waved, domain=(-2.0, 2.0)), "normal_load": 0.228},
-        (
-            -0.43237913911396203,
-            -0.12219005194204682,
-            0.001890506233437465,
-            0.352657113232932,
-            0.6302796532851106,
-            0.6890729844189019,
-        ),
+        (-0.43237913911396203, -0.12219005194204682, 0.001890506233437465,
+         0.352657113232932, 0.6302796532851106, 0.6890729844189019),
     ),
     "two rounded flats": (
         {"profile": ROUNDED, "normal_load": 0.6},
-        (-2.20774455378010643, -0.43224940895161958, 0.215084495070883301, 2.198435239858398718),
+        (-2.2077445537801064, -0.4322494089516196, 0.2150844950708833, 2.1984352398583987),
     ),
     "three harmonics": (
         {"profile": sie.Periodic(sie.FromFunction(harmonics), 2.0 * np.pi), "normal_load": 3.0},
-        (
-            -2.787302433508856,
-            -1.7014107978420885,
-            -1.221104816631071,
-            0.9822849637598969,
-            1.312094138295231,
-            2.4838367704880184,
-        ),
+        (-2.787302433508856, -1.7014107978420885, -1.221104816631071,
+         0.9822849637598969, 1.312094138295231, 2.4838367704880184),
     ),
-}
+}  # fmt: skip
 
 
 @pytest.mark.parametrize("name", REFERENCES)
@@ -241,8 +229,11 @@ def test_the_wave_in_full_contact():
     assert not solution.gap(x).any()
 
 
+SHEARED = {"friction": 0.5, "tangential_load": 0.1}
+
+
 def test_the_shear_of_a_row_of_one_is_that_of_its_profile():
-    loads = {"normal_load": 0.4, "friction": 0.5, "tangential_load": 0.1, "bulk_stress": 0.05}
+    loads = {**SHEARED, "normal_load": 0.4, "bulk_stress": 0.05}
     one = solved(profile=sie.Parabola(1.0), **loads)
     row = solved(profile=sie.Row([sie.Parabola(1.0)]), **loads)
     x = np.linspace(-0.7, 0.7, 15)
@@ -257,14 +248,8 @@ def test_the_shear_of_a_row_of_one_is_that_of_its_profile():
     ("asked", "words"),
     [
         ({**SCENES["wave"], "moment": 0.1}, "leave out tilt and moment"),
-        (
-            {"profile": sie.Sampled([-1, 0, 1, 2], [1, 0, 0.5, 0]), "normal_load": 0.5},
-            "end of the trace",
-        ),
-        (
-            {**SCENES["wave"], "friction": 0.5, "tangential_load": 0.1, "bulk_stress": 0.1},
-            "no periodic answer",
-        ),
+        ({"profile": sie.Sampled([-1, 0, 1, 2], [1, 0, 0.5, 0])}, "end of the trace"),
+        ({**SCENES["wave"], **SHEARED, "bulk_stress": 0.1}, "no periodic answer"),
         ({**SCENES["row"], "friction": 0.5, "bulk_stress": 0.1}, "slip to either side"),
         ({**SCENES["row"], "friction": float("inf")}, "full stick"),
     ],

@@ -72,10 +72,7 @@ CASES = [
 
 @pytest.mark.parametrize(("form", "gap"), CASES)
 def test_edges_and_pressure_of_a_closed_form(form, gap):
-    """Beside a concave corner D is larger by 1/gap than at the outer edges, which must settle too.
-
-    Corners of flats are doubles, and p is exact up to them.
-    """
+    """Corners of flats are doubles, and p is exact up to them."""
     profile, load, edges, pressure = form(gap)
     solution = solved(profile=profile, normal_load=load)
     a, b = solution.patches[-1]

@@ -1,7 +1,4 @@
-"""Contact beside an event: a birth, a merger, an edge that turns sharp; lengths and gaps.
-
-The condition of the certificate is held against the edges of two loads that are next to each other.
-"""
+"""Contact beside an event: a birth, a merger, an edge that turns sharp; lengths and gaps."""
 
 import numpy as np
 import pytest

@@ -27,82 +27,61 @@ def number(pattern, message):
 
 # What is asked, words of the remedy, and what is asked when it is followed.
 SCENES = {
-    "give exactly one: load": (lambda: scene(half_width=1.5, normal_load=1.0), "exactly one",
-                               lambda: scene(normal_load=1.0)),
-    "give exactly one: width": (lambda: scene(normal_load=...), "exactly one",
-                                lambda: scene(half_width=1.5)),
-    "give body": (lambda: scene(modulus=...), "give body = sie.Elastic", lambda: scene(body=STEEL)),
-    "or modulus": (lambda: scene(modulus=...), "or modulus = E", lambda: scene(modulus=2.0)),
-    "leave poisson out": (lambda: scene(body=STEEL, poisson=0.3), "leave it out",
-                          lambda: scene(body=STEEL)),
-    "leave dundurs out": (lambda: scene(body=STEEL, dundurs=0.1), "leave it out",
-                          lambda: scene(body=STEEL)),
-    "give dundurs 0": (lambda: scene(body=STEEL, dundurs=0.1), "or give 0",
-                       lambda: scene(body=STEEL, dundurs=0)),
-    "leave the indenter out": (lambda: scene(modulus=1.0, indenter=STEEL), "leave it out", scene),
-    "give one of them young": (lambda: scene(body=sie.RIGID), "young and poisson",
-                               lambda: scene(body=sie.RIGID, indenter=STEEL)),
-    "give tilt or moment": (lambda: scene(tilt=0.1, moment=0.1), "give one",
-                            lambda: scene(moment=0.1)),
-    "give friction": (lambda: scene(tangential_load=0.1), "give friction > 0",
-                      lambda: scene(tangential_load=0.1, friction=0.2)),
-    "give a finite friction": (lambda: scene(FLAT, sliding=1, friction=math.inf), "finite",
-                               lambda: scene(FLAT, sliding=1, friction=0.3)),
-    "sliding, 0": (lambda: scene(sliding=1), "leave it 0", lambda: scene(sliding=0)),
-    "sliding, friction": (lambda: scene(sliding=1), "give friction > 0",
-                          lambda: scene(sliding=1, friction=0.3)),
-    "sliding, not Q": (lambda: scene(sliding=1, tangential_load=0.1, friction=0.3), "follows",
-                       lambda: scene(sliding=1, friction=0.3)),
-    "bonded, flat": (lambda: scene(friction=math.inf), "give a flat punch",
-                     lambda: scene(FLAT, friction=math.inf)),
-    "bonded, finite": (lambda: scene(friction=math.inf), "a finite friction",
-                       lambda: scene(friction=0.5)),
-    "bonded, load": (
-        lambda: scene(FLAT, friction=math.inf, half_width=1.0), "give normal_load",
-        lambda: scene(FLAT, friction=math.inf)
-    ),
-    "sharp, load": (lambda: scene(FLAT, half_width=1.0), "any load: give a normal_load",
-                    lambda: scene(FLAT)),
-    "width on the flat, larger": (lambda: scene(half_width=0.5), "give a larger half_width",
-                                  lambda: scene(half_width=1.5)),
-    "width on the flat, load": (lambda: scene(half_width=0.5), "or a normal_load", scene),
+    "give exactly one: load": ({"half_width": 1.5, "normal_load": 1.0}, "exactly one",
+        {"normal_load": 1.0}),
+    "give exactly one: width": ({"normal_load": ...}, "exactly one", {"half_width": 1.5}),
+    "give body": ({"modulus": ...}, "give body = sie.Elastic", {"body": STEEL}),
+    "or modulus": ({"modulus": ...}, "or modulus = E", {"modulus": 2.0}),
+    "leave poisson out": ({"body": STEEL, "poisson": 0.3}, "leave it out", {"body": STEEL}),
+    "leave dundurs out": ({"body": STEEL, "dundurs": 0.1}, "leave it out", {"body": STEEL}),
+    "give dundurs 0": ({"body": STEEL, "dundurs": 0.1}, "or give 0", {"body": STEEL, "dundurs": 0}),
+    "leave the indenter out": ({"modulus": 1.0, "indenter": STEEL}, "leave it out", {}),
+    "give one of them young": ({"body": sie.RIGID}, "young and poisson",
+        {"body": sie.RIGID, "indenter": STEEL}),
+    "give tilt or moment": ({"tilt": 0.1, "moment": 0.1}, "give one", {"moment": 0.1}),
+    "give friction": ({"tangential_load": 0.1}, "give friction > 0",
+        {"tangential_load": 0.1, "friction": 0.2}),
+    "give a finite friction": ({"profile": FLAT, "sliding": 1, "friction": math.inf}, "finite",
+        {"profile": FLAT, "sliding": 1, "friction": 0.3}),
+    "sliding, 0": ({"sliding": 1}, "leave it 0", {"sliding": 0}),
+    "sliding, friction": ({"sliding": 1}, "give friction > 0", {"sliding": 1, "friction": 0.3}),
+    "sliding, not Q": ({"sliding": 1, "tangential_load": 0.1, "friction": 0.3}, "follows",
+        {"sliding": 1, "friction": 0.3}),
+    "bonded, flat": ({"friction": math.inf}, "give a flat punch",
+        {"profile": FLAT, "friction": math.inf}),
+    "bonded, finite": ({"friction": math.inf}, "a finite friction", {"friction": 0.5}),
+    "bonded, load": ({"profile": FLAT, "friction": math.inf, "half_width": 1.0}, "give normal_load",
+        {"profile": FLAT, "friction": math.inf}),
+    "sharp, load": ({"profile": FLAT, "half_width": 1.0}, "any load: give a normal_load",
+        {"profile": FLAT}),
+    "width on the flat, larger": ({"half_width": 0.5}, "give a larger half_width",
+        {"half_width": 1.5}),
+    "width on the flat, load": ({"half_width": 0.5}, "or a normal_load", {}),
     "width beyond the indenter": (
-        lambda: scene(sie.Piecewise((-1.0, 1.0), ((0.0, 1.0),)), half_width=2.0), "at most that",
-        lambda: scene(sie.Piecewise((-1.0, 1.0), ((0.0, 1.0),)), half_width=0.9),
+        {"profile": sie.Piecewise((-1.0, 1.0), ((0.0, 1.0),)), "half_width": 2.0}, "at most that",
+        {"profile": sie.Piecewise((-1.0, 1.0), ((0.0, 1.0),)), "half_width": 0.9},
     ),
-    "less moment": (lambda: scene(FLAT, moment=2.0), "lower the moment",
-                    lambda: scene(FLAT, moment=0.4)),
-    "less tilt": (lambda: scene(WEDGE, tilt=2.0), "prescribe less tilt",
-                  lambda: scene(WEDGE, tilt=0.5)),
+    "less moment": ({"profile": FLAT, "moment": 2.0}, "lower the moment",
+        {"profile": FLAT, "moment": 0.4}),
+    "less tilt": ({"profile": WEDGE, "tilt": 2.0}, "prescribe less tilt",
+        {"profile": WEDGE, "tilt": 0.5}),
     "a profile that rises on both sides": (
-        lambda: scene(sie.Polynomial((0.0, 0.0, 0.5, 1e-3))), "rises on both sides",
-        lambda: scene(sie.FromFunction("x + 3e-3*x*x", domain=(-9.0, 9.0))),
+        {"profile": sie.Polynomial((0.0, 0.0, 0.5, 1e-3))}, "rises on both sides",
+        {"profile": sie.FromFunction("x + 3e-3*x*x", domain=(-9.0, 9.0))},
     ),
-    "narrower domain": (
-        lambda: scene(sie.FromFunction("arctanh(x)", domain=(-1.0, 1.0)), normal_load=5.0),
-        "narrow the domain",
-        lambda: scene(sie.FromFunction("arctanh(x)", domain=(-0.999, 0.999)), normal_load=5.0),
-    ),
-    "a root at the end": (
-        lambda: scene(sie.FromFunction("x/sqrt(1 - x*x)", domain=(-1.0, 1.0)), normal_load=5.0),
-        "narrow the domain",
-        lambda: scene(sie.FromFunction("x/sqrt(1 - x*x)", domain=(-0.999, 0.999)), normal_load=5.0),
-    ),
+    **{f"narrower domain, {text}": (
+        {"profile": sie.FromFunction(text, domain=(-1.0, 1.0)), "normal_load": 5.0}, "narrow",
+        {"profile": sie.FromFunction(text, domain=(-0.999, 0.999)), "normal_load": 5.0},
+    ) for text in ("arctanh(x)", "x/sqrt(1 - x*x)")},
     "give a domain": (
-        lambda: scene(sie.FromFunction("x/(1 + x*x)"), normal_load=9.0), "give a domain",
-        lambda: scene(sie.FromFunction("x/(1 + x*x)", domain=(-3.0, 3.0)), normal_load=9.0),
+        {"profile": sie.FromFunction("x/(1 + x*x)"), "normal_load": 9.0}, "give a domain",
+        {"profile": sie.FromFunction("x/(1 + x*x)", domain=(-3.0, 3.0)), "normal_load": 9.0},
     ),
-    "other units": (
-        lambda: scene(sie.Parabola(1e-200)), "choose other units",
-        lambda: scene(sie.Parabola(1e-100), normal_load=1e-100)
-    ),
-    "shift less": (lambda: scene(FLAT.shifted(1e20)), "shift it less",
-                   lambda: scene(FLAT.shifted(2.0))),
-    "shift before adding": (lambda: scene(FLAT + FLAT.shifted(5.0)), "shift one of them",
-                            lambda: scene(FLAT + FLAT.shifted(0.5))),
+    "other units": ({"modulus": 1e-200}, "choose other units",
+        {"modulus": 1e-100, "normal_load": 1e-100}),
     "bumps, their load": (
-        lambda: scene(sie.FromFunction("x - 1.5*sin(2*x)"), half_width=0.1), "give normal_load",
-        lambda: scene(sie.FromFunction("x - 1.5*sin(2*x)"), normal_load=0.05),
+        {"profile": sie.FromFunction("x - 1.5*sin(2*x)"), "half_width": 0.1}, "give normal_load",
+        {"profile": sie.FromFunction("x - 1.5*sin(2*x)"), "normal_load": 0.05},
     ),
 }  # fmt: skip
 
@@ -112,9 +91,9 @@ SCENES = {
 def test_a_scene_that_follows_its_refusal_s_remedy_is_solved(name):
     asked, words, followed = SCENES[name]
     with pytest.raises((ValueError, sie.ContactError)) as refusal:
-        _ = sie.solve(asked()).edges
+        _ = sie.solve(scene(**asked)).edges
     assert words in str(refusal.value)
-    solved(followed())
+    solved(scene(**followed))
 
 
 DISSIMILAR = {"body": ALLOY, "indenter": STEEL, "friction": 0.4}

@@ -65,11 +65,7 @@ def test_a_stick_zone_at_a_sharp_edge_may_slip_against_the_load():
 
 
 def reverse_slip_of_hertz(strain):
-    """c/b of the stick zone when a bulk stress alone acts, strain = τ/(f p0): ∫_c^1 sqrt(1 -
-    s²)/sqrt(s² - c²) ds = π/2 strain.
-
-    From the two signs' first condition, both halves being alike; s² = c² + (1 - c²) sin² t.
-    """
+    """c/b under a bulk stress alone, strain = τ/(f p0), by s² = c² + (1 - c²) sin² t."""
 
     def excess(c):
         k = 1 - c * c

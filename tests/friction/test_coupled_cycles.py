@@ -103,7 +103,7 @@ PAD = sie.Scene(
 )
 
 
-@pytest.mark.slow(but=2)
+@pytest.mark.slow(but=1)
 @pytest.mark.parametrize(
     ("friction", "parts"),
     [(0.4, (0.5, 0.125, -0.5)), *((0.3, (part, -part, part)) for part in (0.5, 0.6, 0.667))],
@@ -178,8 +178,11 @@ def test_slip_beyond_that_of_the_normal_load_goes_with_the_load():
     assert (after.slip(slip) > before.slip(slip)).all()
 
 
-def test_energy_is_the_work_of_friction_on_the_slip():
-    one, other = (solved(part=part) for part in (0.49, 0.51))
+@pytest.mark.slow(but=1)
+@pytest.mark.parametrize("name", ["parabola", "kinked"])
+def test_energy_is_the_work_of_friction_on_the_slip(name):
+    """Two ends pass kinks of the second profile before."""
+    one, other = (solved(PROFILES[name], part=part) for part in (0.29, 0.31))
     lo, hi = max(one.edges[0], other.edges[0]), min(one.edges[1], other.edges[1])
     phi = (np.arange(1000) + 0.5) * math.pi / 1000
     x = 0.5 * (lo + hi) + 0.5 * (hi - lo) * np.cos(phi)
@@ -187,15 +190,6 @@ def test_energy_is_the_work_of_friction_on_the_slip():
     work = carried * (other.slip(x) - one.slip(x)) * np.sin(phi)
     lost = other.energy_lost - one.energy_lost
     assert lost == pytest.approx(work.sum() * 0.5 * (hi - lo) * math.pi / 1000, rel=1e-3)
-
-
-@pytest.mark.slow
-def test_energy_is_known_where_two_ends_pass_kinks_of_the_profile():
-    before, after = (solved(PROFILES["kinked"], 0.2, 0.3, part) for part in (0.0, 0.6))
-    x = np.linspace(*after.edges, 2001)[1:-1]
-    slip = np.abs(after.slip(x) - before.slip(x))
-    work = 0.3 * float(after.pressure(x) @ slip) * (x[1] - x[0])
-    assert after.energy_lost - before.energy_lost == pytest.approx(work, rel=0.02)
 
 
 def test_slip_within_the_stick_zone_is_refused():
@@ -207,7 +201,7 @@ def test_slip_within_the_stick_zone_is_refused():
 # In the first one a load is passed at which loads turned, in the second one stick passes ends that
 # it had before.
 DIVIDED = {
-    "a load": (0.3, 0.3, (0.45,), (0.2, 0.45)),
+    "a load": (0.3, 0.3, (0.2,), (0.1, 0.2)),
     "past a turn": (0.3, 0.3, (0.65, 0.15, 0.12, 0.66), (0.65, 0.15, 0.12, 0.65, 0.66)),
     "past earlier ends": (0.3, 0.3, (0.5, -0.5), (0.5, 0.1, -0.2, -0.4, -0.5)),
     "past a mark at once after a turn": (0.0575, 0.3, (0.6,), (0.3, 0.6)),

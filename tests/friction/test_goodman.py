@@ -79,7 +79,7 @@ def test_a_cycle_repeats_itself_once_the_slip_of_pressing_is_worn_off():
 @pytest.mark.slow(but=1)
 @pytest.mark.parametrize("load", [0.0, 0.3])
 def test_symmetric_trace_is_answered_as_the_profile_that_it_samples(load):
-    x = np.linspace(-2.0, 2.0, 41)
+    x = np.linspace(-2.0, 2.0, 21)
     trace, smooth = (
         solved(profile, friction=0.4, normal_load=0.2, tangential_load=0.08 * load)
         for profile in (sie.Sampled(x, 0.5 * x * x), sie.Parabola(1.0))

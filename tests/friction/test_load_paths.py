@@ -53,24 +53,6 @@ def test_zones_that_retreat_on_the_way_to_the_first_point_are_followed():
     assert first.stick != scene.stick and "retreat" in scene.notes[-1]
 
 
-@pytest.mark.parametrize(
-    ("points", "said"),
-    [
-        ([], "no points"),
-        (None, "points = None is not a list"),
-        ([(0.0, 0.0), (0.0, 0.0)], "nothing ever touches"),
-        ([(1.0,)], r"\(1\.0,\).*give \(P, Q\)"),
-        ([(1.0, np.nan)], "Q of point 0 is nan"),
-        ([(1.0, 0.0), (0.0, 0.0)], "P of point 1 = 0"),
-        ([(-1.0, 0.0)], "P of point 0 = -1"),
-        ([3.0], r"3\.0.*give \(P, Q\)"),
-    ],
-)
-def test_an_invalid_path_is_refused(points, said):
-    with pytest.raises(ValueError, match=said):
-        sie.Path(points)
-
-
 def test_a_path_without_friction_carries_no_tangential_load():
     plain = sie.Scene(profile=sie.Parabola(1.0), modulus=E, normal_load=P)
     with pytest.raises(ValueError, match=r"0\.1 without friction"):

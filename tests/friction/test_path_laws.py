@@ -1,8 +1,4 @@
-"""Laws of every load path: its equations, its parts, its mirror image, and a mesh beside it.
-
-Each path has an event of its own; laws of random paths are in `tests/laws/test_load_histories.py`.
-The mesh solver goes step by step and knows no superposition.
-"""
+"""Laws of load paths, each with an event of its own, and a mesh that goes step by step."""
 
 from contextlib import suppress
 from functools import cache
@@ -59,12 +55,38 @@ PATHS = {
         HERTZ, [(1, -0.1, 0.36), (1, 0.32, -0.41), (1, 0.5, -0.17)]
     ),
 }  # fmt: skip
-each_path = pytest.mark.parametrize("name", PATHS)
+
+
+def body(profile, friction):
+    return sie.Scene(profile=profile, modulus=1.0, normal_load=1.0, friction=friction)
+
+
+# Loads as they are: slip stops, begins and comes to an edge while P changes.
+EVENTFUL = {
+    "an edge leaves slip behind": (
+        body(sie.Parabola(1.0), 0.26), [(0.7278, 0.0799, -0.1932), (0.913, 0.0072, -0.0347)]
+    ),
+    "slip stops at once, and the end advances": (
+        body(sie.Power(3.0, 1.0), 0.211), [(1.039, -0.083, 0.123), (1.144, -0.0097, 0.2936)]
+    ),
+    "slip begins at an earlier end": (
+        body(sie.Polynomial((0.0, 0.0, 1.0, 0.3, 0.5)), 0.21),
+        [(0.709, -0.0118, 0.3296), (1.2695, -0.1937, 0.0021)],
+    ),
+    "an end comes to an edge that grows": (
+        body(sie.RoundedFlat(0.5, 1.0), 0.2957),
+        [(1.3649, -0.2634, -0.006), (1.0912, -0.1271, 0.2176), (1.1953, 0.0552, 0.0308)],
+    ),
+}  # fmt: skip
+each_path = pytest.mark.parametrize("name", [*PATHS, *EVENTFUL])
 
 
 @cache
 def history(name, parts=1):
     """Tests share what they only read."""
+    if name in EVENTFUL:
+        scene, points = EVENTFUL[name]
+        return sie.follow(scene, sie.Path(points).subdivided(parts))
     return followed(*PATHS[name], parts)
 
 

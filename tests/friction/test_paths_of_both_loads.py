@@ -96,11 +96,7 @@ def test_energy_while_an_edge_passes_a_jump_is_that_of_the_mirrored_path():
 
 
 def test_energy_of_loading_hertz_with_a_growing_normal_load():
-    """W = 2/(π E*) ∫∫ f ln(r'/r) over the layers, r² ∝ P: by hand for P from P0 to P1, dQ/dP = k >
-    f.
-
-    W = f²/(π E*) (k/f - 1) ∫ [P ln(P/L) - P + L] dP,    L(P) = P - (P - P0) k/f
-    """
+    """W = f²/(π E*) (k/f - 1) ∫ [P ln(P/L) - P + L] dP, L(P) = P - (P - P0) k/f, dQ/dP = k > f."""
     P0, P1, k = 0.1, 0.2, 1.5 * F
     lost = sie.follow(HERTZ, sie.Path([(P0, 0.0), (P1, k * (P1 - P0))]))[1].energy_lost
     g, w = np.polynomial.legendre.leggauss(60)

@@ -53,13 +53,7 @@ PAIR = {
 }
 
 
-@pytest.mark.parametrize(
-    "loads",
-    [
-        {"moment": 10.0},
-        {"tangential_load": 30.0, "moment": 10.0},
-    ],
-)
+@pytest.mark.parametrize("loads", [{"moment": 10.0}, {"tangential_load": 30.0, "moment": 10.0}])
 def test_the_remedy_for_dissimilar_bodies_keeps_all_but_their_coupling(loads):
     """Followed, it is the contact of bodies with β = 0 whose E* is that of the scene."""
     scene = sie.Scene(profile=sie.Parabola(50.0), **PAIR, friction=0.4, normal_load=200.0, **loads)

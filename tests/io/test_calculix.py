@@ -1,7 +1,4 @@
-"""A real run of CalculiX (Debian's calculix-ccx) comes near the exact contact, and nearer on a
-finer mesh; exact ends leave less of an error in 4 half-widths than 60 half-widths do. The study on
-finer meshes is docs/how-to/punch_study.py.
-"""
+"""A real run of CalculiX comes near the exact contact, and nearer on a finer mesh."""
 
 import importlib
 import shutil

@@ -1,8 +1,4 @@
-"""The command that compares a mesh result: its exit code, what it prints, what it refuses.
-
-Every remedy that a refusal offers is followed: the mesh result is then compared, and agrees with
-the exact answer that it was made of.
-"""
+"""The command that compares a mesh result; remedies of its refusals are followed."""
 
 import json
 from pathlib import Path

@@ -113,13 +113,6 @@ def test_steps_are_divided_unless_parts_is_one(solve):
     assert json.loads(out)["cycle"]["states"] == 7
 
 
-@pytest.mark.slow
-def test_without_tension_the_report_says_so_in_place_of_a_plane(solve):
-    pressed = CYCLE[: CYCLE.index("friction")] + "path = [[50.0, 0.0], [80.0, 0.0], [50.0, 0.0]]\n"
-    status, out, _ = solve(pressed + "[fatigue]\nparts = 1\n")
-    assert status == 0 and "SWT             0 on the surface: no plane is in tension" in out
-
-
 def test_of_loads_that_do_not_change_the_report_names_what_is_missing_and_no_place(solve):
     still = CYCLE[: CYCLE.index("columns")] + "path = [[50.0, 10.0], [50.0, 10.0]]\n"
     status, out, _ = solve(still + MATERIAL)

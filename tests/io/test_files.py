@@ -7,7 +7,6 @@ import sys
 from pathlib import Path
 
 import pytest
-from command import run
 
 from sie.cli import main
 
@@ -78,9 +77,10 @@ def test_no_output_replaces_a_file_that_is_read(text, target, link, folder, caps
 @posix
 def test_a_scene_on_standard_input_is_not_overwritten(folder):
     before = listing(folder)
+    command = [sys.executable, "-m", "sie", "solve", "-", "--csv", "scene.toml"]
     with open("scene.toml", encoding="utf-8") as scene:
-        found = run("solve", "-", "--csv", "scene.toml", stdin=scene)
-    assert found.returncode == 2 and "would overwrite the scene file" in found.stderr
+        found = subprocess.run(command, stdin=scene, capture_output=True, check=False)
+    assert found.returncode == 2 and b"would overwrite the scene file" in found.stderr
     assert listing(folder) == before
 
 

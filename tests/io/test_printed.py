@@ -1,8 +1,5 @@
 """What is printed of a public object is short, however large the object is."""
 
-import subprocess
-import sys
-
 import numpy as np
 import pytest
 
@@ -64,14 +61,3 @@ def test_what_is_printed_of_a_public_object_is_short(printed):
 def test_a_long_list_is_printed_with_its_first_and_its_last(printed):
     for name in ("row", "pieces", "polynomial", "path"):
         assert " more>, " in printed[name]
-
-
-def test_public_modules_are_there_when_they_are_asked_for_and_not_before():
-    program = (
-        "import sie, sys; assert 'sie.live.teaching' not in sys.modules; "
-        "sie.teaching.solve; sie.charts; sie.no_such"
-    )
-    done = subprocess.run(
-        [sys.executable, "-c", program], check=False, capture_output=True, text=True
-    )
-    assert "has no attribute 'no_such'" in done.stderr

@@ -116,6 +116,7 @@ def test_arrays_stand_for_lists_in_a_dict():
     assert scene == sie.Scene(profile=sie.Sampled(x, x**2), modulus=1.0, normal_load=0.25)
 
 
+WEDGE = {"profile": {"kind": "wedge", "slope": 1.0}}
 NESTED = {}
 for _ in range(5000):
     NESTED = {"profile": NESTED}
@@ -129,14 +130,7 @@ for _ in range(5000):
         ({"profile": {3: 1}, "load": {}}, "the key 3 is not text"),
         (NESTED, "nested too deeply"),
         ({"profile": {"kind": "parabole", "radius": 1.0}, "load": {}}, "did you mean"),
-        (
-            {
-                "profile": {"kind": "wedge", "slope": 1.0},
-                "pair": {"modulus": 1.0},
-                "load": {"path": [[1.0, 0.0]]},
-            },
-            "more than one scene",
-        ),
+        (WEDGE | {"pair": {"modulus": 1.0}, "load": {"path": [[1.0, 0.0]]}}, "more than one scene"),
     ],
 )
 def test_tables_of_no_scene_are_refused(tables, said):

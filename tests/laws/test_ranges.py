@@ -1,8 +1,4 @@
-"""Over 1e-300 to 1e300 of every input: refused with a sentence that says why, or the answer of the
-same contact in other units.
-
-Nothing else: no warning (they are errors in the tests), no exception of another kind.
-"""
+"""Every input from 1e-300 to 1e300 is refused in a sentence, or answered as in other units."""
 
 import math
 

@@ -156,11 +156,13 @@ def test_tilted_shifted_mirrored_and_sums_have_the_heights_of_their_formulas(pro
     )
 
 
-def test_the_sum_of_profiles_has_the_common_domain():
+def test_the_sum_of_profiles_has_the_common_domain_if_there_is_one():
     both = sie.Flat(1.0).shifted(0.5) + sie.FromFunction("x", domain=(-1.0, 1.0))
     assert both.domain == (-0.5, 1.0)
-    with pytest.raises(ValueError, match="do not overlap"):
+    with pytest.raises(ValueError, match=r"do not overlap.*shift one of them"):
         sie.Flat(1.0) + sie.Flat(1.0).shifted(3.0)
+    with pytest.raises(ValueError, match="shift it less"):
+        sie.Flat(1.0).shifted(1e20)
 
 
 def chain(terms):

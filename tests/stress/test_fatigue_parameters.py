@@ -40,32 +40,33 @@ SHEARED = sie.Cycle([Uniform(0.0, 0.0, S), Uniform(0.0, 0.0, -S)])
 E, NU = BODY.young, BODY.poisson
 
 
+PLATE = sie.Elastic(115e3, 0.32, plane="stress")
+IN_A_PLATE = sie.Cycle([Uniform(S, 0.0, 0.0, PLATE), Uniform(-S, 0.0, 0.0, PLATE)])
+CLOSED = {
+    "tension of a plate, SWT": (IN_A_PLATE.swt, {}, S**2 / E),
+    "shear, SWT": (SHEARED.swt, {}, S**2 * (1.0 + NU) / E),
+    "shear, Findley": (SHEARED.findley, {"k": K}, S * np.hypot(1.0, K)),
+    "shear, Fatemi-Socie without a weight": (
+        SHEARED.fatemi_socie, {"k": 0.0, "yield_stress": YIELD}, S / BODY.shear_modulus
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(("parameter", "given", "exact"), CLOSED.values(), ids=CLOSED)
+def test_a_parameter_of_a_reversed_stress_has_its_closed_form(parameter, given, exact):
+    assert parameter(0.0, 0.0, **given).value == pytest.approx(exact, rel=1e-13)
+
+
 def test_reversed_tension_gives_smith_watson_topper_on_the_plane_across_it():
     worst = REVERSED.swt(0.0, 0.0)
     assert worst.value == pytest.approx(S**2 * (1.0 - NU**2) / E, rel=1e-13)
     assert np.sin(worst.angle) == pytest.approx(0.0, abs=1e-7) and worst.out_of_plane < 1e-7
 
 
-def test_in_plane_stress_reversed_tension_strains_by_s_over_e():
-    plate = sie.Elastic(115e3, 0.32, plane="stress")
-    cycle = sie.Cycle([Uniform(S, 0.0, 0.0, plate), Uniform(-S, 0.0, 0.0, plate)])
-    assert cycle.swt(0.0, 0.0).value == pytest.approx(S**2 / E, rel=1e-13)
-
-
 def test_reversed_tension_gives_findleys_parameter_in_closed_form():
     worst = REVERSED.findley(0.0, 0.0, k=K)
     assert worst.value == pytest.approx(0.5 * S * (K + np.sqrt(1.0 + K**2)), rel=1e-13)
     assert abs(np.tan(2.0 * worst.angle)) == pytest.approx(1.0 / K, rel=1e-6)
-
-
-def test_reversed_shear_gives_smith_watson_topper_and_findley_in_closed_form():
-    assert SHEARED.swt(0.0, 0.0).value == pytest.approx(S**2 * (1.0 + NU) / E, rel=1e-13)
-    assert SHEARED.findley(0.0, 0.0, k=K).value == pytest.approx(S * np.hypot(1.0, K), rel=1e-13)
-
-
-def test_without_a_weight_fatemi_socie_is_the_largest_amplitude_of_the_shear_strain():
-    value = SHEARED.fatemi_socie(0.0, 0.0, k=0.0, yield_stress=YIELD).value
-    assert value == pytest.approx(S / BODY.shear_modulus, rel=1e-13)
 
 
 def test_below_a_pulsating_pressure_findleys_plane_has_a_normal_out_of_the_plane():

@@ -73,11 +73,7 @@ def principal_value(pressure: Pressure, interval: Ends, x: float, breaks: Places
 def rounding_of_principal_value(
     pressure: Pressure, interval: Ends, x: float, breaks: Places = ()
 ) -> float:
-    """What `principal_value` changes by if p does by the rounding of its places t and x.
-
-    Its own nodes count: the finer they are between x and a sharp edge, the nearer to that edge,
-    where p(t) has few digits.
-    """
+    """What `principal_value` changes by if p does by the rounding of its places t and x."""
     x1, x2 = interval
     t, weight = rule(interval, breaks, extra=(x,))
     t, weight = t[t != x], weight[t != x]

@@ -90,10 +90,7 @@ DECK = "\n".join(
 
 
 def frd(times: tuple[float, ...] = (1.0,), label: int = 10, bend: float = 0.0) -> str:
-    """A .frd file with stress at all nodes, and the contact stress at the surface nodes 6 to 10.
-
-    `bend` is the curvature of the surface.
-    """
+    """A .frd file with stress, and contact stress at nodes 6 to 10 of a surface that may bend."""
     kind = 1 if label == 10 else 0
     lines = ["    1C", "    1UPGM               CalculiX"]
     lines += [f"    2C{20:30d}{kind:38d}"]

@@ -13,10 +13,7 @@ def pressed(profile: sie.Profile, load: float = 1.0) -> sie.Solution:
 
 
 def rough_trace(points: int, seed: int, hurst: float = 0.8, size: float = 0.01) -> sie.Sampled:
-    """A self-affine profile on [-1, 1] whose waves shorten down to its spacing.
-
-    Its ends are not equally high.
-    """
+    """A self-affine profile on [-1, 1], with waves down to its spacing and unequal ends."""
     rng = np.random.default_rng(seed)
     k = np.arange(4, points // 4)
     x = np.linspace(-1.0, 1.0, points)
