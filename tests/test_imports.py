@@ -237,11 +237,21 @@ OF_CERTIFICATES = {"", ".measure", ".panels", ".rule", ".sums"}  # of patches: t
 def test_a_contact_without_friction_imports_what_it_needs(tmp_path):
     """Of the command too: no friction, no patches, no report that it does not write."""
     loaded = {m for m in modules_after("import sie") if m.startswith("sie.")}
-    assert not {parts(m) for m in loaded} & {*UNNEEDED, "certificate", "io", "patches"}
+    unneeded = {
+        *UNNEEDED,
+        "answers",
+        "certificate",
+        "contact",
+        "io",
+        "patches",
+        "solution",
+        "stress",
+    }
+    assert not {parts(m) for m in loaded} & unneeded
     scene = tmp_path / "scene.toml"
     scene.write_text(scene_file.example("rounded-flat"))
     loaded = modules_after(f"from sie.cli import main; main(['solve', {str(scene)!r}, '--quiet'])")
-    assert not {parts(m) for m in loaded if m.startswith("sie.")} & UNNEEDED
+    assert not {parts(m) for m in loaded if m.startswith("sie.")} & {*UNNEEDED, "cracks", "stress"}
     of_patches = {m for m in loaded if m.startswith("sie.patches")}
     assert of_patches <= {f"sie.patches{name}" for name in OF_CERTIFICATES}
     assert "sie.io.export" not in loaded and "sie.io.mesh_result" not in loaded
