@@ -209,10 +209,8 @@ class History(PathContacts, Sequence[Solution]):
 
         Parameters
         ----------
-        ax : matplotlib.axes.Axes, optional
-            Where to draw; axes of their own, which a notebook shows, if not given.
-        units : mapping of str to str, optional
-            Labels, as of `Solution.plot`.
+        ax, units
+            As of `Solution.plot`.
 
         Returns
         -------
