@@ -230,7 +230,7 @@ def test_numpy_is_all_that_is_loaded(statement):
 
 
 UNNEEDED = {"cauchy", "friction", "live", "paths", "plots", "sweeps"}
-OF_CERTIFICATES = {"", ".measure", ".panels", ".rule", ".sums"}  # of patches: their sums
+OF_CERTIFICATES = {"", ".panels", ".rule"}  # of patches: their sums
 
 
 @pytest.mark.slow
