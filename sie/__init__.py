@@ -43,12 +43,12 @@ from .profiles.polynomials import Piecewise, Polynomial
 from .profiles.row import Periodic, Row
 from .profiles.sampled import Sampled
 from .profiles.shapes import Flat, Parabola, Power, RoundedFlat, Wedge
-from .solution import Solution, solve
 from .traction.base import Density
 from .traction.combination import ZERO, scaled, superposed
 
 if TYPE_CHECKING:
     from .later import *  # noqa: F403
+    from .solution import Solution, solve
 
 __version__ = "0.3.0.dev0"
 
@@ -122,12 +122,16 @@ PARTS = {
 
 
 def __getattr__(name: str) -> Any:
-    """What a contact under its normal load does not need, imported when it is asked for.
+    """What a scene does not need, imported when it is asked for.
 
     Of the public modules `sie.plots` needs Matplotlib.
     """
     if name in PARTS:
         return import_module(PARTS[name])
+    if name in ("Solution", "solve"):
+        from . import solution
+
+        return getattr(solution, name)
     if name in __all__:
         from . import later
 

@@ -10,7 +10,6 @@ import math
 import re
 import textwrap
 from collections.abc import Callable, Collection, Hashable, Iterable
-from dataclasses import fields
 from typing import Any
 
 import numpy as np
@@ -302,16 +301,3 @@ def named_rows(*rows: tuple[str, str]) -> str:
         for name, text in rows
     )  # fmt: skip
     return "\n".join(paragraphs)
-
-
-def as_numbers(certificate: Any) -> dict[str, Any]:
-    """A certificate as numbers, lists and strings by name; without the shear where it has none."""
-
-    def plain(value: Any) -> Any:
-        if isinstance(value, tuple):
-            return [plain(v) for v in value]
-        return value.as_dict() if hasattr(value, "as_dict") else value
-
-    values = {f.name: getattr(certificate, f.name) for f in fields(certificate)}
-    found = {name: plain(value) for name, value in values.items() if value is not None}
-    return found | {"error": certificate.error, "ok": certificate.ok}

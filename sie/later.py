@@ -1,61 +1,36 @@
-"""The public names that a contact under its normal load does not need.
+"""The public names that the scene of a contact, and its solution, do not need.
 
 `import sie` does not import them; the first use of one of them imports this module.
 """
 
-from .cauchy.equation import CauchyEquation
-from .certificate.trace_noise import TraceReport
-from .cracks.edge_crack import EdgeCrack
-from .cracks.edge_intensity import EdgeIntensity
-from .cracks.stress_intensity import StressIntensity
-from .inverse.wanted_pressure import profile_for_pressure
-from .many.solve_many import Many, solve_many
-from .paths.dissimilar_cycle import steady_cycle
-from .paths.history import History, follow
-from .paths.rolling import Rolling, rolling
-from .paths.steady_state import SteadyCycle
-from .planning import Plan, plan
-from .sensitivity.derivative import Derivative, StressDerivative
-from .sensitivity.gradient import Uncertainty
-from .stress.fatigue import CriticalPlane
-from .stress.fretting import Cycle
-from .stress.half_plane import Stress
-from .stress.yield_limit import Peak, YieldPoint
-from .sweeps.sweep import Interrupted, sweep
-from .sweeps.work import QUANTITIES
-from .wear.limit import WearLimit, wear_limit
-from .wear.modes import WearModes, wear_modes
-
-__all__ = [
-    "QUANTITIES",
-    "CauchyEquation",
-    "CriticalPlane",
-    "Cycle",
-    "Derivative",
-    "EdgeCrack",
-    "EdgeIntensity",
-    "History",
-    "Interrupted",
-    "Many",
-    "Peak",
-    "Plan",
-    "Rolling",
-    "SteadyCycle",
-    "Stress",
-    "StressDerivative",
-    "StressIntensity",
-    "TraceReport",
-    "Uncertainty",
-    "WearLimit",
-    "WearModes",
-    "YieldPoint",
-    "follow",
-    "plan",
-    "profile_for_pressure",
-    "rolling",
-    "solve_many",
-    "steady_cycle",
-    "sweep",
-    "wear_limit",
-    "wear_modes",
-]
+from .cauchy.equation import CauchyEquation as CauchyEquation
+from .certificate.trace_noise import TraceReport as TraceReport
+from .cracks.edge_crack import EdgeCrack as EdgeCrack
+from .cracks.edge_intensity import EdgeIntensity as EdgeIntensity
+from .cracks.stress_intensity import StressIntensity as StressIntensity
+from .inverse.wanted_pressure import profile_for_pressure as profile_for_pressure
+from .many.solve_many import Many as Many
+from .many.solve_many import solve_many as solve_many
+from .paths.dissimilar_cycle import steady_cycle as steady_cycle
+from .paths.history import History as History
+from .paths.history import follow as follow
+from .paths.rolling import Rolling as Rolling
+from .paths.rolling import rolling as rolling
+from .paths.steady_state import SteadyCycle as SteadyCycle
+from .planning import Plan as Plan
+from .planning import plan as plan
+from .sensitivity.derivative import Derivative as Derivative
+from .sensitivity.derivative import StressDerivative as StressDerivative
+from .sensitivity.gradient import Uncertainty as Uncertainty
+from .stress.fatigue import CriticalPlane as CriticalPlane
+from .stress.fretting import Cycle as Cycle
+from .stress.half_plane import Stress as Stress
+from .stress.yield_limit import Peak as Peak
+from .stress.yield_limit import YieldPoint as YieldPoint
+from .sweeps.sweep import Interrupted as Interrupted
+from .sweeps.sweep import sweep as sweep
+from .sweeps.work import QUANTITIES as QUANTITIES
+from .wear.limit import WearLimit as WearLimit
+from .wear.limit import wear_limit as wear_limit
+from .wear.modes import WearModes as WearModes
+from .wear.modes import wear_modes as wear_modes

@@ -120,7 +120,7 @@ def plan(
     names = wanted(want)
     if scene.bonded or scene.coupled:
         stages = {stage for name in names for stage in ONE_PROBLEM[name]}
-        return Plan((*_of_one_problem(scene, names, stages), *_last(names, stages)))
+        return Plan((*_of_one_problem(scene, stages), *_last(names, stages)))
     no_shear: dict[str, tuple[str, ...]] = dict.fromkeys(("shear", "energy"), ())
     needed = TWO_PROBLEMS | ({} if sheared(scene, economy) or scene.epsilon else no_shear)
     stages = {stage for name in names for stage in needed[name]}
@@ -163,54 +163,29 @@ def _last(names: tuple[str, ...], stages: set[str]) -> tuple[Step, ...]:
 # -- pressure and shear are one problem ------------------------------------------------------------
 
 
-def _of_one_problem(scene: Scene, names: tuple[str, ...], stages: set[str]) -> Iterable[Step]:
+def _of_one_problem(scene: Scene, stages: set[str]) -> Iterable[Step]:
     """The steps of full stick, and of dissimilar bodies in partial slip."""
-    beta = f"β = {scene.beta:.4g}"
-    coupled = (
-        "β q is left out: Goodman's approximation"
-        if scene.neglects_beta
-        else f"{beta}: p and q are one problem"
-    )
-    uneven = scene.profile.axis is None or bool(scene.tilt)
+    beta = f"β = {scene.beta:.4g}: p and q are one problem"
+    coupled = "β q is left out: Goodman's approximation" if scene.neglects_beta else beta
     slip = "the shear and the slip come with the pressure"
     if scene.bonded:
-        first = _full_stick(scene)
-        pressure, slip = "its real part", "infinite friction: nothing slips"
-        inequalities = "bonded surfaces can pull, and touch all over"
+        first = [("full stick", "one equation for p + iq, solved on the whole punch", "bonded")]
+        slip = "infinite friction: nothing slips"
     elif scene.tangential_load or scene.tau:
-        energy = "the power of friction, summed over states"
         first = [
-            Step("coupling", True, f"{coupled}; first under P alone", "pressed"),
-            Step("slip gradient", True, "that of P alone, kept in stick", "locked_in"),
-            Step("zones", True, "four edges, of contact and stick zone, by Newton", "coupled"),
-            Step("edges", True, "found with the zones", "normal"),
-            _if_asked("energy", "energy" in names, energy),
+            ("coupling", f"{coupled}; first under P alone", "pressed"),
+            ("slip gradient", "that of P alone, kept in stick", "locked_in"),
+            ("zones", "edges of contact and of stick zones together, by Newton", "coupled"),
         ]
-        pressure = "with the edges"
-        inequalities = "the certificate measures p >= 0 and |q| <= f p"
     else:
-        how = f"{coupled}; the stick zone is that of a flat punch"
-        middle = " and, if the contact has no axis, its middle by a second one" * uneven
-        growth = f"dP/ds by a Volterra equation{middle}; the edges from the integral of dP/ds"
-        first = [Step("coupling", True, how, "coupled"), Step("edges", True, growth, "normal")]
-        pressure = "flats superposed"
-        grows = ", where the stick zone grows at both ends, which is verified too" * uneven
-        inequalities = f"dP/ds > 0 is verified: p > 0 and |q| <= f p follow{grows}"
+        first = [("coupling", f"{coupled}; the contact grows by flat punches", "coupled")]
     return (
-        *first,
-        _if_asked("pressure", "pressure" in stages, pressure, "pressure"),
-        Step("inequalities", False, inequalities),
+        *(Step(name, True, how, stage) for name, how, stage in first),
+        Step("edges", True, "known with it", "normal"),
+        _if_asked("pressure", "pressure" in stages, "a part of the solution", "pressure"),
+        Step("inequalities", False, "the certificate measures them"),
         Step("slip", False, slip),
     )
-
-
-def _full_stick(scene: Scene) -> list[Step]:
-    exponents = f"-1/2 ± iη, tanh πη = β = {scene.beta:.4g}"
-    exponents = exponents if scene.beta else "-1/2: β = 0 leaves p and q uncoupled"
-    tilt = "given" if scene.moment is None else "that of the moment, which is linear in it"
-    how = f"one equation for p + iq, exponents {exponents}; the tilt is {tilt}"
-    ends = Step("edges", True, "the ends of the punch", "normal")
-    return [ends, Step("full stick", True, how, "bonded")]
 
 
 # -- first the pressure ----------------------------------------------------------------------------
@@ -264,17 +239,11 @@ def _tilt(scene: Scene) -> Step:
 
 def _expansion(scene: Scene, economy: Collection[str]) -> str:
     """How the pressure is written."""
-    hows = (
-        (
-            scene.profile.of_several,
-            "values of the slope on all patches, summed: no unknown but the edges",
-        ),
-        (bool(scene.epsilon), "exact panels with the edges' exponents"),
-        ("transform" not in economy, f"exact panels: {NO_ECONOMY}"),
-        (not scene.profile.breaks, "the slope is smooth: one DCT, no linear system"),
-        (True, "exact panels on the pieces in the contact; one DCT if no break falls inside"),
-    )
-    return next(how for holds, how in hows if holds)
+    if scene.profile.of_several:
+        return "values of the slope on all patches, summed: no unknown but the edges"
+    if scene.epsilon or "transform" not in economy:
+        return "exact panels on the pieces of the slope in the contact"
+    return "one DCT where the slope in the contact is smooth, else exact panels on its pieces"
 
 
 def _convexity(scene: Scene, economy: Collection[str]) -> Step:

@@ -11,21 +11,14 @@ from numpy.typing import ArrayLike
 from sie.errors import ContactError
 from sie.problem.material import Elastic
 from sie.problem.request import refuse_unknown_poisson
-from sie.stress.half_plane import Stress, Tractions
-from sie.stress.yield_limit import (
-    Criterion,
-    Peak,
-    YieldPoint,
-    elastic_limit,
-    peak_tension,
-    refuse_unknown_criterion,
-)
 from sie.traction.combination import scaled
 
 if TYPE_CHECKING:
     from sie.cracks.edge_intensity import EdgeIntensity
     from sie.io.boundary_data import BoundaryData
     from sie.stress.displacement import Displacement
+    from sie.stress.half_plane import Stress, Tractions
+    from sie.stress.yield_limit import Criterion, Peak, YieldPoint
 
     from .sheared import Sheared as Stages  # a part of a solution, which has the stages
 else:
@@ -51,6 +44,8 @@ class BodyAnswers(Stages):
 
         The indenter bears -q, and no bulk stress.
         """
+        from sie.stress.half_plane import Tractions
+
         scene = self.scene
         body, shear, bulk = scene.body, self.shear, scene.bulk_stress
         if name == "indenter":
@@ -82,6 +77,8 @@ class BodyAnswers(Stages):
         ContactError
             If the body is rigid.
         """
+        from sie.stress.half_plane import Stress
+
         return Stress(self.tractions, x, y)
 
     def displacement(
@@ -248,6 +245,8 @@ class BodyAnswers(Stages):
         >>> round(found.y / found.half_width, 2)
         0.7
         """
+        from sie.stress.yield_limit import elastic_limit, refuse_unknown_criterion
+
         refuse_unknown_criterion(criterion)
         refuse_unknown_poisson(self.scene)
         return elastic_limit(self.tractions, self.normal_load, criterion)
@@ -260,6 +259,8 @@ class BodyAnswers(Stages):
         Peak
             (value, x): stress, and the position where it is reached, in the contact or beside it.
         """
+        from sie.stress.yield_limit import peak_tension
+
         return peak_tension(self.tractions)
 
     def edge_intensity(self, side: str) -> EdgeIntensity:

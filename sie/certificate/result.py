@@ -4,13 +4,9 @@ from __future__ import annotations
 
 import math
 import textwrap
-from collections.abc import Iterable
 from dataclasses import dataclass
-from html import escape
-from typing import Any
 
-from sie.arguments import as_numbers
-from sie.numerics.interval import EPS
+from sie.patches.result import LEAST, WIDE, Measured, table
 
 Intervals = tuple[tuple[float, float], ...]
 
@@ -25,10 +21,8 @@ BESIDES = (
 )
 # r over the distances from an edge at which the promise is given in numbers
 NEARER = {1.0: "r, half of the width", 1e2: "r/100", 1e4: "r/10000"}
-WIDE = 79  # columns of a terminal
 TOLERATED = 1e-11  # of the peak: tension or overlap below it is rounding
 NAMED = 3  # intervals that a message names
-LEAST = 8.0 * EPS  # rounding of single pressures, which the integrals average out ...
 # what one ulp of x does may add up to this multiple in a principal value next to a corner
 EXPLAINED = 16.0
 MOST_EXPLAINED = 0.1  # of the peak: where rounding of x can do more than that, nothing is certified
@@ -40,7 +34,7 @@ RETREAT = "with Q and σ in proportion the zones of slip would retreat on the wa
 
 
 @dataclass(frozen=True)
-class Certificate:
+class Certificate(Measured):
     """The measures of accuracy of an answer.
 
     Numbers are relative: to the peak pressure (residual, inequalities), to P and P r (equilibrium).
@@ -115,13 +109,6 @@ class Certificate:
             and self.lowest_gap >= -max(allowed, TOLERATED)
         )
 
-    def as_dict(self) -> dict[str, Any]:
-        """The certificate as numbers, lists and strings by name, for JSON."""
-        return as_numbers(self)
-
-    def _repr_html_(self) -> str:
-        return f"<pre>{escape(str(self))}</pre>"
-
     def wrong_by(self, nearer: float) -> float:
         """What the promise is at a distance r/nearer from an edge, as a part of the peak."""
         return 3.0 * (self.error + self.edges * nearer**self.root)
@@ -158,7 +145,7 @@ class Certificate:
 
 
 @dataclass(frozen=True)
-class ShearCertificate:
+class ShearCertificate(Measured):
     """The measures of accuracy of a shear traction (`shear_check`).
 
     Numbers are relative to the largest |q|, to ∫|q| dx, or to f times the peak pressure.
@@ -206,10 +193,6 @@ class ShearCertificate:
         allowed = _allowed(self.tol, self.abscissae)
         return self.error <= allowed and self.opposing >= -max(allowed, TOLERATED)
 
-    def as_dict(self) -> dict[str, Any]:
-        """The certificate as numbers, strings and truth values by name, for JSON."""
-        return as_numbers(self)
-
     @property
     def rows(self) -> tuple[tuple[str, str], ...]:
         """The measures with their values, as printed."""
@@ -228,11 +211,6 @@ class ShearCertificate:
         if self.advancing:
             return (f"slip: {self.kind}",)
         return (f"slip: {self.kind}, in total displacements: {RETREAT}",)
-
-
-def table(rows: Iterable[tuple[str, str]]) -> list[str]:
-    """Measures with their values, one a line."""
-    return [f"{name:<48} {value:>9}".rstrip() for name, value in rows]
 
 
 def unresolved(abscissae: float) -> tuple[str, ...]:

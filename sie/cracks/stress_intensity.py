@@ -222,12 +222,10 @@ class StressIntensity:
 
         Parameters
         ----------
-        ax : matplotlib.axes.Axes, optional
-            Where to draw; axes of their own if not given.
+        ax, units
+            As of `Solution.plot`.
         threshold, fatigue_limit : float, optional
             ΔK0 and Δσ0, as of `threshold`.
-        units : mapping of str to str, optional
-            Labels of "length", "force" and "stress"; mm, N/mm and MPa if not given.
 
         Returns
         -------

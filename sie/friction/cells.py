@@ -14,8 +14,9 @@ from numpy.typing import NDArray
 
 from sie.errors import ContactError
 from sie.numerics.chord import Chord
+from sie.numerics.zones import united
 
-from .state import SAME, Contact, State, Zones, intervals, united
+from .state import SAME, Contact, State, Zones, intervals
 
 Array = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -117,7 +118,7 @@ def _cells(before: State, after: Contact) -> Array:
     old = before.contact
     edges = np.array((*old.patches, *after.patches)).ravel()
     marks = np.unique(np.concatenate((before.marks, after.limit.marks, edges)))
-    parts = intervals(united(old.patches, after.patches), marks, SAME * after.width)
+    parts = intervals(united((*old.patches, *after.patches)), marks, SAME * after.width)
     out = []
     for lo, hi in parts:
         n = max(CELLS, int(np.ceil(FEWEST * (hi - lo) / after.width)))

@@ -36,10 +36,10 @@ from sie.numerics.graded_panels import (
     gauss_shares,
     principal_value,
 )
-from sie.numerics.zones import left_over
+from sie.numerics.zones import left_over, united
 
 from .rates import LoadRates, Rates
-from .state import KNOWN, SAME, Contact, Ends, State, Zones, intervals, united
+from .state import KNOWN, SAME, Contact, Ends, State, Zones, intervals
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -124,7 +124,7 @@ class Equations:
     @cached_property
     def touched(self) -> Ends:
         """What is in contact at the start or at the end."""
-        return united(self.before.contact.patches, self.after.patches)
+        return united((*self.before.contact.patches, *self.after.patches))
 
     @cached_property
     def beside(self) -> Array:

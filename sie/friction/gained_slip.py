@@ -18,9 +18,10 @@ from numpy.typing import NDArray
 
 from sie.errors import ContactError
 from sie.numerics.graded_panels import OF_SERIES, Pieces, Rule
+from sie.numerics.zones import united
 
 from .equations import Equations, Gap
-from .state import SAME, intervals, united
+from .state import SAME, intervals
 
 if TYPE_CHECKING:
     from .finite_step import Part
@@ -130,7 +131,7 @@ def drag(part: Part) -> float:
     old, new = before.contact, after.contact
     x_s = _stuck_all_along(part)
     marks = np.unique(np.concatenate((before.marks, after.marks, [x_s])))
-    rule = Rule.graded(intervals(united(old.patches, new.patches), marks, SAME * new.width))
+    rule = Rule.graded(intervals(united((*old.patches, *new.patches)), marks, SAME * new.width))
     change = rule.weight * (after.shear.on(rule) - before.shear.on(rule))
     log = np.log(np.abs(rule.apart_from(x_s)))
     return float(-(change @ log) + math.pi * (new.tau - old.tau) * x_s)

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from sie.errors import ContactError
 from sie.numerics.chord import Chord
 from sie.numerics.graded_panels import OF_SERIES, Pieces, Rule
+from sie.numerics.zones import united
 
 Array = NDArray[np.float64]
 Ends = tuple[tuple[float, float], ...]
@@ -99,17 +100,6 @@ def intervals(zones: Iterable[tuple[float, float]], marks: Array, same: float) -
     return np.concatenate(found) if found else np.zeros((0, 2))
 
 
-def united(first: Ends, second: Ends) -> Ends:
-    """The union of two sets of patches."""
-    found: list[tuple[float, float]] = []
-    for lo, hi in sorted((*first, *second)):
-        if found and lo <= found[-1][1]:
-            found[-1] = found[-1][0], max(found[-1][1], hi)
-        else:
-            found.append((lo, hi))
-    return tuple(found)
-
-
 def overlaps(first: Ends, second: Ends) -> Ends:
     """The zones that lie in one zone of each of two sets."""
     pairs = ((max(a, c), min(b, d)) for a, b in first for c, d in second)
@@ -170,7 +160,7 @@ def opposing_slip(before: State, state: State, stuck: Ends) -> float:
     x, c, senses = np.array(tested), np.array(nearest), np.array(signs)
     inner = x[~np.isin(x, stick)]
     cuts = np.unique(np.concatenate((marks, inner)))
-    touched = united(old.patches, new.patches)
+    touched = united((*old.patches, *new.patches))
     rule = Rule.graded(intervals(touched, cuts, same), OF_SERIES)
     change = rule.weight * (state.shear.on(rule) - before.shear.on(rule))
     slip = np.zeros(len(x))
@@ -196,7 +186,7 @@ def change_of_shear(before: State, state: State, stuck: Ends) -> float:
     chord, same = Chord(new.period), SAME * new.width
     x = np.array([lo + (hi - lo) * share for lo, hi in stuck for share in MEASURED])
     cuts = np.unique(np.concatenate((before.marks, state.marks, x)))
-    zones = united(old.patches, new.patches)
+    zones = united((*old.patches, *new.patches))
     rule = Rule.graded(intervals(zones, cuts, same), OF_SERIES)
     change = state.shear.on(rule) - before.shear.on(rule)
     missed = 0.0

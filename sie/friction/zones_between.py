@@ -17,6 +17,7 @@ from numpy.polynomial.chebyshev import chebval, chebvander
 from numpy.typing import NDArray
 
 from sie.errors import ContactError
+from sie.numerics.zones import within
 
 from .cells import zones_on_cells
 from .equations import Equations
@@ -164,20 +165,13 @@ def slip(part: Part, step: LoadStep, x: Array) -> Array:
     """The slip at places (1-d); at one that came into contact in the part, since then."""
     found = GainedSlip(part.equations).at(x)
     old, new = (part.before.contact.patches, part.state.contact.patches)
-    touches, touched = _within(x, new), _within(x, old)
+    touches, touched = within(x, new), within(x, old)
     gained = touches & ~touched
-    sticks = gained & _within(x, part.state.stick)  # since it touched
+    sticks = gained & within(x, part.state.stick)  # since it touched
     found[sticks], gained = 0.0, gained & ~sticks
     if gained.any():
         found[gained] -= _slip_at_touch(part, step, x[gained])
     return np.where(touches, found, 0.0) * (2.0 / step.contacts.scene.Estar)
-
-
-def _within(x: Array, patches: tuple[tuple[float, float], ...]) -> NDArray[np.bool_]:
-    out = np.zeros(x.shape, dtype=bool)
-    for lo, hi in patches:
-        out |= (x >= lo) & (x <= hi)
-    return out
 
 
 def _slip_at_touch(part: Part, step: LoadStep, x: Array) -> Array:

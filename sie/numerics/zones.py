@@ -1,4 +1,4 @@
-"""Zones of contact, of stick and of slip: the parts that one leaves of another."""
+"""Zones of contact, of stick and of slip: their union, and the parts that one leaves of another."""
 
 from __future__ import annotations
 
@@ -10,6 +10,17 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 Zones = Sequence[tuple[float, float]]
+
+
+def united(zones: Zones) -> tuple[tuple[float, float], ...]:
+    """The union of zones, ascending."""
+    found: list[tuple[float, float]] = []
+    for lo, hi in sorted(zones):
+        if found and lo <= found[-1][1]:
+            found[-1] = found[-1][0], max(found[-1][1], hi)
+        else:
+            found.append((lo, hi))
+    return tuple(found)
 
 
 def left_over(
@@ -31,6 +42,8 @@ def left_over(
 
 def within(x: Array, zones: Zones, period: float = math.inf) -> NDArray[np.bool_]:
     """Whether x is in one of the zones, which are ascending."""
+    if not len(zones):
+        return np.zeros(x.shape, dtype=bool)
     a, b = np.array(zones).T
     if math.isfinite(period):
         x = x - period * np.floor((x - a[0]) / period)

@@ -1,23 +1,49 @@
-"""What is measured on an answer of several patches."""
+"""What certificates have in common, and what is measured on an answer of several patches."""
 
 from __future__ import annotations
 
 import textwrap
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, fields, replace
+from html import escape
 from typing import Any
 
 import numpy as np
 
-from sie.arguments import as_numbers
-
-LEAST = 8.0 * float(np.finfo(float).eps)
-WIDE = 79
+LEAST = 8.0 * float(np.finfo(float).eps)  # rounding of single values, which integrals average out
+WIDE = 79  # columns of a terminal
 CLOSE = 1e4  # condition from which a patch is about to appear, or two to merge
 
 
+class Measured:
+    """Measures as data; a certificate adds `error` and `ok`."""
+
+    def as_dict(self) -> dict[str, Any]:
+        """The certificate as numbers, lists and strings by name, for JSON.
+
+        The shear is left out where there is none.
+        """
+        values = {f.name: getattr(self, f.name) for f in fields(self)}  # type: ignore[arg-type]
+        found = {name: _plain(value) for name, value in values.items() if value is not None}
+        return found | {name: getattr(self, name) for name in ("error", "ok")}
+
+    def _repr_html_(self) -> str:
+        return f"<pre>{escape(str(self))}</pre>"
+
+
+def _plain(value: Any) -> Any:
+    if isinstance(value, tuple):
+        return [_plain(v) for v in value]
+    return value.as_dict() if isinstance(value, Measured) else value
+
+
+def table(rows: Iterable[tuple[str, str]]) -> list[str]:
+    """Measures with their values, one a line."""
+    return [f"{name:<48} {value:>9}".rstrip() for name, value in rows]
+
+
 @dataclass(frozen=True)
-class PatchCertificate:
+class PatchCertificate(Measured):
     """The measured errors, relative to the peak pressure, to P and to P r.
 
     residual          of the integral equation
@@ -67,9 +93,6 @@ class PatchCertificate:
         """What the error may be: the tolerance, or what rounding of the edges changes."""
         return max(self.tol, self.measured_to)
 
-    def as_dict(self) -> dict[str, Any]:
-        return as_numbers(self)
-
     def __str__(self) -> str:
         """The verdict first, then what it means, then its parts."""
         verdict = f"{'' if self.ok else 'NOT '}certified to {self.allowed:.0e}"
@@ -91,9 +114,8 @@ class PatchCertificate:
             "The pressure is wrong by about that part of its peak. p >= 0 in contact and gap >= 0 "
             "beside it hold by bounds, panel by panel."
         )
-        lines = [f"{name:<48} {value:>9}" for name, value in rows]
         told = textwrap.wrap(promise, WIDE) if self.ok else []
-        return "\n".join([verdict, *told, "", *lines, *remarks, *self.notes])
+        return "\n".join([verdict, *told, "", *table(rows), *remarks, *self.notes])
 
 
 def worst_of(found: Sequence[PatchCertificate]) -> PatchCertificate:

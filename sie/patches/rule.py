@@ -6,7 +6,7 @@ The certificates integrate values of tractions by it.
 from __future__ import annotations
 
 from itertools import pairwise
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,8 +15,10 @@ from sie.numerics import chebyshev
 from sie.numerics.chord import Points
 from sie.numerics.tree import parts
 
-from .measure import Measure
 from .panels import LONG, Patches, PatchPanels
+
+if TYPE_CHECKING:
+    from .measure import Measure
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]

@@ -18,7 +18,6 @@ steps are followed part by part, and why. A path may begin unloaded, at (0, 0, 0
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Collection, Sequence
 from contextlib import suppress
 from dataclasses import replace
@@ -31,7 +30,6 @@ from numpy.typing import NDArray
 from sie.answers.sheared import Sheared
 from sie.certificate.shear_check import certificate_of_parts
 from sie.errors import ContactError
-from sie.friction.course import course
 from sie.friction.load_steps import (
     Followable,
     TurningPoint,
@@ -40,7 +38,7 @@ from sie.friction.load_steps import (
     sheared_all_over,
     turning_points,
 )
-from sie.friction.loading import Loads, LoadStep
+from sie.friction.loading import Loads
 from sie.friction.path_slip import (
     CourseSlip,
     PathSlip,
@@ -49,7 +47,6 @@ from sie.friction.path_slip import (
     step_shift,
 )
 from sie.inheritance import override
-from sie.patches.friction import refuse_stretch
 from sie.patches.full import FullContact
 from sie.planning import Plan, Step
 from sie.problem.load_path import Path, pressed_first, unsheared
@@ -63,17 +60,12 @@ if TYPE_CHECKING:
     from sie.certificate.result import ShearCertificate
     from sie.contact.known_contact import Normal
     from sie.friction.slip_state import Slip
-    from sie.friction.state import State
     from sie.patches.answer import SeveralPatches
     from sie.patches.result import PatchCertificate
     from sie.problem.scene import Scene
     from sie.traction.of_slope import SlopeDensity
 
 Array = NDArray[np.float64]
-
-UNSEEN = 1e-9  # of f P: a smaller step of P is not followed part by part ...
-UNTOLD = 1e-11  # ... and a smaller one at constant P
-SLIDES, STICKS = 1e-10, 1e-9  # of f P, that Q is below it: what is refused, and what is not
 
 
 def follow(
@@ -209,10 +201,8 @@ class History(PathContacts, Sequence[Solution]):
 
         Parameters
         ----------
-        ax : matplotlib.axes.Axes, optional
-            Where to draw; axes of their own, which a notebook shows, if not given.
-        units : mapping of str to str, optional
-            Labels, as of `Solution.plot`.
+        ax, units
+            As of `Solution.plot`.
 
         Returns
         -------
@@ -263,50 +253,6 @@ class History(PathContacts, Sequence[Solution]):
         else:  # the bodies have just come into contact
             start = sheared_all_over(self, first, first.Q)
         return self.followed(start, first, loads)
-
-    def followed(self, start: State, first: Loads, loads: Loads) -> TurningPoint:
-        """The turning point after a step from a state, part by part."""
-        if first.sigma != loads.sigma:
-            refuse_stretch(self.period)
-        f, limit = self.scene.friction, self.scene.friction * loads.P
-        slips = abs(loads.Q - first.Q) > f * (loads.P - first.P) * (1.0 + SLIDES)
-        if slips and abs(loads.Q) > (1.0 - SLIDES) * limit:
-            Q = math.copysign((1.0 - STICKS) * limit, loads.Q)
-            raise ContactError(
-                "|Q| comes to f P in a step in which P, the tilt or the proportion of Q and σ "
-                f"changes: no stick zone is left to follow; end it at Q = {Q:.12g}"
-            )
-        for at in (first, loads):
-            found = self.plain(*at.normal)
-            if any(found.sharp):
-                raise ContactError(
-                    "P, the tilt or the proportion of Q and σ changes in this step, and a contact "
-                    "with sharp edges is not followed through it: the shear is infinite there; "
-                    "round its corners (sie.RoundedFlat)"
-                )
-            if isinstance(found.normal, FullContact):
-                raise ContactError(
-                    "P, the tilt or the proportion of Q and σ changes in this step, and full "
-                    "contact is not followed through it; change Q at constant P"
-                )
-        step = LoadStep(self, first, loads, {0.0: start.contact})
-        return TurningPoint(loads, parts=course(start, step), step=step)
-
-    def _refuse_unseen(self, first: Loads, loads: Loads) -> None:
-        """Refuse a step that rounding hides."""
-        f, arm = self.scene.friction, self.scene.Estar * self.arm
-        same, limit = first.normal == loads.normal, UNTOLD
-        change = max(abs(self.shear(loads) - self.shear(first)), f * abs(loads.P - first.P))
-        if same:
-            change = max(change, abs(loads.sigma - first.sigma) / self.scene.Estar * first.P)
-        else:
-            before, now = (self.plain(*at.normal).tilt for at in (first, loads))
-            change, limit = max(change, f * arm * abs(now - before)), UNSEEN
-        if change <= limit * f * loads.P:
-            raise ContactError(
-                f"all loads change by less than {limit:g} of f P, which rounding hides: drop "
-                "this point of the path" + ("" if same else ", or keep P and the tilt in it")
-            )
 
     def energy(self, index: int) -> float:
         """The energy lost from the beginning of the path to a turning point."""

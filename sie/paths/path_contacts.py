@@ -1,7 +1,8 @@
 """The contacts of a load path, without shear and in first loading, each solved once.
 
 The solution at each turning point, and every step between two of them, is made of contacts under
-other loads: those of the path itself, those of the layers in its memory, and those on the way.
+other loads: those of the path itself, those of the layers in its memory, and those on the way. A
+step that no layers answer is followed part by part (`friction.course`).
 """
 
 from __future__ import annotations
@@ -14,18 +15,25 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from sie.answers.sheared import Sheared
-from sie.errors import LoadError
+from sie.errors import ContactError, LoadError
+from sie.friction.course import course
+from sie.friction.load_steps import TurningPoint
+from sie.friction.loading import Loads, LoadStep
 from sie.friction.partial_slip import OneSignedSlip
 from sie.numerics.interval import EPS, Interval
+from sie.patches.friction import refuse_stretch
+from sie.patches.full import FullContact
 from sie.problem.load_path import Path, unsheared
 
 if TYPE_CHECKING:
-    from sie.friction.loading import Loads
     from sie.friction.slip_state import Slip
+    from sie.friction.state import State
     from sie.patches.answer import SeveralPatches
-    from sie.patches.full import FullContact
     from sie.problem.scene import Scene
 
+UNSEEN = 1e-9  # of f P: a smaller step of P is not followed part by part ...
+UNTOLD = 1e-11  # ... and a smaller one at constant P
+SLIDES, STICKS = 1e-10, 1e-9  # of f P, that Q is below it: what is refused, and what is not
 # P, and what is added to the scene's tilt or moment.
 Under = tuple[float, float]
 
@@ -160,6 +168,52 @@ class PathContacts:
     def in_one_patch(self) -> bool:
         """Whether the contact is one patch under every load of the path, by a slope that rises."""
         return self.plain(self.largest, self._first[1]).convex
+
+    # -- steps followed part by part ---------------------------------------------------------------
+
+    def followed(self, start: State, first: Loads, loads: Loads) -> TurningPoint:
+        """The turning point after a step from a state, part by part."""
+        if first.sigma != loads.sigma:
+            refuse_stretch(self.period)
+        f, limit = self.scene.friction, self.scene.friction * loads.P
+        slips = abs(loads.Q - first.Q) > f * (loads.P - first.P) * (1.0 + SLIDES)
+        if slips and abs(loads.Q) > (1.0 - SLIDES) * limit:
+            Q = math.copysign((1.0 - STICKS) * limit, loads.Q)
+            raise ContactError(
+                "|Q| comes to f P in a step in which P, the tilt or the proportion of Q and σ "
+                f"changes: no stick zone is left to follow; end it at Q = {Q:.12g}"
+            )
+        for at in (first, loads):
+            found = self.plain(*at.normal)
+            if any(found.sharp):
+                raise ContactError(
+                    "P, the tilt or the proportion of Q and σ changes in this step, and a contact "
+                    "with sharp edges is not followed through it: the shear is infinite there; "
+                    "round its corners (sie.RoundedFlat)"
+                )
+            if isinstance(found.normal, FullContact):
+                raise ContactError(
+                    "P, the tilt or the proportion of Q and σ changes in this step, and full "
+                    "contact is not followed through it; change Q at constant P"
+                )
+        step = LoadStep(self, first, loads, {0.0: start.contact})
+        return TurningPoint(loads, parts=course(start, step), step=step)
+
+    def _refuse_unseen(self, first: Loads, loads: Loads) -> None:
+        """Refuse a step that rounding hides."""
+        f, arm = self.scene.friction, self.scene.Estar * self.arm
+        same, limit = first.normal == loads.normal, UNTOLD
+        change = max(abs(self.shear(loads) - self.shear(first)), f * abs(loads.P - first.P))
+        if same:
+            change = max(change, abs(loads.sigma - first.sigma) / self.scene.Estar * first.P)
+        else:
+            before, now = (self.plain(*at.normal).tilt for at in (first, loads))
+            change, limit = max(change, f * arm * abs(now - before)), UNSEEN
+        if change <= limit * f * loads.P:
+            raise ContactError(
+                f"all loads change by less than {limit:g} of f P, which rounding hides: drop "
+                "this point of the path" + ("" if same else ", or keep P and the tilt in it")
+            )
 
 
 class _KnownZones:

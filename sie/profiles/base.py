@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 from sie import arguments
 from sie.arguments import with_middle_cut
 from sie.inheritance import override
+from sie.numerics.zones import united
 
 from .functions import FunctionTerm, PowerLaw, Vectorised
 from .indenter import Indenter, of_any_x
@@ -282,7 +283,7 @@ class Composite(Profile):
             for part in self.parts
             for one, other in part.profile.walls
         ]
-        return joined(tuple((max(a, lo), min(b, hi)) for a, b in placed if a < hi and b > lo))
+        return united([(max(a, lo), min(b, hi)) for a, b in placed if a < hi and b > lo])
 
     @cached_property
     def ends_are_corners(self) -> tuple[bool, bool]:
@@ -295,17 +296,6 @@ class Composite(Profile):
                 for k in (0, 1):
                     corners[k] &= is_corner or here != self.domain[k]
         return corners[0], corners[1]
-
-
-def joined(intervals: tuple[Pair, ...]) -> tuple[Pair, ...]:
-    """The union of intervals, ascending."""
-    found: list[Pair] = []
-    for lo, hi in sorted(intervals):
-        if found and lo <= found[-1][1]:
-            found[-1] = found[-1][0], max(found[-1][1], hi)
-        else:
-            found.append((lo, hi))
-    return tuple(found)
 
 
 def parts_of(profile: Profile) -> tuple[Placed, ...]:

@@ -20,8 +20,9 @@ from numpy.typing import ArrayLike, NDArray
 from sie import arguments
 from sie.arguments import abridged
 from sie.inheritance import override
+from sie.numerics.zones import united
 
-from .base import Profile, function_slope, joined
+from .base import Profile, function_slope
 from .indenter import of_any_x
 from .lowest_profile import finite_ends, inside, lowest_of
 from .placed_traces import closed, open_seams
@@ -102,7 +103,7 @@ class Row(Profile):
             found += [
                 wall for wall in self.profiles[max(k, 0)].walls if lo < wall[0] and wall[1] < hi
             ]
-        return joined(tuple(found))
+        return united(found)
 
     @cached_property
     def pieces(self) -> Slope:

@@ -96,12 +96,7 @@ class Derivative(OfPatches):
         return self._shear.stick
 
     def stress(self, x: ArrayLike, y: ArrayLike) -> StressDerivative:
-        """That of the stress at points of the body.
-
-        Parameters
-        ----------
-        x, y : array_like of float
-            Positions and depths, y >= 0, length. They are broadcast against each other.
+        """That of the stress at points of the body, whose places are those of `Solution.stress`.
 
         Returns
         -------

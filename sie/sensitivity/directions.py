@@ -17,7 +17,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from sie.errors import ContactError
 from sie.inheritance import override
-from sie.profiles.base import Composite, Placed, Profile, joined
+from sie.numerics.zones import united
+from sie.profiles.base import Composite, Placed, Profile
 from sie.profiles.from_function import FromFunction
 from sie.profiles.indenter import of_any_x
 from sie.profiles.polynomials import Piecewise, Polynomial
@@ -197,4 +198,4 @@ class OfOne(Profile):
         jumps = [
             (x, x) for (_, x, k), (_, _, j) in runs if self.number in (k, j) and min(k, j) >= 0
         ]
-        return joined((*self.row.walls, *jumps))
+        return united((*self.row.walls, *jumps))
