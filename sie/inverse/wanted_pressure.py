@@ -31,11 +31,10 @@ from scipy.interpolate import PchipInterpolator
 
 from sie import arguments
 from sie.numerics import chebyshev
-from sie.profiles.base import Profile
+from sie.profiles.base import Profile, function_slope
 from sie.profiles.from_function import FromFunction
 from sie.profiles.pieces import Pieces, from_slope
 from sie.profiles.row import Row
-from sie.profiles.slope import function_slope
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
