@@ -32,6 +32,7 @@ MOST_STEPS, HALVINGS = 25, 5
 DIFFERENCE, NARROWEST = 1e-6, 1e-6  # for derivatives: of widths, and of zones at the edges
 FOLDS = 1.0  # by which a step may change a width
 CELLS = 72
+BEHIND, MOST_PASSED = 1e-6, 8  # of the contact: how far behind a mark an end stops; and marks
 LEAST = 1e-9  # of a cell, and of what it carries
 STALE = 0.4  # of what was missed: a slower step asks for new derivatives
 
@@ -103,6 +104,26 @@ class Unknowns(NamedTuple):
         widths.insert(self.widest, right - left - sum(widths))
         return Zones(left, tuple(widths), self.signs) if widths[self.widest] > 0.0 else None
 
+    def up_to_marks(self, u: Array, step: Array, marks: tuple[float, ...]) -> Array:
+        """The unknowns after a step, but for ends of stick that would pass marks.
+
+        Conditions are not smooth there: such an end stops just behind the first mark.
+        """
+        before, after = self.zones(u), self.zones(u + step)
+        assert before is not None
+        while after is None:
+            step = 0.5 * step
+            after = self.zones(u + step)
+        ends, behind = after.ends, BEHIND * sum(before.widths)
+        for k, first in enumerate(before.ends.tolist()):
+            way = math.copysign(1.0, ends[k] - first)
+            passed = [way * mark for mark in marks if way * first < way * mark < way * ends[k]]
+            if 0 < k < len(ends) - 1 and passed:
+                ends[k] = way * min(way * float(ends[k]), min(passed) + behind)
+        if (ends == after.ends).all() or not (np.diff(ends) > 0.0).all():
+            return u + step
+        return self.told(zones_between(ends, self.signs))
+
     def through(self, u: Array, end: int, mark: float) -> Array:
         """The unknowns of which one edge is replaced so that an end of a zone is at a mark."""
         u, widths = u.copy(), np.insert(np.exp(u[2:]), self.widest, 0.0)
@@ -135,11 +156,20 @@ def settled(
 
         return state
 
-    quick = _descended(trial(QUICK), unknowns.told(start), None, (ROUGHLY, ROUGHLY))
-    if quick is None or accepted >= ROUGHLY:
-        return quick.state if quick else None
-    found = _descended(trial(FINE), quick.unknowns, quick.slopes, (SETTLED, accepted))
-    return found.state if found else None
+    def behind_marks(u: Array, step: Array) -> Array:
+        return unknowns.up_to_marks(u, np.clip(step, -FOLDS, FOLDS), marks)
+
+    told, rough = (unknowns.told(start), None), (ROUGHLY, ROUGHLY)
+    found = _descended(trial(QUICK), told, rough)
+    if accepted >= ROUGHLY:
+        return found.state if found else None
+    for cut in (None, behind_marks):
+        found = _descended(trial(QUICK), told, rough, cut) if cut else found
+        if found is not None:
+            found = _descended(trial(FINE), found[1:], (SETTLED, accepted), cut)
+        if found is not None:
+            return found.state
+    return None
 
 
 def passing(
@@ -169,7 +199,7 @@ def passing(
 
     u = unknowns.told(zones)
     u[edge] = part
-    found = _descended(trial, u, None, (ROUGHLY, ROUGHLY))
+    found = _descended(trial, (u, None), (ROUGHLY, ROUGHLY))
     return (float(found.unknowns[edge]), found.state) if found else None
 
 
@@ -185,10 +215,17 @@ def state_of(pieces: Pieces, question: Question) -> State:
 
 
 def _descended(
-    trial: Trial, u: Array, slopes: Array | None, limits: tuple[float, float]
+    trial: Trial,
+    start: tuple[Array, Array | None],
+    limits: tuple[float, float],
+    cut: Callable[[Array, Array], Array] | None = None,
 ) -> Found | None:
-    """Newton's method until no more than the first limit is missed; the second one is accepted."""
-    (state, missed), fresh = trial(u), False
+    """Newton's method until no more than the first limit is missed; the second one is accepted.
+
+    `cut` makes unknowns of a step; the first that it changes may miss more than those before.
+    """
+    u, slopes = start
+    (state, missed), fresh, passed = trial(u), False, 0
     enough, accepted = limits
     for _ in range(MOST_STEPS):
         size = float(np.abs(missed).max())
@@ -201,6 +238,11 @@ def _descended(
         if not np.isfinite(slopes).all():
             return None
         step = np.asarray(np.linalg.lstsq(slopes, -missed, rcond=None)[0], dtype=float)
+        new = cut(u, step) if cut and passed < MOST_PASSED else u + step
+        if (new != u + step).any():
+            passed, u, slopes = passed + 1, new, None
+            state, missed = trial(u)
+            continue
         step *= min(1.0, FOLDS / float(np.abs(step).max()))
         shortened = _shortened(trial, u, step, size)
         if shortened is None:

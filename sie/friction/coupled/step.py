@@ -9,7 +9,7 @@ and slip along q wherever the bodies slip.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING
@@ -38,8 +38,6 @@ Array = NDArray[np.float64]
 CLOSED = 1e-12  # of f P: loads that are the same
 TOLERATED = 1e-9  # of the largest f p, and of the largest slip: what the verdict forgives
 AWAY = 0.05  # of the stick zone: how far its ends go about, times the root of the part of f P
-BEYOND, MOST_OTHERS = 0.02, 4  # of the way from a mark to the edge; starts beyond marks
-HALVINGS = 2  # of a step whose end is not found at once
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,7 +50,7 @@ class Loaded:
     step        changes of Q and strain since the point before
     friction    f; under P alone, that of a state may be smaller where nothing would slip
     base        the state from which the last step was solved, if not `before`
-    halfway     the state in the middle of a step that was halved, after which `step` is counted
+    halfway     the state on a step in which a loop closed, after which `step` is counted
     """
 
     fields: Fields
@@ -82,39 +80,33 @@ class Loaded:
         inside = {m for m in self.state.pieces.marks for lo, hi in self.zones.stick if lo < m < hi}
         return tuple(sorted({*inside, *self.zones.ends.tolist()[1:-1]}))
 
-    def stepped(self, Q: float, strain: float, halvings: int = HALVINGS) -> Loaded | None:
+    def stepped(self, Q: float, strain: float) -> Loaded | None:
         """The state under other loads; None where no zones keep the friction law.
 
-        Where none is found at once, the step is halved. Slip may go on in the present zones, from
-        what was locked in when it began; else the loads turn, and everything sticks first. A step
-        that passes loads at which they turned closes a loop there, and goes on as before it.
+        Slip may go on in the present zones, from what was locked in when it began; else the loads
+        turn, and everything sticks first. A step that passes loads at which they turned closes a
+        loop there, and goes on as before it.
         """
         if Q == self.Q and strain == self.strain:
             return self
-        back = self.returned(Q, strain) or _past(self._closed(Q, strain), Q, strain)
+        back = self.returned(Q, strain)
         if back is not None:
             return back
-        after, turns = self._at_once(Q, strain)
-        if after is not None or turns or not halvings:
-            return after
-        middle = 0.5 * (self.Q + Q), 0.5 * (self.strain + strain)
-        return _past(self.stepped(*middle, halvings - 1), Q, strain)
-
-    def _at_once(self, Q: float, strain: float) -> tuple[Loaded | None, bool]:
-        """The state from one of the starts; without one, whether slip would turn back.
-
-        If so, it does from any other start, and in any part of the step.
-        """
-        step = Q - self.Q, strain - self.strain
-        for base, start in self._starts(Q, strain):
+        way = self._closed(Q, strain)
+        beyond = way.stepped(Q, strain) if way is not None else None
+        if beyond is not None:
+            return replace(beyond, halfway=way)
+        goes_on = self.before is not None and self._farther(Q, strain) > 1.0
+        for base in (self.before, self) if goes_on else (self,):
+            assert base is not None
+            start = guess(base, Q, strain)
             state = settled(base.asked(Q, strain), start, base.marks) if start else None
             if state is not None:
+                step = Q - self.Q, strain - self.strain
                 after = Loaded(Fields(state), Q, strain, base, step, self.friction)
                 if after.verdict.holds and (base is self or after.within(self)):
-                    return after, False
-                if base is self and after.verdict.turns:
-                    return None, True
-        return None, False
+                    return after
+        return None
 
     def _closed(self, Q: float, strain: float) -> Loaded | None:
         """The last state in which the loads turned on the way to others, if a loop closes there."""
@@ -126,14 +118,6 @@ class Loaded:
             if 0.0 < part < 1.0 and off <= CLOSED * np.abs(step).max():
                 return self.returned(turn.Q, turn.strain)
         return None
-
-    def _starts(self, Q: float, strain: float) -> Iterator[tuple[Loaded, Zones | None]]:
-        """States from which a step may be solved, and zones to start from."""
-        if self.before is not None and self._farther(Q, strain) > 1.0:
-            yield self.before, guess(self.before, Q, strain)
-        near = guess(self, Q, strain)
-        yield self, near
-        yield from ((self, other) for other in beyond_marks(near, self.marks))
 
     def _farther(self, Q: float, strain: float) -> float:
         """How far other loads are from where the loads turned, over how far these are."""
@@ -209,12 +193,6 @@ class Loaded:
         return verdict(self)
 
 
-def _past(way: Loaded | None, Q: float, strain: float) -> Loaded | None:
-    """The state after a step whose first part leads to another one, if both are found."""
-    found = way.stepped(Q, strain, 0) if way is not None else None
-    return replace(found, halfway=way) if found is not None else None
-
-
 @dataclass(frozen=True)
 class Verdict:
     """How far a state is from the friction law; all are 0 or more where it is kept.
@@ -237,11 +215,6 @@ class Verdict:
     @property
     def holds(self) -> bool:
         return self.worst >= -TOLERATED
-
-    @property
-    def turns(self) -> bool:
-        """Whether friction is kept, but that slip begins to turn back."""
-        return min(self.deficit, self.pressure, self.slip) >= -TOLERATED > self.rate
 
 
 def verdict(after: Loaded) -> Verdict:
@@ -311,22 +284,6 @@ def guess(base: Loaded, Q: float, strain: float) -> Zones | None:
     if found is None:
         return nearly_sliding(base, (Q, strain), sliding) if sliding is not None else None
     return kept_within(found, base.zones, abs(dQ) / (base.friction * P))
-
-
-def beyond_marks(near: Zones | None, marks: tuple[float, ...]) -> Iterator[Zones]:
-    """Zones whose stick reaches beyond the next marks.
-
-    Between marks of loads that return, q is ± f p already: no end of stick is better than others.
-    """
-    if near is None or len(near.signs) != 3:
-        return
-    x1, e1, e2, x2 = near.ends.tolist()
-    lefts = [mark - BEYOND * (mark - x1) for mark in marks[::-1] if x1 < mark < e1]
-    rights = [mark + BEYOND * (x2 - mark) for mark in marks if e2 < mark < x2]
-    pairs = list(zip(lefts[-1:], rights[-1:], strict=False))
-    pairs += [(e1, right) for right in rights[::-1]] + [(left, e2) for left in lefts[::-1]]
-    for first, last in pairs[:MOST_OTHERS]:
-        yield zones_between(np.array([x1, first, last, x2]), near.signs)
 
 
 def nearly_sliding(base: Loaded, loads: tuple[float, float], sliding: Fields) -> Zones | None:

@@ -194,7 +194,7 @@ class Way:
         if state is None:
             state = self._settled(part, guess(self.base, *loads))
         if state is None:
-            found = self.previous.stepped(*loads, 0)
+            found = self.previous.stepped(*loads)
             if found is None or (found.base or found.before) is not self.base:
                 return None
             state = found.state
