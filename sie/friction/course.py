@@ -18,11 +18,12 @@ from sie.numerics.root_finding import false_position
 
 from .cells import zones_on_cells
 from .equations import Equations
-from .finite_step import Part, balanced, newton, on_earlier_zones, solved, without_idle
+from .finite_step import Part, balanced, newton, solved
 from .loading import LoadStep
 from .onset import End, Motion, Onset, onset, set_out
 from .state import EXCEEDED, TURNS, Contact, State, Zones
 from .strip_part import strip_part
+from .strips import Span
 
 Array = NDArray[np.float64]
 
@@ -30,7 +31,7 @@ ADVANCES, TURNED = "an end of a stick zone advances", "slip turns"
 EXCESS = "|q| exceeds f p in stick"
 STUCK = 1e-11  # of the loads: by so much equations may be missed where all sticks
 SHARES = (np.arange(1, 9) / 8.0) ** 1.5  # of a part at which it is tested
-EARLIER = (0.2, 0.02, 2e-3, 1e-4)  # of the first one, where that fails
+SCALES = (1.0, 1e-2, 1e-3, 1e-4, 4e-6)  # of all of them, one after the other where they fail
 SEEN = 1e-2  # of the contact: ends that move less are not seen well on cells
 STOPS = -1e-7  # of the largest K: an end that recedes so little goes on
 MOST_PARTS, SHORT, MOST_SHORT = 30, 1e-4, 5  # of a step; of them so short ones of it
@@ -64,6 +65,10 @@ def _next_part(state: State, step: LoadStep, begun: float, last: Part | None) ->
     zones = onset(state, step.rates, step.friction, known)
     if opened:
         zones = zones.split(*opened)
+    if len(zones.zones) > len(state.stick) > 0:
+        with suppress(ContactError):
+            length = min(1.0 - begun, last.longest if last else 1.0)
+            zones = Span(state, step, zones, begun, length).as_it_moves().onset
     grows = any(end.motion is Motion.GROWS for end in zones.ends)
     problems, first = [], begun == 0.0 and not grows
     for finite in (first, not first):
@@ -124,58 +129,38 @@ class Verdict:
         assert self.equations is not None
         return self.equations
 
-    @property
-    def decisive(self) -> bool:
-        """Whether the rates say that a finite step does not go on."""
-        return self.why in (ADVANCES, TURNED)
-
 
 def finite_part(state: State, step: LoadStep, begun: float) -> Part:
     """A finite step from a share on, as long as it passes the tests."""
-    if _unsheared(state, step):
+    if not (step.rates.Q or step.rates.tau or np.any(state.shear.series)):
         after = step.at(1.0)
         held = Equations(state, after, Zones(after.patches, ()))
         return Part(held, State.untouched(after), begun, 1.0)
-    shares = begun + (1.0 - begun) * SHARES
-    shares[-1] = 1.0
-    verdicts = _tested(state, step, begun, shares)
-    good = _leading(verdicts)
-    why = ""
-    if good == len(shares):
-        try:
-            ended = solved(state, step.at(1.0), verdicts[-1].solution.zones)
-            return Part(ended, ended.state, begun, 1.0)
-        except ContactError as problem:
-            why, good = str(problem), good - 1
-    if good == 0:
-        first = shares[0] - begun
-        for earlier in EARLIER:
-            shares = begun + first * earlier * SHARES
-            verdicts = _tested(state, step, begun, shares)
-            good = _leading(verdicts)
-            if good:
-                break
-        else:
-            raise ContactError(why or verdicts[0].why)
-    until = shares[-1]
-    if good < len(shares):
-        until = _end_of_part(state, step, verdicts[good - 1], verdicts[good])
-    last = verdicts[good - 1]
-    while True:
-        found = _verdict(state, step, until, last.solution.zones)
-        if found.equations is not None:
+    for scale in SCALES:
+        shares = 1.0 - (1.0 - begun) * (1.0 - scale * SHARES)
+        verdicts = _tested(state, step, begun, shares)
+        good = _leading(verdicts)
+        if good == len(shares) and shares[-1] == 1.0:
+            with suppress(ContactError):
+                ended = solved(state, step.at(1.0), verdicts[-1].solution.zones)
+                return Part(ended, ended.state, begun, 1.0)
+            good -= 1
+        if good:
             break
-        if until == last.share:
-            raise ContactError(found.why)
-        until = last.share
-    ended = solved(state, step.at(until), found.solution.zones)
-    return Part(ended, ended.state, begun, until, known=_stopped(found))
+    else:
+        raise ContactError(verdicts[0].why)
+    found, until = verdicts[good - 1], float(shares[-1])
+    if good < len(shares):
+        until = _end_of_part(state, step, found, verdicts[good])
+    now = _verdict(state, step, until, found.solution.zones)
+    found = found if now.equations is None else now
+    ended = solved(state, step.at(found.share), found.solution.zones)
+    return Part(ended, ended.state, begun, found.share, known=_stopped(found))
 
 
 def _stopped(verdict: Verdict) -> dict[float, End]:
     """The ends with K = 0, which advance next."""
-    equations = verdict.equations
-    assert equations is not None
+    equations = verdict.solution
     left = {lo: s for lo, _, s in equations.slip}
     right = {hi: s for _, hi, s in equations.slip}
     found: dict[float, End] = {}
@@ -189,10 +174,6 @@ def _stopped(verdict: Verdict) -> dict[float, End]:
     return found
 
 
-def _unsheared(state: State, step: LoadStep) -> bool:
-    return not (step.rates.Q or step.rates.tau or np.any(state.shear.series))
-
-
 def _leading(verdicts: list[Verdict]) -> int:
     """How many pass, one after the other, with zones that shrink.
 
@@ -202,7 +183,7 @@ def _leading(verdicts: list[Verdict]) -> int:
     for k, now in enumerate(verdicts):
         if not now.why and (last is None or _within(now, last)):
             passed, last = k + 1, now
-        elif now.decisive or not now.why:
+        elif not now.why or now.why in (ADVANCES, TURNED):  # a finite step does not go on
             break
     return passed
 
@@ -273,9 +254,6 @@ def _verdict(state: State, step: LoadStep, share: float, guess: Zones | None) ->
     for zones in guesses:
         try:
             found = newton(state, after, clipped(zones, state.contact, after))
-            busy = without_idle(found) if len(zones.stick) > 1 else found.zones
-            if busy != found.zones:
-                found = newton(state, after, busy)
         except ContactError as problem:
             now = Verdict(share, None, np.zeros(0), str(problem))
         else:
@@ -283,12 +261,6 @@ def _verdict(state: State, step: LoadStep, share: float, guess: Zones | None) ->
         if not now.why:
             return now
         first = first or now
-    if share == 1.0:  # a point of the path, at which loads may come back to what they were
-        for zones in guesses:
-            for found in on_earlier_zones(state, after, zones):
-                now = _judged(found, step, share)
-                if not now.why:
-                    return now
     assert first is not None
     return first
 

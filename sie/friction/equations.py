@@ -230,14 +230,24 @@ class Equations:
             out.append(float(nu @ cos) + math.pi * (new.tau - old.tau))
         out.append(float(self.charges[0] @ d(self.rule.apart(self.centres[0]))))
         out[-1] -= new.Q - old.Q
-        out += [self.over(gap) for gap in self.gaps]
+        out += [float(of @ self.charges[k]) for k, of in enumerate(self.over_gaps)]
         return np.array(out)
 
+    @cached_property
+    def over_gaps(self) -> list[Array]:
+        """What a charge ν_k at each place adds to Re ∫ (F - Δτ) dx over gap k."""
+        return [self._over(k, gap) for k, gap in enumerate(self.gaps)]
+
+    def _over(self, k: int, gap: Gap) -> Array:
+        """The same over any gap, on the half-circle."""
+        kernel = 1.0 / self.chord(gap.from_all(self.rule))
+        found: Array = ((gap.weight * self.root(k, gap)) @ kernel).real / math.pi
+        return found
+
     def over(self, gap: Gap) -> float:
-        """Re ∫ (F - Δτ) dx over a gap, on the half-circle."""
+        """Re ∫ (F - Δτ) dx over a gap beside a stick zone."""
         k = int(np.abs(self.stick - gap.lo).min(axis=1).argmin())
-        psi = (1.0 / self.chord(gap.from_all(self.rule))) @ self.charges[k] / math.pi
-        return float((gap.weight @ (self.root(k, gap) * psi)).real)
+        return float(self._over(k, gap) @ self.charges[k])
 
     @cached_property
     def stuck_shear(self) -> tuple[Array, Array, Array]:

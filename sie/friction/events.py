@@ -25,6 +25,7 @@ BEYOND = 1.75  # times τ: so far ahead an arrival is seen
 ARRIVED = 1e-7  # of the contact: room that is none
 AGAIN_SINCE = 0.7  # of τ: before it an event at the end of a part is not looked for again
 OPENS = 0.3  # of τ: before it slip that begins inside stick is too short for its K
+AT_THE_END = 1e-9  # of a part: an event so close to its end is there
 UNRESOLVED = 1e-6  # of the largest coefficient of D: the last two
 NO_ROOM = 1e-6  # of the contact: so little room is none where an end comes near an edge in steps
 
@@ -187,7 +188,7 @@ def _openings(panel: Panel, known: tuple[float, float] | None, sooner: float) ->
     """
     peak, since = panel.span.before.contact.peak, AGAIN_SINCE
     for i, now in enumerate(panel.equations if known is None else []):
-        if TAU[i + 1] > sooner:
+        if TAU[i + 1] > sooner + AT_THE_END:
             return
         if panel.span.onset.opened is not None and TAU[i + 1] < OPENS:
             continue
@@ -197,13 +198,13 @@ def _openings(panel: Panel, known: tuple[float, float] | None, sooner: float) ->
             known, since = (float(x[k]), float(np.sign(q[k]))), float(TAU[i])
             break
     if known is not None:
-        margins = [_margin_at(now, *known) for now in panel.equations]
+        margins = [margin_at(now, *known) for now in panel.equations]
         share = _root(in_time(np.array(margins)), since=since)
         if share is not None:
             yield Event(share, -1, opened=known)
 
 
-def _margin_at(now: StripEquations, x: float, sense: float) -> float:
+def margin_at(now: StripEquations, x: float, sense: float) -> float:
     """The margin f p - s q at a place in stick, by interpolation between a few."""
     places, q, limit = now.stuck_shear
     order = np.argsort(places)

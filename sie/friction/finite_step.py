@@ -7,7 +7,7 @@ marks of the shear, which are tried.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
@@ -15,11 +15,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie.errors import ContactError
-from sie.numerics.graded_panels import Pieces
 from sie.numerics.zones import left_over
 
 from .equations import Equations
-from .state import SAME, Contact, Ends, State, Zones, intervals, overlaps, refuse_inadmissible
+from .state import SAME, Contact, Ends, State, Zones, overlaps, refuse_inadmissible
 
 if TYPE_CHECKING:
     from .onset import End
@@ -27,7 +26,6 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 STEPS = 40  # of Newton's method
-PINNED_STEPS = 8  # of it with one end on a mark
 SLOW, FAR = 14, 1e-2  # after so many one that is so long, of the contact, finds nothing
 SETTLED = 2e-14  # of the contact: a step so short is the last
 GOOD = 1e-9  # and one so short is good enough if later ones do not shorten ...
@@ -36,14 +34,10 @@ INSIDE = 1e-9  # of what is between the bounds of an end: a guess is as far from
 CLOSEST = 0.9  # of the distance to its neighbour: an end moves so far at most in a step
 SHARES = (1.0, 0.5, 0.25, 0.1)  # of a step of Newton's method that are tried
 JUST_INSIDE = 1e-3  # of a stick zone: so far inside a mark an end is tried
-FLAT, FLAT_AMONG_ALL = (
-    1e-4,
-    1e-3,
-)  # charge of an end, of what is released beside it: moving it changes nothing
+FLAT, AMONG_ALL = 1e-4, 1e-3  # charge of an end, of what is released: moving it changes nothing
 NOTHING = 1e-8  # of the largest f p: nothing is released
 CLOSE = 1e-7  # of the contact: so close to a mark an end may be on it
 ON_MARK, ON_MARK_AT_LEAST = 1e-13, 3e-10  # of the loads: by so much equations may be missed there
-IDLE = 1e-6  # of f p: q so close to it all over a stick zone has reached it
 NARROWEST = 1e-12  # of the contact: a stick zone
 
 
@@ -197,29 +191,8 @@ def _flat(now: Equations) -> NDArray[np.bool_]:
             if released > NOTHING * peak:
                 found[j] = abs(kappa) * (length * width) ** 0.5 <= FLAT * released
             else:
-                found[j] = abs(kappa) * width <= FLAT_AMONG_ALL * whole
+                found[j] = abs(kappa) * width <= AMONG_ALL * whole
     return found
-
-
-def without_idle(found: Equations) -> Zones:
-    """The zones without those in which q is f p all over, in the direction of slip beside them.
-
-    There loads have come back to what they were, and what had slipped neither slips nor sticks.
-    """
-    stick, signs = list(found.zones.stick), list(found.zones.signs)
-    for k in range(len(stick) - 1, -1, -1):
-        lo, hi = stick[k]
-        before = [j for j, (_, b, _) in enumerate(found.slip) if b == lo]
-        after = [j for j, (a, _, _) in enumerate(found.slip) if a == hi]
-        if len(stick) == 1 or not before or not after or signs[before[0]] != signs[after[0]]:
-            continue
-        marks = np.unique(np.concatenate((found.before.marks, found.after.limit.marks)))
-        places = Pieces.places(intervals([(lo, hi)], marks, SAME * found.after.width))
-        q = found.before.shear.on(places) + found.in_stick(k, places)
-        if (signs[before[0]] * q >= found.after.limit.on(places) * (1.0 - IDLE)).all():
-            del stick[k], signs[after[0]]
-            found = Equations(found.before, found.after, Zones(tuple(stick), tuple(signs)))
-    return found.zones
 
 
 def on_marks(found: Equations, missed: float) -> Equations:
@@ -244,33 +217,6 @@ def on_marks(found: Equations, missed: float) -> Equations:
                 break
             found = moved
     return found
-
-
-def on_earlier_zones(before: State, after: Contact, guess: Zones) -> Iterator[Equations]:
-    """Equations that are solved with one end of the stick zone on a mark, inner marks first.
-
-    Where loads come back to what they were, all that lies between two marks has come back too: any
-    end between them solves the equations, and Newton's method finds none.
-    """
-    if len(guess.stick) != 1:
-        return
-    for j in (0, 1):
-        other = 1 - j
-        marks = before.marks if j else before.marks[::-1]
-        for mark in marks:
-            ends = np.array(guess.stick[0])
-            ends[j] = mark
-            now = Equations(before, after, guess, rough=True)
-            for _ in range(PINNED_STEPS):
-                if not after.patches[0][0] < ends[0] < ends[1] < after.patches[-1][1]:
-                    break
-                now = _with_ends(now, ends)
-                if balanced(now, ON_MARK_AT_LEAST):
-                    yield replace(now, rough=False)
-                    break
-                slope = now.derivatives[:, other]
-                ends = ends.copy()
-                ends[other] -= float(slope @ now.residual / (slope @ slope))
 
 
 def _with_ends(found: Equations, ends: Array) -> Equations:

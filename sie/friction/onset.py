@@ -19,16 +19,20 @@ from numpy.typing import NDArray
 from sie.errors import ContactError
 from sie.numerics.root_finding import false_position
 
+from .potentials import Between
 from .rates import LoadRates, Rates
 from .state import State, Zones
 
 Array = NDArray[np.float64]
 
 ROUNDS = 12
-SCANNED = np.sin(0.5 * np.pi * np.arange(1, 26) / 26.0) ** 2  # shares of a slip zone
+SCANNED = np.append(  # shares of a slip zone
+    np.sin(0.5 * np.pi * np.arange(1, 26) / 26.0) ** 2, 1.0 - 10.0 ** -np.arange(3.0, 9.0)
+)
 SETTLED = 1e-14  # of a slip zone, and of f p
 ROUNDED = 1e-13  # of f K_p: |dQ| = f dP sticks
 NEAR = 1e-7  # of the contact: so near to an end f p - q goes like the root of the distance
+NARROW = 1e-3  # of a zone of slip: so much of it sticks at least, where the rest slips on
 STILL = 1e-9  # of the largest K: less is zero
 
 
@@ -163,7 +167,7 @@ def onset(
 
     now = _as_it_is(state, known)
     for _ in range(ROUNDS * len(now.ends)):
-        changed = _changed(state, now, rates, known)
+        changed = _changed(state, now, rates, known) or _slips_on(state, now, rates)
         if changed is None:
             return now
         now = changed
@@ -171,19 +175,22 @@ def onset(
 
 
 def set_out(state: State, now: Onset, loads: LoadRates, friction: float) -> Array:
-    """The speeds of ends that recede, as a step begins at constant pressure.
+    """The speeds of ends that recede, as a step begins.
 
-    Where f p - s q is C √t at a distance t inside an end, the end recedes by t = 2 s K/C.
+    Where f p - s q is C √t at a distance t inside an end, the end recedes by t = 2 K/C, K/√t the
+    rate at which s q - f p grows there.
     """
-    K, near = now.rates(loads, friction, state.contact.period).K.ravel(), NEAR * state.contact.width
+    rates, near = now.rates(loads, friction, state.contact.period), NEAR * state.contact.width
+    edges = dict(zip(np.ravel(now.patches).tolist(), rates.Kp.ravel().tolist(), strict=True))
     speeds = np.zeros(len(now.ends))
-    for j, end in enumerate(now.ends):
+    for j, (end, K) in enumerate(zip(now.ends, rates.K.ravel(), strict=True)):
         if end.motion is Motion.RECEDES:
             inward = -1.0 if j % 2 else 1.0
             x = np.array([end.place + inward * near])
             limit = float(state.contact.limit(x)[0])
             C = max(limit - end.sense * float(state.shear(x)[0]), SETTLED * limit) / np.sqrt(near)
-            speeds[j] = inward * 2.0 * max(end.sense * float(K[j]), 0.0) / C
+            grows = end.sense * float(K) - friction * edges.get(end.place, 0.0)
+            speeds[j] = inward * 2.0 * max(grows, 0.0) / C
     return speeds
 
 
@@ -228,7 +235,36 @@ def _edge(state: State, now: Onset, rates: Rates, j: int) -> End:
         return End(end.place, 0.0, Motion.GROWS)
     if Kp <= 0.0:
         K -= _share_of_limit(state, end.place) * Kp
-    return End(end.place, float(np.sign(K)) or 1.0)
+    sense = float(np.sign(K)) or 1.0
+    beside = [(*zone, s) for *zone, s in state.slip if end.place in zone and s == sense]
+    for lo, hi, s in beside:  # what slipped there did not stop all over
+        return End(lo + hi - end.place, s)
+    return End(end.place, sense)
+
+
+def _slips_on(state: State, now: Onset, rates: Callable[[Onset], Rates]) -> Onset | None:
+    """The same with slip that goes on next to an end, of a zone that would stick all over.
+
+    There |q| = f p all over the zone, and |q| would grow faster than f p next to the end.
+    """
+    stick = {e for zone in state.stick for e in zone}
+    for lo, hi, s in state.slip:
+        for e, far in ((lo, hi), (hi, lo)):
+            k = sum(end.place < e for end in now.ends)
+            if e not in stick or k % 2 == 0 or now.ends[k].place < max(e, far):
+                continue
+            here, at = rates(now), Between(e, e, np.zeros(1), np.zeros(1))
+            margin = here.friction * here.pressure.density(at) - s * here.shear.density(at)
+            if float(margin[0]) >= 0.0:
+                continue
+            opened = sorted((e, far + NARROW * (e - far)))
+            ends = [*now.ends[:k], *(End(x, s) for x in opened), *now.ends[k:]]
+            j = k + (e == lo)
+            place = resting_place(now.of_ends(ends), rates, j)
+            if place is not None:
+                ends[j] = End(place, s, Motion.ADVANCES)
+                return now.of_ends(ends)
+    return None
 
 
 def _share_of_limit(state: State, edge: float) -> float:
@@ -246,7 +282,8 @@ def _inner(state: State, now: Onset, rates: Callable[[Onset], Rates], j: int) ->
     if here >= -STILL if end.motion is Motion.RECEDES else abs(here) <= STILL:
         return end
     old = np.array(state.stick).ravel()  # from where it is in the state
-    start = old[old <= end.place].max() if j % 2 else old[old >= end.place].min()
+    inside = old[old <= end.place] if j % 2 else old[old >= end.place]
+    start = (inside.max() if j % 2 else inside.min()) if inside.size else end.place
     place = resting_place(now.moved(j, replace(end, place=float(start))), rates, j)
     return None if place is None else End(place, end.sense, Motion.ADVANCES)
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from contextlib import suppress
 from dataclasses import replace
+from itertools import product
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,7 +17,16 @@ from sie.errors import ContactError
 from sie.numerics.zones import left_over
 
 from .cells import zones_on_cells
-from .events import UNRESOLVED, Event, at_share, first_event, in_time, is_there
+from .events import (
+    AT_THE_END,
+    UNRESOLVED,
+    Event,
+    at_share,
+    first_event,
+    in_time,
+    is_there,
+    margin_at,
+)
 from .finite_step import Part
 from .loading import LoadStep
 from .onset import End, Motion, Onset, resting_place, set_out
@@ -27,12 +37,12 @@ from .strips import MOMENTS, Panel, Span, solved_panel
 Array = NDArray[np.float64]
 
 LEAPS = 4.0 ** np.arange(-10, -3)  # of a part: so much longer it is after a leap
-JUST_BEYOND = 1e-3  # of a leap: so far an end is beyond it, at a guess
+JUST_BEYOND = (1e-3, 1e-6)  # of a leap: so far an end is beyond it, at a guess
+RELEASED = 1e-6  # of the largest f p: |q| so close to f p has reached it
 SHORTER = 1.0 / 3.0  # of a part that is not solved
 SHORTEST = 1e-9  # of a step: a part
 NEARLY = 0.9999  # of τ: an event before it shortens the part
 ON_MARK = 3e-9  # of the contact: an end that recedes and is so close to a mark is on it
-AT_THE_END = 1e-9  # of a part: an event so close to its end is there
 SOON = 1e-5  # of a step: in a part so short an advancing end meets nothing
 SMALL = 1e-2  # of the room: an end advances so far, at a guess
 APPROACH = 0.8  # of what is left to an event that a part cannot end at
@@ -73,16 +83,17 @@ def strip_part(
             ahead = event.ahead(length)  # it comes after the part
             event = replace(event, share=1.0) if is_there(panel, event) else None
         if event is None or abs(event.share - 1.0) < AT_THE_END:
-            leapt = past_leap(panel, *event.opened, rest) if event and event.opened else None
+            leapt = past_leap(panel, event, rest)
             longest = 1.0 if failed > 1.0 else LONGER * length
             longest = longest if event else min(longest, APPROACH * ahead)
-            return _ended(panel, event, longest) if leapt is None else _ended(leapt, None)
+            return leapt or _ended(panel, event, longest)
         if event.share > 1.0:
             shorter, ahead = panel, event.ahead(length)
         aims.append((length, length * event.share**2, (event.j, event.place)))
         before, length = length, min(_aimed(aims), rest)
         if shorter is not None and length >= NEARLY * failed:  # that was tried
-            return _ended(shorter, None, min(APPROACH * ahead, LONGER * shorter.span.length))
+            longest = min(APPROACH * ahead, LONGER * shorter.span.length)
+            return past_leap(shorter, event, rest) or _ended(shorter, None, longest)
         guess = _places(panel, (length / before) ** 0.5)
     raise ContactError("what sticks anew is not found in a part however short")
 
@@ -214,37 +225,60 @@ def _places(panel: Panel, share: float) -> Array:
 # -- an end that leaps ---------------------------------------------------------------------------
 
 
-def past_leap(panel: Panel, place: float, sense: float, longest: float) -> Panel | None:
-    """A part a little longer than a solved one, at whose end an end has leapt to a place.
+def past_leap(panel: Panel, event: Event | None, longest: float) -> Part | None:
+    """A part a little longer than a solved one, at whose end an end has leapt to a mark.
 
     Where loads come back to what they were, q comes back to f p at nearly the same time from a mark
     of the shear to an end. Slip begins at the mark, and soon nothing sticks between it and the end.
 
-    place, sense   where slip begins in stick at the end of the solved part, and its direction
-    longest        the length that the part has at most
+    event     that at the end of the solved part: slip begins in stick, or an end comes to a mark
+    longest   the length that the part has at most
 
     None where that is not admissible, as of slip that begins for the first time.
     """
-    span, guess = panel.span, panel.places.copy()
-    for j in span.which(Motion.RECEDES):
-        inward = -1.0 if j % 2 else 1.0
-        if span.onset.ends[j].sense == sense and (place - guess[-1, j]) * inward > 0.0:
-            guess[-1, j] = place + JUST_BEYOND * (place - guess[-1, j])
-    if (guess == panel.places).all():
+    leap = event and (event.opened or _released(panel, event))
+    if not leap:
+        return None
+    (place, sense), span, last = leap, panel.span, panel.places[-1]
+    leaps = [
+        j
+        for j in span.which(Motion.RECEDES)
+        if span.onset.ends[j].sense == sense and (place - last[j]) * (last[j ^ 1] - last[j]) > 0.0
+    ]
+    if not leaps:
         return None
     lengths = span.length * (1.0 + LEAPS)
     if lengths[-1] > longest:
         lengths = np.append(lengths[lengths < longest], longest)
-    for length in lengths.tolist():
+    for length, beyond in product(lengths.tolist(), JUST_BEYOND):
+        guess = panel.places.copy()
+        guess[-1, leaps] = place + beyond * (place - last[leaps])
         try:
             found = solved_panel(replace(span, length=length), guess)
             if _has_leapt(found, place):
                 state = found.equations[-1].state
                 refuse_inadmissible(span.before, state, overlaps(span.before.stick, state.stick))
-                return found
+                return _ended(found, None)
         except ContactError:
             continue
     return None
+
+
+def _released(panel: Panel, event: Event) -> tuple[float, float] | None:
+    """The mark to which an end leaps from the one that it has come to, and the direction of slip.
+
+    Between the two |q| is f p already.
+    """
+    if event.place is None or event.j not in panel.span.which(Motion.RECEDES):
+        return None
+    other, marks = panel.places[-1, event.j ^ 1], panel.span.before.marks
+    inner = marks[(marks - event.place) * (other - marks) > 0.0]
+    if not inner.size:
+        return None
+    place = float(inner[np.abs(inner - event.place).argmin()])
+    sense, now = panel.span.onset.ends[event.j].sense, panel.equations[-1]
+    margin = margin_at(now, 0.5 * (place + event.place), sense)
+    return (place, sense) if margin <= RELEASED * now.after.peak else None
 
 
 def _has_leapt(found: Panel, place: float) -> bool:

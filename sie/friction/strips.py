@@ -174,10 +174,8 @@ class StripEquations(Equations):
             apart = rule.apart(m)
             out[i] = (scaled / d(apart)) @ d.cosine(apart)
         out[N] = scaled.sum(axis=1)
-        for i, gap in enumerate(self.gaps):
-            charge = scaled / d(rule.apart(self.centres[i]))
-            kernel = (gap.weight * self.root(i, gap)) @ (1.0 / d(gap.from_all(rule)))
-            out[N + 1 + i] = (charge @ kernel).real / math.pi
+        for i, over in enumerate(self.over_gaps):
+            out[N + 1 + i] = (scaled / d(rule.apart(self.centres[i]))) @ over[part]
             if self.by_gap(strip) == i:
                 out[N + 1 + i] += basis @ rule.weight
         return out
@@ -260,6 +258,17 @@ class Span:
             found[:, j] = [np.array(c.patches).ravel()[k] for c in self.contacts]
         return found
 
+    def as_it_moves(self) -> Span:
+        """The same with ends of new stick zones moving back, where K rises as contact changes."""
+        K = self.rates(0, self.with_edges(np.tile(self.start, (MOMENTS, 1)))[0]).K.ravel()
+        ends = list(self.onset.ends)
+        for j in self.which(Motion.ADVANCES):
+            a, b = self.onset.stick[j // 2]
+            new = not any(a <= lo and hi <= b for lo, hi in self.before.stick)
+            if new and ends[j].sense * K[j] > 0.0:
+                ends[j] = replace(ends[j], motion=Motion.RECEDES)
+        return replace(self, onset=self.onset.of_ends(ends))
+
     def rates(self, i: int, ends: Array) -> Rates:
         """The rates at moment i, given all ends."""
         found = replace(self.onset.placed(ends), patches=self.contacts[i].patches)
@@ -295,17 +304,13 @@ class Panel:
     def rates(self) -> list[Rates]:
         return [self.span.rates(i, ends) for i, ends in enumerate(self.places)]
 
-    @cached_property
-    def advancing(self) -> list[int]:
-        return self.span.which(Motion.ADVANCES)
-
     def system(self, slopes: list[Array]) -> tuple[Array, Array]:
         """Residuals and their derivatives by the places of free ends, then by c.
 
         slopes: those of K, as of `slopes`
         """
         span, n = self.span, MOMENTS
-        E, free, adv = 2 * len(span.onset.zones), span.free, self.advancing
+        E, free, adv = 2 * len(span.onset.zones), span.free, span.which(Motion.ADVANCES)
         rows, F = E + len(adv), len(free)
         matrix = np.zeros((n * rows, n * F + n * len(self.strips)))
         right = np.zeros(n * rows)
@@ -322,7 +327,7 @@ class Panel:
 
     def slopes(self) -> list[Array]:
         """The derivatives of K of the advancing ends by the free ones, at each moment."""
-        adv, free = self.advancing, self.span.free
+        adv, free = self.span.which(Motion.ADVANCES), self.span.free
         found = [np.zeros((len(adv), len(free))) for _ in self.places]
         for i, ends in enumerate(self.places if adv else []):
             K = self.rates[i].K.ravel()[adv]

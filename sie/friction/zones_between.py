@@ -13,7 +13,6 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Self
 
 import numpy as np
-from numpy.polynomial.chebyshev import chebval, chebvander
 from numpy.typing import NDArray
 
 from sie.errors import ContactError
@@ -21,6 +20,7 @@ from sie.numerics.zones import within
 
 from .cells import zones_on_cells
 from .equations import Equations
+from .events import at_share, in_time
 from .finite_step import Part, newton
 from .gained_slip import GainedSlip
 from .onset import onset
@@ -195,8 +195,8 @@ def _slip_at_touch(part: Part, step: LoadStep, x: Array) -> Array:
                     GainedSlip(equations).at(np.array([e]))[0]
                     for equations, e in zip(moments, edges)
                 ]
-                tau = _time_at(_series([was[side], *edges]), x[gained], side == 1)
-                found[gained] = chebval(2.0 * tau - 1.0, _series([0.0, *slips]))
+                tau = _time_at(in_time(np.array([was[side], *edges])), x[gained], side == 1)
+                found[gained] = at_share(in_time(np.array([0.0, *slips])), tau)
     return found
 
 
@@ -209,15 +209,11 @@ def _moments(part: Part, step: LoadStep) -> list[Equations]:
     return [way.equations(float(share)) for share in shares[::-1]][::-1]
 
 
-def _series(values: list[float]) -> Array:
-    return np.linalg.solve(chebvander(2.0 * TAU - 1.0, len(TAU) - 1), np.array(values))
-
-
 def _time_at(series: Array, x: Array, rises: bool) -> Array:
     """The τ at which an edge is at places, by halving."""
     lo, hi = np.zeros(x.shape), np.ones(x.shape)
     for _ in range(HALVINGS):
         middle = 0.5 * (lo + hi)
-        later = (chebval(2.0 * middle - 1.0, series) < x) == rises
+        later = (at_share(series, middle) < x) == rises
         lo, hi = np.where(later, middle, lo), np.where(later, hi, middle)
     return 0.5 * (lo + hi)

@@ -77,6 +77,15 @@ EVENTFUL = {
         body(sie.RoundedFlat(0.5, 1.0), 0.2957),
         [(1.3649, -0.2634, -0.006), (1.0912, -0.1271, 0.2176), (1.1953, 0.0552, 0.0308)],
     ),
+    "part of a slip zone sticks at an edge, and slip goes on at its end": (
+        body(sie.Power(2.5, 1.0), 0.4764),
+        [
+            (0.6233, 0.1377, 0.0042),
+            (0.6417, 0.1056, -0.0201),
+            (0.6952, 0.0631, -0.0424),
+            (0.7786, 0.0144, -0.0606),
+        ],
+    ),
 }  # fmt: skip
 each_path = pytest.mark.parametrize("name", [*PATHS, *EVENTFUL])
 
