@@ -140,13 +140,6 @@ CASES = {
         "profile.parts[1].slope",
     ),
     "row, radius": (lambda v: scene(row(v), normal_load=1.0), 1.0, "profile.profiles[0].radius"),
-    "row, rise": (
-        lambda v: scene(row(1.0, v), normal_load=1.0), 0.01, "profile.profiles[1].rise"
-    ),
-    "row at a moment": (lambda v: scene(row(), normal_load=1.0, moment=v), -0.1, "moment"),
-    "row of punches": (
-        lambda v: scene(punches(v), normal_load=1.0), 0.4, "profile.profiles[1].half_flat"
-    ),
     "valleys": (
         lambda v: scene(sie.Polynomial((0.0, 0.01, -0.5, 0.0, v)), normal_load=0.03),
         1.0,
@@ -175,6 +168,13 @@ CASES = {
     "a pair": (
         lambda v: scene(FLAT, **SLIP, **{**PAIR, "body": sie.Elastic(v, 0.3)}), 200.0, "body.young"
     ),
+    "row, rise": (
+        lambda v: scene(row(1.0, v), normal_load=1.0), 0.01, "profile.profiles[1].rise"
+    ),
+    "row at a moment": (lambda v: scene(row(), normal_load=1.0, moment=v), -0.1, "moment"),
+    "row of punches": (
+        lambda v: scene(punches(v), normal_load=1.0), 0.4, "profile.profiles[1].half_flat"
+    ),
     "row in partial slip": (
         lambda v: scene(row(v), normal_load=1.0, friction=0.4, tangential_load=0.1),
         1.0,
@@ -183,6 +183,7 @@ CASES = {
 }  # fmt: skip
 
 
+@pytest.mark.slow(but=len(CASES) - 4)
 @pytest.mark.parametrize("case", CASES)
 def test_a_derivative_is_the_limit_of_differences(case):
     assert_derivative(*CASES[case])
