@@ -23,7 +23,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie.numerics.chord import Points
-from sie.numerics.tree import Groups, Level, Separation, Tree, add, far_sums, parts, ranges
+from sie.numerics.tree import Level, Tree, add, far_sums, parts, ranges
 
 from .measure import Measure, Targets, close, integrals
 from .panels import GapPanels, gap_panels
@@ -56,7 +56,8 @@ class Operator(Measure):
         groups = self.groups(t.i, t.x, t.group)
         extents, places = (groups.narrow, groups.wide), t.x.offset.size
         near = self.tree.separated(self.patches.chord, groups.i, *extents, places)
-        total = self._near(t, *self._blocks(groups, near))
+        block, pair = groups.blocks(near.group)
+        total = self._near(t, block, near.row[pair])
         if near.far:
             far = far_sums(self.patches.chord, groups, near, t.x, self._charges_at, odd=True)
             total += far[..., 0] - t.reference * far[..., 1]
@@ -90,10 +91,6 @@ class Operator(Measure):
     def gaps(self) -> GapPanels:
         """The panels beside the patches."""
         return gap_panels(self.patches, self.pieces)
-
-    def _blocks(self, groups: Groups, near: Separation) -> tuple[Index, Index]:
-        block, pair = groups.blocks(near.group)
-        return block, near.row[pair]
 
     def measure(self, i: Index, panel: Index) -> Array:
         """dν_i on panels, (m, n)."""

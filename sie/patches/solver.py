@@ -230,7 +230,10 @@ def settled(state: State, pieces: Pieces, problem: Problem) -> Found:
             state = _after(event, state, pieces, problem.given)
             continue
         o = operator_of(state, pieces)
-        found = Found(state, o, problem.given, findings(o, state.tilt, problem.given.load), steps)
+        shown = overlaps(o, state.tilt, problem.given.load)
+        # with one patch more the pressure is another
+        shown = shown if shown.overlap else _with_tension(o, shown)
+        found = Found(state, o, problem.given, shown, steps)
         if found.findings.ok:
             return found
         if not found.findings.overlap and found.findings.lowest > -NEARLY:
@@ -243,8 +246,12 @@ def settled(state: State, pieces: Pieces, problem: Problem) -> Found:
 
 def findings(o: Operator, tilt: float, load: float) -> Findings:
     """What the bounds of pressure and gap find."""
+    return _with_tension(o, overlaps(o, tilt, load))
+
+
+def _with_tension(o: Operator, seen: Findings) -> Findings:
     tension, lowest = tensions(o)
-    return replace(overlaps(o, tilt, load), tension=tension, lowest=lowest)
+    return replace(seen, tension=tension, lowest=lowest)
 
 
 def _after(event: Event, state: State, pieces: Pieces, given: Given) -> State:
