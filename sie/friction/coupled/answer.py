@@ -176,10 +176,10 @@ def pressed_contact(pressed: Pressed) -> LoadedContact:
 
 def refused(state: LoadedContact, Q: float) -> ContactError:
     """The ContactError: no zones keep the friction law."""
-    question = state.loaded.question
-    P, limit = question.P, question.friction * question.P
+    question, friction = state.loaded.question, state.loaded.friction
+    P, limit = question.P, friction * question.P
     return ContactError(
-        f"dissimilar bodies (β f = {question.beta * question.friction:.3g}) under P = {P:.6g}, "
+        f"dissimilar bodies (β f = {question.beta * friction:.3g}) under P = {P:.6g}, "
         f"|Q| = {abs(Q):.6g} ({abs(Q) / limit:.3g} f P): slip turns inside a zone, or contact that "
         "is gained sticks, which is not solved; change Q, or give dundurs = 0"
     )

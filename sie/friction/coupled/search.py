@@ -32,7 +32,7 @@ MOST_STEPS, HALVINGS = 25, 5
 DIFFERENCE, NARROWEST = 1e-6, 1e-6  # for derivatives: of widths, and of zones at the edges
 FOLDS = 1.0  # by which a step may change a width
 CELLS = 72
-BEHIND, MOST_PASSED = 1e-6, 8  # of the contact: how far behind a mark an end stops; and marks
+BEHIND = 1e-6  # of the contact: how far behind a mark an end stops
 LEAST = 1e-9  # of a cell, and of what it carries
 STALE = 0.4  # of what was missed: a slower step asks for new derivatives
 
@@ -80,6 +80,9 @@ class Found(NamedTuple):
     slopes: Array | None
 
 
+Cut = tuple[Array, set[tuple[int, float]]]  # unknowns, and the number of each end that met a mark
+
+
 class Unknowns(NamedTuple):
     """What Newton's method looks for: both edges over a unit, then ln of other widths.
 
@@ -104,8 +107,8 @@ class Unknowns(NamedTuple):
         widths.insert(self.widest, right - left - sum(widths))
         return Zones(left, tuple(widths), self.signs) if widths[self.widest] > 0.0 else None
 
-    def up_to_marks(self, u: Array, step: Array, marks: tuple[float, ...]) -> Array:
-        """The unknowns after a step, but for ends of stick that would pass marks.
+    def up_to_marks(self, u: Array, step: Array, marks: tuple[float, ...]) -> Cut:
+        """The unknowns after a step but for ends that would pass marks, and these.
 
         Conditions are not smooth there: such an end stops just behind the first mark.
         """
@@ -114,15 +117,16 @@ class Unknowns(NamedTuple):
         while after is None:
             step = 0.5 * step
             after = self.zones(u + step)
-        ends, behind = after.ends, BEHIND * sum(before.widths)
+        ends, behind, met = after.ends, BEHIND * sum(before.widths), set()
         for k, first in enumerate(before.ends.tolist()):
             way = math.copysign(1.0, ends[k] - first)
             passed = [way * mark for mark in marks if way * first < way * mark < way * ends[k]]
-            if 0 < k < len(ends) - 1 and passed:
-                ends[k] = way * min(way * float(ends[k]), min(passed) + behind)
-        if (ends == after.ends).all() or not (np.diff(ends) > 0.0).all():
-            return u + step
-        return self.told(zones_between(ends, self.signs))
+            if 0 < k < len(ends) - 1 and passed and way * ends[k] > min(passed) + behind:
+                ends[k] = way * (min(passed) + behind)
+                met.add((k, min(passed)))
+        if not met or not (np.diff(ends) > 0.0).all():
+            return u + step, set()
+        return self.told(zones_between(ends, self.signs)), met
 
     def through(self, u: Array, end: int, mark: float) -> Array:
         """The unknowns of which one edge is replaced so that an end of a zone is at a mark."""
@@ -156,7 +160,7 @@ def settled(
 
         return state
 
-    def behind_marks(u: Array, step: Array) -> Array:
+    def behind_marks(u: Array, step: Array) -> Cut:
         return unknowns.up_to_marks(u, np.clip(step, -FOLDS, FOLDS), marks)
 
     told, rough = (unknowns.told(start), None), (ROUGHLY, ROUGHLY)
@@ -218,14 +222,15 @@ def _descended(
     trial: Trial,
     start: tuple[Array, Array | None],
     limits: tuple[float, float],
-    cut: Callable[[Array, Array], Array] | None = None,
+    cut: Callable[[Array, Array], Cut] | None = None,
 ) -> Found | None:
     """Newton's method until no more than the first limit is missed; the second one is accepted.
 
-    `cut` makes unknowns of a step; the first that it changes may miss more than those before.
+    Where `cut` stops an end at a mark for the first time, more may be missed than before.
     """
     u, slopes = start
-    (state, missed), fresh, passed = trial(u), False, 0
+    (state, missed), fresh = trial(u), False
+    seen: set[tuple[int, float]] = set()
     enough, accepted = limits
     for _ in range(MOST_STEPS):
         size = float(np.abs(missed).max())
@@ -238,9 +243,9 @@ def _descended(
         if not np.isfinite(slopes).all():
             return None
         step = np.asarray(np.linalg.lstsq(slopes, -missed, rcond=None)[0], dtype=float)
-        new = cut(u, step) if cut and passed < MOST_PASSED else u + step
-        if (new != u + step).any():
-            passed, u, slopes = passed + 1, new, None
+        new, met = cut(u, step) if cut else (u, set())
+        if met - seen:
+            seen, u, slopes = seen | met, new, None
             state, missed = trial(u)
             continue
         step *= min(1.0, FOLDS / float(np.abs(step).max()))

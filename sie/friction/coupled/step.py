@@ -197,7 +197,8 @@ class Loaded:
 class Verdict:
     """How far a state is from the friction law; all are 0 or more where it is kept.
 
-    deficit     the least f p - |q| in stick, over the largest f p
+    deficit     the least f p - |q| in stick, over the largest f p; -1 where bodies would stick that
+                did not touch before
     pressure    the least p, over the largest
     slip        the least slip along q since the state before, over the largest
     rate        the least rate of slip along q, over the largest
@@ -227,6 +228,7 @@ def verdict(after: Loaded) -> Verdict:
         before = after.before
         lo, hi = before.zones.ends[[0, -1]]
         touched = (at.x >= lo) & (at.x <= hi)
+        deficit = deficit if touched[sticks].all() else -1.0
         change = np.zeros(len(at.x))
         change[touched] = gamma[touched] - before.fields.gamma(at.x[touched])
         change[touched] -= after.strain - before.strain
