@@ -287,14 +287,33 @@ EVENTFUL = {
 }
 
 
-@pytest.mark.slow(but=1)
-@pytest.mark.parametrize(("body", "points"), EVENTFUL.values(), ids=EVENTFUL)
-def test_a_step_with_events_is_that_of_its_halves(body, points):
+TWO_MARKS = (
+    (1.2057, 0.2081, 0.1622, 0.0958),
+    (0.8869, 0.0165, -0.0914, -0.0499),
+    (0.8819, 0.048, -0.1389, 0.0228),
+)
+
+
+def whole_and_halves(body, points):
     profile, friction = body
     scene = sie.Scene(profile=profile, modulus=1.0, normal_load=1.0, friction=friction)
-    whole, halves = (sie.follow(scene, sie.Path(points).subdivided(n))[-1] for n in (1, 2))
+    tilt = [point[3] for point in points if len(point) == 4]
+    path = sie.Path([point[:3] for point in points], tilt=tilt)
+    whole, halves = (sie.follow(scene, path.subdivided(n))[-1] for n in (1, 2))
     x = inside(whole, 41)
     assert whole.check().ok and halves.check().ok
     assert np.ravel(whole.stick) == pytest.approx(np.ravel(halves.stick), abs=1e-9)
     assert whole.shear(x) == pytest.approx(halves.shear(x), abs=1e-9)
+    return whole, halves
+
+
+@pytest.mark.slow(but=1)
+@pytest.mark.parametrize(("body", "points"), EVENTFUL.values(), ids=EVENTFUL)
+def test_a_step_with_events_is_that_of_its_halves(body, points):
+    whole, halves = whole_and_halves(body, points)
     assert whole.energy_lost == pytest.approx(halves.energy_lost, rel=1e-8)
+
+
+@pytest.mark.slow
+def test_a_step_on_which_an_end_comes_to_two_marks_as_the_punch_turns_is_that_of_its_halves():
+    whole_and_halves((sie.Power(3.0, 1.0), 0.2844), TWO_MARKS)
