@@ -238,7 +238,7 @@ def _edge(state: State, now: Onset, rates: Rates, j: int) -> End:
     sense = float(np.sign(K)) or 1.0
     beside = [(*zone, s) for *zone, s in state.slip if end.place in zone and s == sense]
     for lo, hi, s in beside:  # what slipped there did not stop all over
-        return End(lo + hi - end.place, s)
+        return End(lo if end.place == hi else hi, s)
     return End(end.place, sense)
 
 

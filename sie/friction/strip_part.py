@@ -48,7 +48,8 @@ SMALL = 1e-2  # of the room: an end advances so far, at a guess
 APPROACH = 0.8  # of what is left to an event that a part cannot end at
 LONGER = 5.0  # times a part, where a longer one was not solved: the next
 LEAP = 10.0  # times as far as the event is seen: so far the length of a part is corrected
-AGAIN = 12  # times a part is solved to end at its event
+BEFORE_IT = 0.95  # of the way to a mark: so far the next part goes
+AGAIN = 16  # times a part is solved to end at its event
 TWICE = 2.0  # times the length of an excess: slip that relieves it
 SEEN = 1e-3  # of the contact: an end that moves less is not seen on cells
 SENSELESS = 1e-2  # the same, of a part of which nothing is believed
@@ -63,7 +64,7 @@ def strip_part(
     """
     rest, most = 1.0 - begun, last.longest if last else 1.0
     length, failed, guess = min(rest, most), 2.0, None
-    aims: list[tuple[float, float, object]] = []
+    aims: list[tuple[float, float, tuple[int, float | None]]] = []
     event: Event | None = None
     shorter: Panel | None = None  # one that is solved, before an event that was seen ahead of it
     ahead = np.inf  # from its end to that event
@@ -90,7 +91,7 @@ def strip_part(
         if event.share > 1.0:
             shorter, ahead = panel, event.ahead(length)
         aims.append((length, length * event.share**2, (event.j, event.place)))
-        before, length = length, min(_aimed(aims), rest)
+        before, length = length, min(_aimed(aims, shorter.span.length if shorter else 0.0), rest)
         if shorter is not None and length >= NEARLY * failed:  # that was tried
             longest = min(APPROACH * ahead, LONGER * shorter.span.length)
             return past_leap(shorter, event, rest) or _ended(shorter, None, longest)
@@ -116,12 +117,15 @@ def _tried(
     return panel, None if doubtful else event, not doubtful
 
 
-def _aimed(aims: list[tuple[float, float, object]]) -> float:
+def _aimed(aims: list[tuple[float, float, tuple[int, float | None]]], known: float) -> float:
     """The length of a part that ends at its event, from lengths and where events were seen.
 
-    A length that is too long shows the event a little late, in proportion: by the secant.
+    A length that is too long shows the event a little late, in proportion: by the secant. Beyond a
+    mark places are not smooth: the next length is one before it, from one where it was ahead.
     """
     length, seen, event = aims[-1]
+    if event[1] is not None and np.isfinite(event[1]):
+        return seen if seen > length else known + BEFORE_IT * (seen - known)
     if len(aims) > 1 and aims[-2][2] == event:
         before, seen_before, _ = aims[-2]
         change = (seen - length) - (seen_before - before)
@@ -247,9 +251,7 @@ def past_leap(panel: Panel, event: Event | None, longest: float) -> Part | None:
     ]
     if not leaps:
         return None
-    lengths = span.length * (1.0 + LEAPS)
-    if lengths[-1] > longest:
-        lengths = np.append(lengths[lengths < longest], longest)
+    lengths = np.unique(np.minimum(span.length * (1.0 + LEAPS), longest))
     for length, beyond in product(lengths.tolist(), JUST_BEYOND):
         guess = panel.places.copy()
         guess[-1, leaps] = place + beyond * (place - last[leaps])

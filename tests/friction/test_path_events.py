@@ -219,3 +219,15 @@ def test_certificate_and_plan_say_which_steps_are_followed_part_by_part():
     assert "followed part by part, as Q and bulk stress change in another" in str(
         history[1].check()
     )
+
+
+@pytest.mark.slow
+def test_an_end_comes_to_two_marks_on_one_step_as_the_punch_turns():
+    scene = sie.Scene(profile=sie.Power(3.0, 1.0), modulus=1.0, normal_load=1.0, friction=0.2844)
+    loads = [(1.2057, 0.2081, 0.1622), (0.8869, 0.0165, -0.0914), (0.8819, 0.048, -0.1389)]
+    path = sie.Path(loads, tilt=[0.0958, -0.0499, 0.0228])
+    whole, halves = (sie.follow(scene, path.subdivided(n))[-1] for n in (1, 2))
+    x = inside(whole, 41)
+    assert whole.check().ok and halves.check().ok
+    assert np.ravel(whole.stick) == pytest.approx(np.ravel(halves.stick), abs=1e-9)
+    assert whole.shear(x) == pytest.approx(halves.shear(x), abs=1e-9)
