@@ -39,10 +39,13 @@ if TYPE_CHECKING:
     from sie.traction.base import Density
 
 Array = NDArray[np.float64]
+Zone = tuple[float, float]
 
 MOST = 13.0  # of τ/(f p(c)): beyond, the stick zone is narrower than 1e-8 of the contact
 MARKED = 512  # breaks in contact that are marks: a state is solved once; of more each is below 1e-8
 WIDE = 0.75  # of the distance to the nearer edge: a stick zone at most, at a guess
+# of the contact: nearer to an end of stick an infinite pressure costs q more than 1e-8
+BESIDE = 1e-3
 
 
 class StateSlip(Slip):
@@ -141,7 +144,7 @@ def two_signed(step: Step) -> TwoSignedSlip:
     patches = (step.pressure.interval,)
     limit = limit_on(step.scene, patches, step.pressure, MARKED)
     infinite = limit.marks[np.isinf(step.pressure(limit.marks))]
-    _refuse_slip_at(infinite, patches[0])
+    _refuse_slip_at(infinite, patches[0], patches[0])
     before = State.untouched(Contact(patches, limit, 0.0, 0.0))
     after = Contact(patches, limit, step.Q, step.tau)
     guess = _zones(after)
@@ -150,13 +153,14 @@ def two_signed(step: Step) -> TwoSignedSlip:
     except ContactError:
         found = newton(before, after, zones_on_cells(before, after)[0])
     refuse_inadmissible(before, found.state, found.state.stick)
-    _refuse_slip_at(infinite, found.state.stick[0])
+    _refuse_slip_at(infinite, found.state.stick[0], patches[0])
     return TwoSignedSlip(step, Part(found, found.state, 0.0, 1.0))
 
 
-def _refuse_slip_at(infinite: Array, stick: tuple[float, float]) -> None:
-    """Refuse an infinite pressure outside of the stick zone."""
-    slips = infinite[(infinite <= stick[0]) | (infinite >= stick[1])]
+def _refuse_slip_at(infinite: Array, stick: Zone, patch: Zone) -> None:
+    """Refuse an infinite pressure outside of the stick zone, or so near to an end that it shows."""
+    inside = BESIDE * (patch[1] - patch[0])
+    slips = infinite[(infinite <= stick[0] + inside) | (infinite >= stick[1] - inside)]
     if slips.size:
         raise ContactError(
             "the bulk stress makes the two edges slip in opposite directions, which is not covered "
