@@ -11,9 +11,6 @@ from collections.abc import Collection
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-from numpy.typing import NDArray
-
 from . import arguments
 from .answers.body import BodyAnswers
 from .answers.derivatives import DerivativeAnswers
@@ -28,8 +25,6 @@ if TYPE_CHECKING:  # what a stage needs is imported when it is computed
     from .certificate.trace_noise import TraceReport
     from .patches.result import PatchCertificate
     from .problem.scene import Scene
-
-Array = NDArray[np.float64]
 
 
 class Solution(SurfaceAnswers, BodyAnswers, DerivativeAnswers, Sheared):

@@ -18,6 +18,7 @@ from sie.arguments import choices
 from sie.io import scene_file
 from sie.io.answers import wanted
 from sie.io.scene_file import SceneFile
+from sie.io.scene_tables import wants
 from sie.problem.request import WANTS
 
 from .parser import STANDARD
@@ -28,7 +29,7 @@ OUTPUTS = ("plot", "csv", "json", "field")
 def scene_of(arguments: argparse.Namespace) -> SceneFile:
     """The scene file, with --want in place of the file's own `want`."""
     words = getattr(arguments, "want", None) or ()
-    want = scene_file.wants("--want", [name for name in ",".join(words).split(",") if name])
+    want = wants("--want", [name for name in ",".join(words).split(",") if name])
     if words and not want:
         raise ValueError(f"--want names nothing: give {choices(WANTS)}")
     standard = arguments.scene == STANDARD

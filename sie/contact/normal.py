@@ -12,7 +12,6 @@ from collections.abc import Collection
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from sie import arguments
 from sie.errors import LoadError
@@ -30,9 +29,6 @@ from .known_contact import NEARER, Edges, Normal, refuse_unresolved, with_breaks
 from .smooth_slope import smooth_contact
 from .tilt_of_moment import refuse_outside, tilt_of_moment
 from .window import FITTED, MOST_GROWN, Window, window_of
-
-Array = NDArray[np.float64]
-
 
 # Tests of a function between the points that resolved it, each with the breaks that the last added.
 LOOKS = 4

@@ -54,6 +54,9 @@ STEPS, DIFFERENCE, SETTLED = 30, 1e-6, 1e-5
 SHORT = 1e-5
 # Points of the certificate on each zone, and what it lets pass, of the largest stress
 CHECKED, TOLERATED = 61, 1e-8
+# Cells that are open or closed: their number, and the least next to the mouth, of the depth
+CELLS, SHORTEST = 72, 1e-4
+ROUNDS = 200  # of opening and closing cells
 TOL = 5e-9  # of the equations: the stress beside an edge of contact has rounding
 
 
@@ -318,14 +321,10 @@ def _pairs(ends: Array) -> Zones:
     return tuple((float(y1), float(y2)) for y1, y2 in ends.reshape(-1, 2))
 
 
-CELLS, SHORTEST = 72, 1e-4  # their number, and the least next to the mouth, of the depth
-ROUNDS = 200
-
-
 # -- which faces touch ----------------------------------------------------------------------------
 
 
-def open_zones(stress: Callable[[Array], Array]) -> tuple[tuple[float, float], ...]:
+def open_zones(stress: Callable[[Array], Array]) -> Zones:
     """The zones of a crack of depth 1 whose faces are apart under a stress, to a cell."""
     edges, middles, A = cells()
     return _zones(opened(A, stress(middles)), edges)
@@ -357,6 +356,6 @@ def opened(A: Array, stress: Array) -> NDArray[np.bool_]:
     return apart
 
 
-def _zones(apart: NDArray[np.bool_], edges: Array) -> tuple[tuple[float, float], ...]:
+def _zones(apart: NDArray[np.bool_], edges: Array) -> Zones:
     change = np.flatnonzero(np.diff(np.concatenate(([False], apart, [False])).astype(int)))
     return tuple((float(edges[i]), float(edges[j])) for i, j in change.reshape(-1, 2))

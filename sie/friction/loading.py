@@ -7,7 +7,6 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
 from sie.numerics.graded_panels import Pieces
 
@@ -18,7 +17,6 @@ if TYPE_CHECKING:
     from sie.problem.scene import Scene
     from sie.traction.base import Density
 
-Array = NDArray[np.float64]
 
 FEW = 8  # breaks in contact: of more, of a trace, each one is faint
 FIRST = 1e-14  # of a step from nothing: after that the bodies touch

@@ -48,7 +48,6 @@ import codecs
 import pathlib
 import re
 import tomllib
-from collections.abc import Iterable
 from dataclasses import dataclass, field
 from importlib import resources
 from typing import Any
@@ -56,7 +55,6 @@ from typing import Any
 from sie import files
 from sie.arguments import suggestion, with_short_words
 from sie.problem.load_path import Path
-from sie.problem.request import WANTS
 from sie.problem.scene import Scene
 from sie.profiles.kinds import KINDS
 
@@ -64,8 +62,7 @@ from .beside_scene import UNITS, Crack, Fatigue, Units
 from .path_table import path_of
 from .profile_tables import Files
 from .scene_keys import LOADS, naming, values_of
-from .scene_tables import indenter_and_bodies, refuse_no_question
-from .toml_values import TEXT, TEXTS
+from .scene_tables import beside_problem, indenter_and_bodies, refuse_no_question
 
 
 class SceneFileError(ValueError):
@@ -206,21 +203,11 @@ def from_tables(top: dict[str, Any], folder: pathlib.Path = HERE) -> SceneFile:
     Files that they name are read from `folder`.
     """
     refuse_no_question(top)
-    units = Units(**values_of("units", top))
-    beside = Files(folder, units.length)
+    said = beside_problem(top)
+    beside = Files(folder, said["units"].length)
     path, loads = _loads(top, beside)
-    indenter = indenter_and_bodies(top, beside)
-    fatigue, crack = Fatigue(**values_of("fatigue", top)), values_of("crack", top)
-    return SceneFile(
-        scene=Scene(**indenter, **loads),
-        title=TEXT.read("title", top.get("title", "")),
-        units=units,
-        want=wants("want", TEXTS.read("want", top.get("want", []))),
-        load_path=path,
-        fatigue=fatigue,
-        crack=Crack(**crack) if crack else None,
-        reads=tuple(beside.read),
-    )
+    scene = Scene(**indenter_and_bodies(top, beside), **loads)
+    return SceneFile(scene, load_path=path, reads=tuple(beside.read), **said)
 
 
 def _loads(top: dict[str, Any], beside: Files) -> tuple[Path | None, dict[str, Any]]:
@@ -239,14 +226,3 @@ def _loads(top: dict[str, Any], beside: Files) -> tuple[Path | None, dict[str, A
         path = path_of(loads.pop("path"), columns, beside)
     last = zip(("normal_load", "tangential_load", "bulk_stress"), path.points[-1], strict=True)
     return path, loads | dict(last)
-
-
-# -- names that are not known --------------------------------------------------------------------
-
-
-def wants(where: str, names: Iterable[str]) -> tuple[str, ...]:
-    """The names, if all of them can be asked for. ValueError, with the nearest name, if not."""
-    for name in names:
-        if name not in WANTS:
-            raise ValueError(f'{where} "{name}" is not known: {suggestion(name, WANTS)}')
-    return tuple(names)

@@ -1,7 +1,7 @@
 """A scene as the tables of a scene file, values for JSON, and the arguments of a scene from them.
 
-Reading the tables of a scene gives an equal one, to the last digit. The
-heights of a trace stand in the tables, not the name of its file.
+Reading the tables of a scene gives an equal one, to the last digit. The heights of a trace stand in
+the tables, not the name of its file.
 
 >>> from sie import Parabola, Scene
 >>> tables_of(Scene(profile=Parabola(100.0), modulus=80e3, normal_load=50.0))["profile"]
@@ -11,14 +11,16 @@ heights of a trace stand in the tables, not the name of its file.
 from __future__ import annotations
 
 import inspect
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import fields
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from sie.arguments import suggestion
 from sie.problem.material import RIGID, Body, Elastic
+from sie.problem.request import WANTS
 from sie.profiles.base import Placed, Profile, parts_of
 from sie.profiles.expression import Expression
 from sie.profiles.from_function import FromFunction
@@ -28,8 +30,10 @@ from sie.profiles.row import Periodic, Row
 from sie.profiles.sampled import Sampled
 from sie.profiles.shapes import Wedge
 
+from .beside_scene import Crack, Fatigue, Units
 from .profile_tables import Files, profile_of
 from .scene_keys import TABLES, TOP, naming, remedy, require, values_of
+from .toml_values import TEXT, TEXTS
 
 Tables = dict[str, Any]
 
@@ -57,8 +61,8 @@ def arguments_of(tables: Mapping[str, Any]) -> dict[str, Any]:
                 "[load] has a path, which is more than one scene: give normal_load, "
                 "tangential_load and bulk_stress, or read the file by sie.io.scene_file"
             )
-        beside = Files(Path(), values_of("units", top).get("length", ""))
-        return indenter_and_bodies(top, beside) | loads
+        units = beside_problem(top)["units"]
+        return indenter_and_bodies(top, Files(Path(), units.length)) | loads
     except RecursionError:
         raise ValueError("the tables are nested too deeply for those of a scene") from None
 
@@ -74,6 +78,26 @@ def refuse_no_question(top: Tables) -> None:
     ):
         if name not in top:
             raise ValueError(f"there is no [{name}]: give [{name}] with {content}")
+
+
+def beside_problem(top: Tables) -> dict[str, Any]:
+    """What stands beside the contact problem: title, units, what is wanted, fatigue, crack."""
+    crack = values_of("crack", top)
+    return {
+        "title": TEXT.read("title", top.get("title", "")),
+        "units": Units(**values_of("units", top)),
+        "want": wants("want", TEXTS.read("want", top.get("want", []))),
+        "fatigue": Fatigue(**values_of("fatigue", top)),
+        "crack": Crack(**crack) if crack else None,
+    }
+
+
+def wants(where: str, names: Iterable[str]) -> tuple[str, ...]:
+    """The names, if all of them can be asked for. ValueError, with the nearest name, if not."""
+    for name in names:
+        if name not in WANTS:
+            raise ValueError(f'{where} "{name}" is not known: {suggestion(name, WANTS)}')
+    return tuple(names)
 
 
 def indenter_and_bodies(top: Tables, beside: Files) -> dict[str, Any]:

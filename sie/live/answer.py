@@ -49,7 +49,7 @@ def answer(setting: Setting, part: str, units: Units | None = None) -> Answer:
 
 
 def _in_the_sliders_words(setting: Setting) -> str:
-    """A slider that alone, set to 0, gives an answer: the first, those of little work before."""
+    """Which slider gives an answer if it alone is set to 0; that of least work is tried first."""
     labels = {control.name: control.label for control in sliders(setting.file)}
     remedy = "Move the sliders nearer to their start."
     for name in ("beta", "bulk", "tilt", "share"):

@@ -283,7 +283,7 @@ class Many:
         Parameters
         ----------
         poisson : float
-            ν of the bodies, between 0 and 0.5.
+            ν of the bodies, above -1 and at most 0.5.
 
         Returns
         -------

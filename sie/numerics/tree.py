@@ -30,7 +30,6 @@ from .chord import Chord, Points
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
-Mask = NDArray[np.bool_]
 
 FAR = 2.0  # half-lengths of a node from its middle: its charges serve from here on
 CHARGES = 28  # of a node: (FAR + sqrt(FAR² - 1))**-CHARGES is rounding
@@ -275,6 +274,7 @@ def _gathered(operation: np.ufunc, total: Any, row: Index, value: Any) -> None:
 
 
 def parts(rows: int, columns: int) -> Iterator[slice]:
+    """Slices of rows, in each of which there are about CHUNK entries."""
     size = max(CHUNK // columns, 1)
     for start in range(0, rows, size):
         step_done(0)

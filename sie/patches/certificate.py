@@ -53,7 +53,6 @@ from .rule import SHORT, Rule, principal_value
 from .state import Unseen
 
 Array = NDArray[np.float64]
-Index = NDArray[np.int64]
 Mask = NDArray[np.bool_]
 Height = Callable[[Array], Array]
 

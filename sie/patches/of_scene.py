@@ -52,6 +52,7 @@ WIDER = 4.0  # windows that are added at an end
 NEARLY = 1e-3
 DOUBLED, HALVED = 60, 24  # times that a step of the tilt is
 WIDENED = 12  # times a window is widened, before the slope is said to rise too little
+UNKNOWN = 0.01  # part by which the rounding of h may change the load of a patch
 
 
 @dataclass(frozen=True, eq=False)
@@ -258,9 +259,6 @@ def levels(problem: Problem, window: tuple[float, float]) -> tuple[float, float]
     return near, far
 
 
-UNKNOWN = 0.01  # part by which the rounding of h may change the load of a patch
-
-
 # -- what is not known of an indenter --------------------------------------------------------------
 
 
@@ -278,8 +276,7 @@ def refuse_unknown_ends(state: State, problem: Problem) -> None:
         if not np.isfinite(float(problem.slope(np.array([end]))[0])):
             raise LoadError(
                 f"the slope is infinite at the end x = {end:.6g} of its domain, which the "
-                "contact comes near: "
-                "narrow the domain"
+                "contact comes near: narrow the domain"
             )
         if not corner:
             raise LoadError(

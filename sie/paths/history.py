@@ -25,7 +25,6 @@ from functools import cached_property, partial
 from typing import TYPE_CHECKING, Any, overload
 
 import numpy as np
-from numpy.typing import NDArray
 
 from sie.answers.sheared import Sheared
 from sie.certificate.shear_check import certificate_of_parts
@@ -64,8 +63,6 @@ if TYPE_CHECKING:
     from sie.patches.result import PatchCertificate
     from sie.problem.scene import Scene
     from sie.traction.of_slope import SlopeDensity
-
-Array = NDArray[np.float64]
 
 
 def follow(

@@ -269,7 +269,7 @@ def _not_a_knot(step: Array, chord: Array, tail: Array) -> Array:
 def not_a_knot_bands(step: Array) -> tuple[Array, Array, Array]:
     """The bands (3, n - 2) of the equations of the inner f'', and the outer ones by the next two.
 
-    They make the rises of the chords, times 6.
+    On the right is 6 times the change of slope from chord to chord.
     """
     begin, end = step[0] / step[1], step[-1] / step[-2]
     system = np.zeros((3, len(step) - 1))

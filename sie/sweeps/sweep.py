@@ -244,6 +244,8 @@ def _wanted(want: str | Iterable[str] | Mapping[str, Wanted]) -> dict[str, str |
     return dict(pairs)
 
 
+# -- a sweep as arrays, where `many` answers all points --------------------------------------------
+
 SIZES = "normal_load", "half_width"
 KINDS = Parabola, RoundedFlat  # whose fields are their parameters
 FEWEST = 32  # points: fewer are as soon solved one by one

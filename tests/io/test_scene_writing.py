@@ -10,6 +10,7 @@ from strategies import between, chains, parabolas, polynomials, powers, rounded_
 
 import sie
 from sie.io.export import strict_json
+from sie.io.scene_file import from_tables
 from sie.io.scene_schema import schema
 
 SCHEMA = pytest.importorskip("jsonschema").Draft7Validator(schema())
@@ -116,7 +117,18 @@ def test_arrays_stand_for_lists_in_a_dict():
     assert scene == sie.Scene(profile=sie.Sampled(x, x**2), modulus=1.0, normal_load=0.25)
 
 
+def test_a_trace_that_tables_name_is_in_the_unit_of_a_scene_file(tmp_path):
+    rows = "\n".join(f"{100 * k},{k * k}" for k in range(-9, 10))
+    (tmp_path / "trace.csv").write_text(f"x [um],z [um]\n{rows}\n")
+    profile = {"kind": "sampled", "path": str(tmp_path / "trace.csv")}
+    tables = {"profile": profile, "pair": {"modulus": 1.0}, "load": {"normal_load": 1.0}}
+    assert sie.Scene.from_dict(tables) == from_tables(tables).scene
+    in_metres = tables | {"units": {"length": "m"}}
+    assert sie.Scene.from_dict(in_metres).profile.domain[1] == pytest.approx(9e-4, rel=1e-12)
+
+
 WEDGE = {"profile": {"kind": "wedge", "slope": 1.0}}
+QUESTION = WEDGE | {"pair": {"modulus": 1.0}, "load": {"normal_load": 1.0}}
 NESTED = {}
 for _ in range(5000):
     NESTED = {"profile": NESTED}
@@ -131,6 +143,10 @@ for _ in range(5000):
         (NESTED, "nested too deeply"),
         ({"profile": {"kind": "parabole", "radius": 1.0}, "load": {}}, "did you mean"),
         (WEDGE | {"pair": {"modulus": 1.0}, "load": {"path": [[1.0, 0.0]]}}, "more than one scene"),
+        (QUESTION | {"fatigue": {"limit": 1.0}}, "has no key"),
+        (QUESTION | {"crack": {"depth": 1.0}}, "has no key"),
+        (QUESTION | {"want": ["presure"]}, "is not known"),
+        (QUESTION | {"title": 3}, "is not text"),
     ],
 )
 def test_tables_of_no_scene_are_refused(tables, said):

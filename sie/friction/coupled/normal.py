@@ -12,7 +12,6 @@ from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from sie.contact.known_contact import Edges, Normal
 from sie.contact.normal import normal_contact
@@ -30,8 +29,6 @@ from .goodman import goodman_flat
 from .growth import Panel
 from .march import NEGLECT, March, Touch, first_touch, refuse_turning
 from .pressed import Flat, Grown
-
-Array = NDArray[np.float64]
 
 WIDER = 1.0 + 64.0 * EPS  # than the frictionless contact: as far as P' is sought at first
 MORE = 1.1  # where a load asks for more

@@ -239,7 +239,7 @@ class Pieces:
         between = self._between
         for i, (first, last) in enumerate(pairwise(rows)):
             for j, (start, stop) in enumerate(pairwise(columns)):
-                # from cuts places are less than half as far as these from each other
+                # in contact a place is less than half as far from its cut as the next cut is
                 block = out[first:last, start:stop]
                 offset = between[i, j] + one.offset[first:last]
                 np.subtract.outer(offset, other.offset[start:stop], out=block)

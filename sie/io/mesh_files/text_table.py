@@ -11,7 +11,6 @@ import re
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from sie.arguments import nearest, shortened
 from sie.profiles.trace_files import MESH, Table, read_table
@@ -19,7 +18,6 @@ from sie.profiles.trace_files import MESH, Table, read_table
 from .names import QUANTITIES, WORDS, Meaning, meaning, negative_in_compression, spelling
 from .raw import Raw
 
-Array = NDArray[np.float64]
 LARGEST = 1e100  # of a column: no length or stress, and its square is finite
 
 
