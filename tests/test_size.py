@@ -21,7 +21,7 @@ LINES = {
     "cli": 790,
     "contact": 2390,
     "examples": 10,
-    "friction": 9830,
+    "friction": 9870,
     "inverse": 310,
     "io": 4770,
     "live": 1140,

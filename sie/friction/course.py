@@ -18,7 +18,7 @@ from sie.numerics.root_finding import false_position
 
 from .cells import zones_on_cells
 from .equations import Equations
-from .finite_step import Part, balanced, newton, solved
+from .finite_step import Part, balanced, newton, on_earlier_zones, solved
 from .loading import LoadStep
 from .onset import End, Motion, Onset, onset, set_out
 from .state import EXCEEDED, TURNS, Contact, State, Zones
@@ -261,6 +261,12 @@ def _verdict(state: State, step: LoadStep, share: float, guess: Zones | None) ->
         if not now.why:
             return now
         first = first or now
+    if share == 1.0:  # a point of the path, at which loads may come back to what they were
+        for zones in guesses:
+            for found in on_earlier_zones(state, after, zones):
+                now = _judged(found, step, share)
+                if not now.why:
+                    return now
     assert first is not None
     return first
 

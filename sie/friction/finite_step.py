@@ -7,7 +7,7 @@ marks of the shear, which are tried.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
@@ -26,6 +26,7 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 STEPS = 40  # of Newton's method
+PINNED_STEPS = 8  # of it with one end on a mark
 SLOW, FAR = 14, 1e-2  # after so many one that is so long, of the contact, finds nothing
 SETTLED = 2e-14  # of the contact: a step so short is the last
 GOOD = 1e-9  # and one so short is good enough if later ones do not shorten ...
@@ -217,6 +218,33 @@ def on_marks(found: Equations, missed: float) -> Equations:
                 break
             found = moved
     return found
+
+
+def on_earlier_zones(before: State, after: Contact, guess: Zones) -> Iterator[Equations]:
+    """Equations that are solved with one end of the stick zone on a mark, inner marks first.
+
+    Where loads come back to what they were, all that lies between two marks has come back too: any
+    end between them solves the equations, and Newton's method finds none.
+    """
+    if len(guess.stick) != 1:
+        return
+    for j in (0, 1):
+        other = 1 - j
+        marks = before.marks if j else before.marks[::-1]
+        for mark in marks:
+            ends = np.array(guess.stick[0])
+            ends[j] = mark
+            now = Equations(before, after, guess, rough=True)
+            for _ in range(PINNED_STEPS):
+                if not after.patches[0][0] < ends[0] < ends[1] < after.patches[-1][1]:
+                    break
+                now = _with_ends(now, ends)
+                if balanced(now, ON_MARK_AT_LEAST):
+                    yield replace(now, rough=False)
+                    break
+                slope = now.derivatives[:, other]
+                ends = ends.copy()
+                ends[other] -= float(slope @ now.residual / (slope @ slope))
 
 
 def _with_ends(found: Equations, ends: Array) -> Equations:

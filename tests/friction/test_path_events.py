@@ -231,3 +231,18 @@ def test_an_end_comes_to_two_marks_on_one_step_as_the_punch_turns():
     assert whole.check().ok and halves.check().ok
     assert np.ravel(whole.stick) == pytest.approx(np.ravel(halves.stick), abs=1e-9)
     assert whole.shear(x) == pytest.approx(halves.shear(x), abs=1e-9)
+
+
+def test_loads_in_phase_that_close_a_loop_come_back_to_the_state_before_it():
+    scene = sie.Scene(
+        profile=sie.RoundedFlat(0.3, 1.0), modulus=1.0, normal_load=1.0, friction=0.415
+    )
+    shares = [0.0, -1.0, 1.0, 0.0922, 0.7942, -1.0]
+    loads = [(0.343 + 5.8e-4 * s, -0.054 * s, 1e-3 * s) for s in shares]
+    path = sie.Path(loads, tilt=[-3.8e-4 * s for s in shares])
+    history = sie.follow(scene, path)
+    before, after = history[1], history[5]
+    x = inside(after, 41)
+    assert after.check().ok
+    assert np.ravel(after.stick) == pytest.approx(np.ravel(before.stick), abs=1e-9)
+    assert after.shear(x) == pytest.approx(before.shear(x), abs=1e-9)
