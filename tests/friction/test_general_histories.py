@@ -104,6 +104,7 @@ def test_a_step_to_sliding_is_refused_whatever_the_rounding_with_one_that_is_sol
     first, Q = (P0, 0.3 * f * P0, 0.0), (1.0 - below) * f * P
     with pytest.raises(sie.ContactError, match=r"step 1 .*comes to f P") as caught:
         sie.follow(HERTZ, sie.Path([first, (P, Q, sigma)]))
+    assert caught.value.reached["step"] == 1
     if below == 0.0:
         nearly = float(re.search(r"Q = (\S+)$", str(caught.value))[1])
         assert sie.follow(HERTZ, sie.Path([first, (P, nearly, sigma)]))[1].check().ok
