@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping
+from contextlib import suppress
 from dataclasses import fields
 from functools import cached_property, partial
 from typing import Any
@@ -288,11 +289,13 @@ class Many:
         Returns
         -------
         ndarray of float
-            `YieldPoint.load`, a length, of shape `shape`; nan where a scene is refused.
+            `YieldPoint.load`, a length, of shape `shape`; nan where a scene, or its limit, is
+            refused.
         """
         out = np.full(len(self._family), np.nan)
         for k in np.flatnonzero(self.refused.ravel() == "").tolist():
-            out[k] = self._solution(k, poisson=poisson).elastic_limit().load
+            with suppress(ContactError):
+                out[k] = self._solution(k, poisson=poisson).elastic_limit().load
         return self._shaped(out)
 
     @cached_property

@@ -172,7 +172,10 @@ class Loaded:
     @property
     def first(self) -> Loaded:
         """The state under P alone."""
-        return self.before.first if self.before is not None else self
+        state = self
+        while state.before is not None:
+            state = state.before
+        return state
 
     @cached_property
     def _sliding(self) -> dict[int, Fields | None]:
