@@ -213,7 +213,7 @@ DIVIDED = {
 def test_a_step_is_that_of_its_parts(beta, friction, whole, parts):
     one, other = (followed(*q, beta=beta, friction=friction)[-1] for q in (whole, parts))
     assert zones(one) == pytest.approx(zones(other), abs=1e-10)
-    assert one.energy_lost == pytest.approx(other.energy_lost, rel=3e-6)
+    assert one.energy_lost == pytest.approx(other.energy_lost, rel=5e-7)
 
 
 @pytest.mark.slow
@@ -368,4 +368,4 @@ def test_energy_is_known_where_a_mark_is_passed_at_once_after_a_turn():
     scene = sie.Scene(profile=sie.Parabola(50.0), normal_load=100.0, friction=0.3, **bodies)
     whole = sie.follow(scene, sie.Path([(100.0, 0.0), (100.0, 18.0)]))
     parts = sie.follow(scene, sie.Path([(100.0, 0.0), (100.0, 9.0), (100.0, 18.0)]))
-    assert whole[-1].energy_lost == pytest.approx(parts[-1].energy_lost, rel=3e-6)
+    assert whole[-1].energy_lost == pytest.approx(parts[-1].energy_lost, rel=5e-7)
