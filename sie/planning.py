@@ -120,7 +120,7 @@ def plan(
     names = wanted(want)
     if scene.bonded or scene.coupled:
         stages = {stage for name in names for stage in ONE_PROBLEM[name]}
-        return Plan((*_of_one_problem(scene, stages), *_last(names, stages)))
+        return Plan((*_of_one_problem(scene, names, stages), *_last(names, stages)))
     no_shear: dict[str, tuple[str, ...]] = dict.fromkeys(("shear", "energy"), ())
     needed = TWO_PROBLEMS | ({} if sheared(scene, economy) or scene.epsilon else no_shear)
     stages = {stage for name in names for stage in needed[name]}
@@ -163,11 +163,11 @@ def _last(names: tuple[str, ...], stages: set[str]) -> tuple[Step, ...]:
 # -- pressure and shear are one problem ------------------------------------------------------------
 
 
-def _of_one_problem(scene: Scene, stages: set[str]) -> Iterable[Step]:
+def _of_one_problem(scene: Scene, names: tuple[str, ...], stages: set[str]) -> Iterable[Step]:
     """The steps of full stick, and of dissimilar bodies in partial slip."""
     beta = f"β = {scene.beta:.4g}: p and q are one problem"
     coupled = "β q is left out: Goodman's approximation" if scene.neglects_beta else beta
-    slip = "the shear and the slip come with the pressure"
+    slip, energy = "the shear and the slip come with the pressure", list[Step]()
     if scene.bonded:
         first = [("full stick", "one equation for p + iq, solved on the whole punch", "bonded")]
         slip = "infinite friction: nothing slips"
@@ -177,11 +177,13 @@ def _of_one_problem(scene: Scene, stages: set[str]) -> Iterable[Step]:
             ("slip gradient", "that of P alone, kept in stick", "locked_in"),
             ("zones", "edges of contact and of stick zones together, by Newton", "coupled"),
         ]
+        energy = [_if_asked("energy", "energy" in names, "the power of friction, over states")]
     else:
         first = [("coupling", f"{coupled}; the contact grows by flat punches", "coupled")]
     return (
         *(Step(name, True, how, stage) for name, how, stage in first),
         Step("edges", True, "known with it", "normal"),
+        *energy,
         _if_asked("pressure", "pressure" in stages, "a part of the solution", "pressure"),
         Step("inequalities", False, "the certificate measures them"),
         Step("slip", False, slip),

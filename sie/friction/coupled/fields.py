@@ -16,10 +16,11 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import sici
 
-from .state import Pair, State, across
+from .pieces import Pair, across
 
 if TYPE_CHECKING:
     from .pieces import Places
+    from .state import State
 
 Array = NDArray[np.float64]
 

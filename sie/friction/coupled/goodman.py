@@ -30,7 +30,8 @@ from numpy.typing import NDArray
 from sie.numerics.elliptic import modulus_of_ratio
 
 from .flat import NARROWEST_RATIO, FlatPunch, half_rule, squares
-from .state import Pair, State, across
+from .pieces import Pair, across
+from .state import State
 
 if TYPE_CHECKING:
     from .pieces import Places

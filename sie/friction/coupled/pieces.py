@@ -12,6 +12,7 @@ A place is a distance from one of the cuts, so that differences keep their digit
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
@@ -65,6 +66,9 @@ class Places(NamedTuple):
     def chosen(self, some: NDArray[np.bool_] | slice) -> Places:
         """Some of them."""
         return Places._make(column[some] for column in self)
+
+
+Pair = tuple[Places, Places]  # two rules, half a step apart
 
 
 @dataclass(frozen=True, eq=False)
@@ -262,3 +266,8 @@ class Pieces:
         """(-1)^N of each zone, N the number of slip zones to the right of it."""
         slips = np.array([sign != 0 for sign in self.signs])
         return (-1.0) ** (slips[::-1].cumsum()[::-1] - slips)
+
+
+def across(kernel: Array, masses: Sequence[Array]) -> tuple[Array, Array]:
+    """PV integrals of masses on each of two rules, at the places of the other one."""
+    return kernel @ masses[1], -(masses[0] @ kernel)

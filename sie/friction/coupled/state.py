@@ -18,7 +18,7 @@ n of slip zones; that with k = n is P. D is found from its values on the nodes b
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, NamedTuple
@@ -26,14 +26,13 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from .pieces import Pieces, Places
+from .pieces import Pair, Pieces, Places, across
 
 if TYPE_CHECKING:
     from sie.profiles.slope import Slope
 
 Array = NDArray[np.float64]
 Gradient = Callable[[Array], Array]
-Pair = tuple[Places, Places]
 
 
 class HalfSlope(NamedTuple):
@@ -296,8 +295,3 @@ class Solved(NamedTuple):
     mass: Array
     D: Array
     flow: Array
-
-
-def across(kernel: Array, masses: Sequence[Array]) -> tuple[Array, Array]:
-    """PV integrals of masses on each of two rules, at the places of the other one."""
-    return kernel @ masses[1], -(masses[0] @ kernel)
