@@ -27,6 +27,7 @@ AGAIN_SINCE = 0.7  # of τ: before it an event at the end of a part is not looke
 OPENS = 0.3  # of τ: before it slip that begins inside stick is too short for its K
 AT_THE_END = 1e-9  # of a part: an event so close to its end is there
 UNRESOLVED = 1e-6  # of the largest coefficient of D: the last two
+AT_AN_EDGE = 1e-6  # of the contact: slip that begins so near to an edge begins at it
 NO_ROOM = 1e-6  # of the contact: so little room is none where an end comes near an edge in steps
 
 
@@ -195,6 +196,9 @@ def _openings(panel: Panel, known: tuple[float, float] | None, sooner: float) ->
         if now.excess * now.after.peak > EXCEEDED * peak:
             x, q, limit = now.stuck_shear
             k = int((np.abs(q) - limit).argmax())
+            edges = np.array(now.after.patches).ravel()
+            if np.abs(edges - x[k]).min() < AT_AN_EDGE * now.after.width:
+                continue
             known, since = (float(x[k]), float(np.sign(q[k]))), float(TAU[i])
             break
     if known is not None:

@@ -393,6 +393,8 @@ def solved_panel(span: Span, guess: Array) -> Panel:
     last, width = math.inf, span.before.contact.width
     peak = max(contact.peak for contact in (span.before.contact, span.contacts[-1]))
     for _ in range(STEPS):
+        if (now.places[:, 1::2] <= now.places[:, ::2]).any():  # a stick zone has vanished
+            break
         if last > NEAR * width:
             slopes = now.slopes()
         right, matrix = now.system(slopes)
