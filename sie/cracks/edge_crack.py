@@ -144,7 +144,8 @@ class EdgeCrack:
     def mode_1(self) -> float:
         """K_I, stress times root of length; 0 where the faces touch at the tip."""
         zones = self.open
-        return self._K(self._opened, -1) if zones and zones[-1][1] == self.depth else 0.0
+        tip = zones and zones[-1][1] == self.depth
+        return max(self._K(self._opened, -1), 0.0) if tip else 0.0
 
     @cached_property
     def mode_2(self) -> float:
@@ -235,6 +236,8 @@ class EdgeCrack:
             moved = float(np.abs(change).max())
             while (short := np.flatnonzero(np.diff(ends) <= SHORT * a)).size:
                 ends = np.delete(ends, [short[0], short[0] + 1])  # a zone or a contact vanishes
+            if ends.size and a - ends[-1] <= SHORT * a:
+                ends[-1] = a  # so does contact at the tip
         raise ContactError(
             f"the ends of contact of the faces of a crack of depth {a:g} are not found: the stress "
             "changes its sign too often along it; ask for other depths",
