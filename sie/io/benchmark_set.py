@@ -143,7 +143,7 @@ def _picture(solution: Any, file: SceneFile) -> dict[str, bytes]:
 
 
 class Target(NamedTuple):
-    """A quantity, its exact value and its unit: length, force, stress, or the product of two."""
+    """A quantity, its exact value and its unit: length, force, stress, or moment and energy."""
 
     name: str
     value: float
@@ -183,7 +183,7 @@ def _of_shear(solution: Any) -> list[Target]:
         found += [Target("stick from", lo, "length"), Target("stick to", hi, "length")]
     q, x = largest_shear(solution)
     found += [Target("q_max", q, "stress"), Target("x of q_max", x, "length")]
-    return found + [Target("energy lost", v, "force") for v in energy_of(solution).values()]
+    return found + [Target("energy lost", v, "moment") for v in energy_of(solution).values()]
 
 
 def _of_stress(solution: Any) -> list[Target]:
