@@ -88,7 +88,7 @@ class Uncertainty:
     def __init__(self, solution: Any, deviations: Mapping[str, float]) -> None:
         self._solution = solution
         self._deviations = {
-            name: arguments.finite(f"the deviation of {name}", value)
+            name: arguments.not_negative(f"the deviation of {name}", value)
             for name, value in deviations.items()
         }
         self._derivatives = {
@@ -117,7 +117,7 @@ class Uncertainty:
         found = {n: abs(getattr(d, quantity)) for n, d in self._derivatives.items()}
         if HEIGHTS in self._deviations:
             found[HEIGHTS] = float(np.linalg.norm(of_heights(self._solution, quantity)))
-        return {name: abs(deviation) * found[name] for name, deviation in self._deviations.items()}
+        return {name: deviation * found[name] for name, deviation in self._deviations.items()}
 
     def of(self, quantity: str) -> float:
         """The standard deviation of a quantity.

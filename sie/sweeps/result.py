@@ -38,6 +38,7 @@ LABELS = {
     "patches": ("number of patches", PURE),
     "x1": ("left edge of the contact", LENGTH),
     "x2": ("right edge of the contact", LENGTH),
+    "peak_pressure": ("largest pressure", STRESS),
     "shear_load": ("tangential load Q", FORCE),
     "elastic_limit": ("P/(bk) at first yield", PURE),
     "elastic_limit_load": ("P/k at first yield", LENGTH),

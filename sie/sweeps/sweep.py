@@ -19,6 +19,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor, Future, as_completed
 from dataclasses import fields
 from numbers import Integral
+from operator import attrgetter
 from typing import Any, cast
 
 import numpy as np
@@ -254,6 +255,7 @@ OF_ONE_PATCH: dict[str, Callable[[Many], Any]] = {
     "contact_length": lambda solved: 2.0 * solved.half_width,
     "gap_volume": lambda solved: np.zeros(solved.shape),
     "patches": lambda solved: np.ones(solved.shape),
+    "peak_pressure": attrgetter("peak_pressure"),
 }
 KNOWN = (*PLAIN, "edges", *OF_ONE_PATCH)
 

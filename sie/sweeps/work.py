@@ -17,6 +17,7 @@ import numpy as np
 from sie.errors import ContactError
 from sie.problem.scene import Scene
 from sie.progress_bar import Progress
+from sie.sensitivity.derivative import peaks
 from sie.solution import Solution, solve
 
 from .result import PARTS, Answer
@@ -41,6 +42,7 @@ QUANTITIES: dict[str, Wanted] = {
     **{name: attrgetter(name) for name in (*DEFAULT, "contact_length", "gap_volume")},
     "patches": lambda s: float(len(s.patches)),
     "edges": _parts("edges", lambda s: s.edges),
+    "peak_pressure": lambda s: float(s.pressure(peaks(s)[0])),
     "shear_load": lambda s: s.shear.resultant,
     "elastic_limit": _parts("elastic_limit", _elastic_limit),
     "peak_tension": _parts("peak_tension", lambda s: s.peak_tension()),
