@@ -27,6 +27,10 @@ class Measured:
         found = {name: _plain(value) for name, value in values.items() if value is not None}
         return found | {name: getattr(self, name) for name in ("error", "ok")}
 
+    def __bool__(self) -> bool:
+        """Whether it is `ok`, so that `assert solution.check()` means what it says."""
+        return bool(self.ok)  # type: ignore[attr-defined]
+
     def _repr_html_(self) -> str:
         return f"<pre>{escape(str(self))}</pre>"
 
