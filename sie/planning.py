@@ -9,7 +9,8 @@ from collections.abc import Collection, Iterable
 from dataclasses import dataclass
 from html import escape
 
-from .problem.request import ECONOMY, sheared, wanted
+from .problem.coverage import sheared
+from .problem.request import ECONOMY, wanted
 from .problem.scene import Scene, refuse_no_scene
 
 BODY = ("stress", "yield", "tension", "cycle", "crack")  # what is asked of the stress in the body

@@ -18,7 +18,7 @@ LINES = {
     "wear": 470,
     "cauchy": 2170,
     "certificate": 1540,
-    "cli": 790,
+    "cli": 800,
     "contact": 2390,
     "examples": 10,
     "friction": 9880,
@@ -34,7 +34,7 @@ LINES = {
     "profiles": 5270,
     "sensitivity": 1290,
     "stress": 2320,
-    "sweeps": 710,
+    "sweeps": 720,
     "traction": 2490,
 }
 FILES = 254

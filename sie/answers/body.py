@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 from numpy.typing import ArrayLike
 
 from sie.errors import ContactError
+from sie.problem.coverage import refuse_unknown_poisson
 from sie.problem.material import Elastic
-from sie.problem.request import refuse_unknown_poisson
 from sie.traction.combination import scaled
 
 if TYPE_CHECKING:

@@ -16,8 +16,7 @@ from sie.contact.known_contact import Edges, Normal
 from sie.contact.normal import contact_under
 from sie.contact.pressure import pressure
 from sie.errors import InequalityError
-from sie.problem.coverage import held_moment
-from sie.problem.request import sheared
+from sie.problem.coverage import held_moment, sheared
 from sie.problem.scene import Scene
 from sie.traction.combination import ZERO, scaled
 from sie.traction.of_slope import SlopeDensity

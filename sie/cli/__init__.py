@@ -37,7 +37,8 @@ from sie.arguments import WIDE, with_short_words
 from sie.errors import ContactError
 from sie.io import scene_file
 from sie.io.scene_file import SceneFile
-from sie.problem.request import GRID, refuse_unknown_poisson
+from sie.problem.coverage import refuse_unknown_poisson
+from sie.problem.request import GRID
 from sie.progress_bar import Progress
 from sie.solution import Solution, solve
 

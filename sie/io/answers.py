@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 
 from sie.contact.small_strains import notes
 from sie.errors import ContactError
-from sie.problem.request import NEED_SHEAR, UNASKED, energy_costs
+from sie.problem.coverage import energy_costs
+from sie.problem.request import NEED_SHEAR, UNASKED
 from sie.profiles.placed_traces import traces_in
 
 if TYPE_CHECKING:

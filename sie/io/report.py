@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from sie.arguments import WIDE, named_rows
-from sie.problem.request import energy_costs
+from sie.problem.coverage import energy_costs
 
 from .answers import energy_of, notes_of, readings_of, slipping, wanted
 from .sample_points import SAME_PEAK, ceiling, full, peak, reach

@@ -1,4 +1,4 @@
-"""Refusals of loads with friction that no contact carries, or that are not covered.
+"""Which loads with friction are refused at sight, and what a scene needs.
 
 Of dissimilar bodies, a normal load that grows is covered, and then a tangential load and a bulk
 stress at constant P. Where P falls, or changes while a tangential load acts, what comes to stick
@@ -8,11 +8,13 @@ keeps a slip gradient that depends on every state before: that is refused.
 from __future__ import annotations
 
 import math
+from collections.abc import Collection
 from typing import NoReturn
 
 from sie.errors import ContactError, LoadError
 from sie.numerics.interval import EPS, two_product
 
+from .material import NO_POISSON
 from .scene import Scene, refuse_no_scene
 
 # The nearest contact of dissimilar bodies that is covered: E*, the bodies' shares of it and their
@@ -93,3 +95,31 @@ def remaining(friction: float, normal_load: float, Q: float) -> float:
     """P - |Q|/f, from (f P - |Q|)/f without cancellation."""
     product, rest = two_product(friction, normal_load)
     return ((product - abs(Q)) + rest) / friction
+
+
+# -- what a scene needs ---------------------------------------------------------------------------
+
+
+def refuse_unknown_poisson(scene: Scene) -> None:
+    """Raises ValueError where what needs Poisson's ratio is asked for without one."""
+    if scene.body is None and scene.poisson is None:
+        raise ValueError(NO_POISSON)
+
+
+def energy_costs(scene: Scene) -> bool:
+    """Whether the dissipated energy is a sum over states, and so only answered if asked for."""
+    return scene.coupled and (scene.tangential_load != 0.0 or scene.tau != 0.0)
+
+
+def sheared(scene: Scene, economy: Collection[str]) -> bool:
+    """Whether the shear of a scene has to be computed.
+
+    It is not computed without friction, nor, of similar bodies (unless economy is switched off),
+    without Q and σ.
+    """
+    return scene.friction != 0.0 and (
+        scene.tangential_load != 0.0
+        or scene.sliding != 0
+        or scene.tau != 0.0
+        or "shear" not in economy
+    )

@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable
+from collections.abc import Iterable
 
 from sie import arguments
-
-from .material import NO_POISSON
-from .scene import Scene
 
 # What can be asked for in a scene file, on the command line and of `sie.plan`.
 WANTS = (
@@ -46,28 +43,3 @@ def wanted(want: str | Iterable[str]) -> tuple[str, ...]:
     if not names:
         raise ValueError(f"nothing is wanted: ask for {', '.join(WANTS)}")
     return names
-
-
-def refuse_unknown_poisson(scene: Scene) -> None:
-    """Raises ValueError where what needs Poisson's ratio is asked for without one."""
-    if scene.body is None and scene.poisson is None:
-        raise ValueError(NO_POISSON)
-
-
-def energy_costs(scene: Scene) -> bool:
-    """Whether the dissipated energy is a sum over states, and so only answered if asked for."""
-    return scene.coupled and (scene.tangential_load != 0.0 or scene.tau != 0.0)
-
-
-def sheared(scene: Scene, economy: Collection[str]) -> bool:
-    """Whether the shear of a scene has to be computed.
-
-    It is not computed without friction, nor, of similar bodies (unless economy is switched off),
-    without Q and σ.
-    """
-    return scene.friction != 0.0 and (
-        scene.tangential_load != 0.0
-        or scene.sliding != 0
-        or scene.tau != 0.0
-        or "shear" not in economy
-    )
