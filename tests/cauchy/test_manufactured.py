@@ -93,8 +93,7 @@ def reach(d, z):
 @pytest.mark.parametrize("at", [0.0, 0.3])
 @pytest.mark.parametrize("gap", [1e-1, 1e-3, 1e-6])
 @pytest.mark.parametrize(
-    ("a", "ends"),
-    [(0.2j, KINDS[0]), *((a, ends) for a in (0.0, 0.3) for ends in KINDS)],
+    ("a", "ends"), [(0.2j, KINDS[0]), *((a, ends) for a in (0.0, 0.3) for ends in KINDS)]
 )
 def test_next_to_a_narrow_gap_ten_digits_are_kept_and_the_error_is_stated(a, ends, gap, at):
     """At bounded ends too, where φ is far below its peak; the error to a factor of three."""

@@ -118,7 +118,6 @@ def test_a_trace_whose_contact_reaches_its_end_may_be_repeated():
 
 
 def test_a_search_for_overlaps_of_too_many_parts_is_refused(monkeypatch):
-    """It does not take all memory."""
     monkeypatch.setattr("sie.patches.gap.MOST", 0)
     with pytest.raises(sie.ContactError, match="change the load"):
         _ = solved(sie.Polynomial((0.0, 0.0, -1.0, 0.0, 0.5)), 0.2).edges

@@ -113,7 +113,6 @@ def test_a_finite_end_that_is_none_is_refused(interval, k, word):
 
 @pytest.mark.parametrize("depth", [0.37, 0.375, 0.3775])
 def test_a_tip_that_is_about_to_close_is_found_open(depth):
-    """The faces stay as they are below where K_I comes to zero, as a deeper crack shows."""
     stress = lambda y: 100.0 * np.exp(-10.0 * y) - 20.0  # noqa: E731
     crack, deeper = sie.EdgeCrack(depth, stress), sie.EdgeCrack(0.38, stress)
     assert deeper.mode_1 == 0.0 and deeper.open[0][1] > depth

@@ -214,35 +214,6 @@ def test_loads_that_return_to_where_slip_ended_are_balanced_to_rounding():
 
 def test_certificate_and_plan_say_which_steps_are_followed_part_by_part():
     history = followed(HERTZ, [(1, 0.4, 0), (1, 0.4, 0.25)])
-    layers, parts = str(history.plan).splitlines()[:2]
+    (layers, parts), told = str(history.plan).splitlines()[:2], str(history[1].check())
     assert "layers" in layers and "part by part: Q and bulk stress change in another" in parts
-    assert "followed part by part, as Q and bulk stress change in another" in str(
-        history[1].check()
-    )
-
-
-@pytest.mark.slow
-def test_an_end_comes_to_two_marks_on_one_step_as_the_punch_turns():
-    scene = sie.Scene(profile=sie.Power(3.0, 1.0), modulus=1.0, normal_load=1.0, friction=0.2844)
-    loads = [(1.2057, 0.2081, 0.1622), (0.8869, 0.0165, -0.0914), (0.8819, 0.048, -0.1389)]
-    path = sie.Path(loads, tilt=[0.0958, -0.0499, 0.0228])
-    whole, halves = (sie.follow(scene, path.subdivided(n))[-1] for n in (1, 2))
-    x = inside(whole, 41)
-    assert whole.check().ok and halves.check().ok
-    assert np.ravel(whole.stick) == pytest.approx(np.ravel(halves.stick), abs=1e-9)
-    assert whole.shear(x) == pytest.approx(halves.shear(x), abs=1e-9)
-
-
-def test_loads_in_phase_that_close_a_loop_come_back_to_the_state_before_it():
-    scene = sie.Scene(
-        profile=sie.RoundedFlat(0.3, 1.0), modulus=1.0, normal_load=1.0, friction=0.415
-    )
-    shares = [0.0, -1.0, 1.0, 0.0922, 0.7942, -1.0]
-    loads = [(0.343 + 5.8e-4 * s, -0.054 * s, 1e-3 * s) for s in shares]
-    path = sie.Path(loads, tilt=[-3.8e-4 * s for s in shares])
-    history = sie.follow(scene, path)
-    before, after = history[1], history[5]
-    x = inside(after, 41)
-    assert after.check().ok
-    assert np.ravel(after.stick) == pytest.approx(np.ravel(before.stick), abs=1e-9)
-    assert after.shear(x) == pytest.approx(before.shear(x), abs=1e-9)
+    assert "followed part by part, as Q and bulk stress change in another" in told

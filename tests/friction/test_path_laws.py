@@ -79,12 +79,8 @@ EVENTFUL = {
     ),
     "part of a slip zone sticks at an edge, and slip goes on at its end": (
         body(sie.Power(2.5, 1.0), 0.4764),
-        [
-            (0.6233, 0.1377, 0.0042),
-            (0.6417, 0.1056, -0.0201),
-            (0.6952, 0.0631, -0.0424),
-            (0.7786, 0.0144, -0.0606),
-        ],
+        [(0.6233, 0.1377, 0.0042), (0.6417, 0.1056, -0.0201), (0.6952, 0.0631, -0.0424),
+         (0.7786, 0.0144, -0.0606)],
     ),
 }  # fmt: skip
 each_path = pytest.mark.parametrize("name", [*PATHS, *EVENTFUL])
@@ -152,3 +148,26 @@ def test_a_mesh_tends_to_the_slip(name):
         exact = states[-1].slip(mesh.x[away])
         errors.append(float(np.abs(found.slip[away] - exact).mean() / np.abs(exact).mean()))
     assert errors[1] < 0.75 * errors[0] and errors[1] < 0.03
+
+
+@pytest.mark.slow
+def test_an_end_comes_to_two_marks_on_one_step_as_the_punch_turns():
+    loads = [(1.2057, 0.2081, 0.1622), (0.8869, 0.0165, -0.0914), (0.8819, 0.048, -0.1389)]
+    path = sie.Path(loads, tilt=[0.0958, -0.0499, 0.0228])
+    scene = body(sie.Power(3.0, 1.0), 0.2844)
+    assert_alike(*(sie.follow(scene, path.subdivided(n))[-1] for n in (1, 2)))
+
+
+def test_loads_in_phase_that_close_a_loop_come_back_to_the_state_before_it():
+    shares = [0.0, -1.0, 1.0, 0.0922, 0.7942, -1.0]
+    loads = [(0.343 + 5.8e-4 * s, -0.054 * s, 1e-3 * s) for s in shares]
+    path = sie.Path(loads, tilt=[-3.8e-4 * s for s in shares])
+    history = sie.follow(body(sie.RoundedFlat(0.3, 1.0), 0.415), path)
+    assert_alike(history[5], history[1])
+
+
+def assert_alike(state, other):
+    x = inside(state, 41)
+    assert state.check() and other.check()
+    assert np.ravel(state.stick) == pytest.approx(np.ravel(other.stick), abs=1e-9)
+    assert state.shear(x) == pytest.approx(other.shear(x), abs=1e-9)

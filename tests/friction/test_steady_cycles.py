@@ -49,7 +49,6 @@ def test_loads_in_phase_settle_after_two_turning_points():
 
 
 def test_an_edge_that_holds_up_the_slip_at_first_leaves_the_state_at_the_end_right():
-    """P falls faster than the slip starts there."""
     points = [(1, 0, 0), (1.3, 0.55, 0.2), (0.8, -0.3, -0.15), (1.3, 0.55, 0.2)]
     history = followed(HERTZ, points)
     ends = [hertz_stick(0.75, -0.1), hertz_stick(0.5, -0.075), hertz_stick(0.625, -0.0875)]

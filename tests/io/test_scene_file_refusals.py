@@ -35,11 +35,7 @@ def test_a_file_that_makes_no_scene_is_refused_with_the_value_and_the_remedy(tex
 
 
 @pytest.mark.parametrize(
-    ("data", "said"),
-    [
-        (b'title = "\xe9"', "not UTF-8 text"),
-        (b"\x00", "not TOML"),
-    ],
+    ("data", "said"), [(b'title = "\xe9"', "not UTF-8 text"), (b"\x00", "not TOML")]
 )
 def test_a_file_that_is_no_text_is_refused(data, said, tmp_path):
     path = tmp_path / "scene.toml"

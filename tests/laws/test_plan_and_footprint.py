@@ -104,7 +104,6 @@ def test_a_plan_gives_the_reason_why_the_shear_is_solved_for_or_not():
 
 
 def test_a_plan_computes_nothing():
-    """Not even the slope is called."""
     calls = []
     profile = sie.FromFunction(lambda x: calls.append(1) or x, domain=(-1.0, 1.0))
     built = len(calls)
