@@ -22,8 +22,7 @@ from .finite_step import Part, balanced, newton, on_earlier_zones, solved
 from .loading import LoadStep
 from .onset import End, Motion, Onset, onset, set_out
 from .state import EXCEEDED, TURNS, Contact, State, Zones
-from .strip_part import strip_part
-from .strips import Span
+from .strip_part import strip_part, with_receding_ends
 
 Array = NDArray[np.float64]
 
@@ -66,9 +65,7 @@ def _next_part(state: State, step: LoadStep, begun: float, last: Part | None) ->
     if opened:
         zones = zones.split(*opened)
     if len(zones.zones) > len(state.stick) > 0:
-        with suppress(ContactError):
-            length = min(1.0 - begun, last.longest if last else 1.0)
-            zones = Span(state, step, zones, begun, length).as_it_moves().onset
+        zones = with_receding_ends(state, step, begun, zones, last)
     grows = any(end.motion is Motion.GROWS for end in zones.ends)
     problems, first = [], begun == 0.0 and not grows
     for finite in (first, not first):

@@ -99,6 +99,25 @@ def strip_part(
     raise ContactError("what sticks anew is not found in a part however short")
 
 
+def with_receding_ends(
+    state: State, step: LoadStep, begun: float, zones: Onset, last: Part | None
+) -> Onset:
+    """The zones with ends of new stick zones that recede, where K rises as the contact changes."""
+    ends = list(zones.ends)
+    try:
+        length = min(1.0 - begun, last.longest if last else 1.0)
+        span = Span(state, step, zones, begun, length)
+        K = span.rates(0, span.with_edges(np.tile(span.start, (MOMENTS, 1)))[0]).K.ravel()
+    except ContactError:
+        return zones
+    for j in span.which(Motion.ADVANCES):
+        a, b = zones.stick[j // 2]
+        new = not any(a <= lo and hi <= b for lo, hi in state.stick)
+        if new and ends[j].sense * K[j] > 0.0:
+            ends[j] = replace(ends[j], motion=Motion.RECEDES)
+    return zones.of_ends(ends)
+
+
 def _tried(
     span: Span, guess: Array | None, last: Part | None, sought: tuple[Event | None, bool]
 ) -> tuple[Panel | None, Event | None, bool]:

@@ -258,17 +258,6 @@ class Span:
             found[:, j] = [np.array(c.patches).ravel()[k] for c in self.contacts]
         return found
 
-    def as_it_moves(self) -> Span:
-        """The same with ends of new stick zones moving back, where K rises as contact changes."""
-        K = self.rates(0, self.with_edges(np.tile(self.start, (MOMENTS, 1)))[0]).K.ravel()
-        ends = list(self.onset.ends)
-        for j in self.which(Motion.ADVANCES):
-            a, b = self.onset.stick[j // 2]
-            new = not any(a <= lo and hi <= b for lo, hi in self.before.stick)
-            if new and ends[j].sense * K[j] > 0.0:
-                ends[j] = replace(ends[j], motion=Motion.RECEDES)
-        return replace(self, onset=self.onset.of_ends(ends))
-
     def rates(self, i: int, ends: Array) -> Rates:
         """The rates at moment i, given all ends."""
         found = replace(self.onset.placed(ends), patches=self.contacts[i].patches)
@@ -377,16 +366,11 @@ def solved_panel(span: Span, guess: Array) -> Panel:
     guess: places of the ends at its end, (2N), or at its moments, (n, 2N)
     """
     places = span.with_edges(np.broadcast_to(guess, (MOMENTS, guess.shape[-1])))
-    final = places[-1]
+    start, final = span.start.tolist(), places[-1].tolist()
     if guess.ndim == 1:
-        places = span.start + np.outer(TAU[1:] ** 2, final - span.start)
+        places = span.start + np.outer(TAU[1:] ** 2, places[-1] - span.start)
     strips = tuple(
-        Strip(
-            j,
-            float(span.start[j]),
-            float(abs(span.start[j] - span.start[j ^ 1])),
-            abs(float(final[j] - span.start[j])),
-        )
+        Strip(j, start[j], abs(start[j] - start[j ^ 1]), abs(final[j] - start[j]))
         for j in span.which(Motion.ADVANCES, Motion.GROWS)
     )
     now = Panel(span, strips, span.with_edges(places), np.zeros((len(strips), MOMENTS)), rough=True)
@@ -404,8 +388,7 @@ def solved_panel(span: Span, guess: Array) -> Panel:
         scaled = matrix / rows[:, None]
         columns = np.abs(scaled).max(axis=0)
         step = np.linalg.lstsq(scaled / columns, -right / rows, rcond=1e-14)[0] / columns
-        before = now.series
-        now, longest = now.moved(step)
+        before, (now, longest) = now.series, now.moved(step)
         change = np.abs(now.series - before).max(initial=0.0)
         size = np.abs(now.series).max(initial=0.0)
         settled = longest <= SETTLED * width and change <= 1e-11 * size
