@@ -170,8 +170,9 @@ def profile_for_pressure(
     -----
     Solved again, with ∫p dx as load, the profile has the pressure p to some 1e-13 of its peak. A
     pressure that does not vanish at an edge needs a slope that is infinite there like a logarithm:
-    the profile ends 1e-13 half-widths before, and the pressure is met to some 1e-11. The pressure
-    of a table is met to some 1e-11.
+    the profile ends 1e-13 half-widths before, and the pressure is met to some 1e-11; so is that of
+    a table, and one that vanishes at an edge by another power than a half. Where p has a kink or a
+    jump h' is infinite: the profile is right, but `solve` may refuse it, as several patches.
 
     References
     ----------
