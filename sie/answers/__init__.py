@@ -1,1 +1,1 @@
-"""What a solution answers: each class reads the stages of the ones before it."""
+"""The stages of a solution, and what is answered from them."""

@@ -18,8 +18,8 @@ from sie.profiles.placed_traces import traces_in
 if TYPE_CHECKING:
     from sie.profiles.trace_units import Reading
 
-    from .answer import Answer
     from .scene_file import SceneFile
+    from .solution_names import Answer
 
 Array = NDArray[np.float64]
 

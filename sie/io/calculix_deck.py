@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from sie.problem.material import Elastic
 
 if TYPE_CHECKING:
-    from .answer import Answer
+    from .solution_names import Answer
 
 Array = NDArray[np.float64]
 

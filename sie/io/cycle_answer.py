@@ -27,9 +27,9 @@ if TYPE_CHECKING:
     from sie.problem.load_path import Path
     from sie.stress.half_plane import Tractions
 
-    from .answer import Answer
     from .beside_scene import Fatigue, Units
     from .scene_file import SceneFile
+    from .solution_names import Answer
 
 Array = NDArray[np.float64]
 

@@ -71,7 +71,7 @@ from .scene_tables import tables_of
 if TYPE_CHECKING:
     from sie.traction.base import Density
 
-    from .answer import Answer
+    from .solution_names import Answer
 
 Array = NDArray[np.float64]
 

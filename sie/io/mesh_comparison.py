@@ -32,7 +32,7 @@ from .mesh_result import Mesh, Points, joined
 from .sample_points import inside, peak
 
 if TYPE_CHECKING:
-    from .answer import Answer
+    from .solution_names import Answer
 
 Array = NDArray[np.float64]
 Exact = Callable[[Any, Array, Array], Array]  # of a solution at x, y

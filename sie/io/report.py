@@ -17,9 +17,9 @@ from .answers import energy_of, notes_of, readings_of, slipping, wanted
 from .sample_points import SAME_PEAK, ceiling, full, peak, reach
 
 if TYPE_CHECKING:
-    from .answer import Answer
     from .beside_scene import Units
     from .scene_file import SceneFile
+    from .solution_names import Answer
 
 NONE: Mapping[str, Any] = {}
 SAME_PLACE = 1e-7  # of the half-width: rounding of p leaves a smooth peak uncertain by as much

@@ -11,7 +11,7 @@ from sie.numerics.interval import EPS
 from sie.problem.request import POINTS
 
 if TYPE_CHECKING:
-    from .answer import Answer
+    from .solution_names import Answer
 
 Array = NDArray[np.float64]
 

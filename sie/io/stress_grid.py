@@ -21,8 +21,8 @@ from sie.problem.request import GRID
 if TYPE_CHECKING:
     from sie.stress.half_plane import Stress
 
-    from .answer import Answer
     from .scene_file import SceneFile
+    from .solution_names import Answer
 
 Array = NDArray[np.float64]
 

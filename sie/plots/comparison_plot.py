@@ -15,10 +15,10 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 
-from sie.io.answer import Answer
 from sie.io.beside_scene import UNITS, Units
 from sie.io.mesh_comparison import EXACT, Comparison
 from sie.io.sample_points import abscissae, ceiling
+from sie.io.solution_names import Answer
 
 from . import style
 

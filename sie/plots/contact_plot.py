@@ -28,10 +28,10 @@ from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
 from sie.errors import ContactError
-from sie.io.answer import Answer
 from sie.io.answers import slip_of
 from sie.io.beside_scene import UNITS, Units
 from sie.io.sample_points import ABOVE_ORDINARY, abscissae, ceiling, full, peak, reach, summits
+from sie.io.solution_names import Answer
 from sie.problem.load_path import Path
 
 from . import style

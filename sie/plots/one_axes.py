@@ -10,8 +10,8 @@ from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
 from sie.arguments import suggestion
-from sie.io.answer import Answer
 from sie.io.beside_scene import Units
+from sie.io.solution_names import Answer
 from sie.sweeps.result import labels
 
 from . import contact_plot, stress_plot, style

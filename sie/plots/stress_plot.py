@@ -16,8 +16,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from sie.io.answer import Answer
 from sie.io.beside_scene import UNITS, Units
+from sie.io.solution_names import Answer
 from sie.io.stress_grid import Grid
 
 from . import style
