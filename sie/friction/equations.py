@@ -1,82 +1,33 @@
 """The state at the end of a step in which stick zones only shrink, from that at its start.
 
 Where the surface stuck all along the change Δq of the shear has 1/π PV∫ Δq/(x - t) dt = Δτ,
-whatever is locked in; beside it Δq = s f p₁ - q₀ is known, s the direction of slip. With stick
-zones [a_k, b_k], k = 1...N, of centres μ_k, on the line or per period (d is the chord)
-
-    T_k(z) = d(z, μ_k) Π_i [d(z, a_i) d(z, b_i)/d(z, μ_i)²]^(1/2)
-    F(z)   = Δτ + T_k(z) 1/π ∫ dν_k(t)/d(z, t),      dν_k = Δq/T_k dt on slip; any k
-    Σ cos(t - μ_k) dν_k = -π Δτ for each k,      Σ d(t, μ_k) dν_k = ΔQ
-    Re ∫ T_k Ψ_k dz = 0 over each gap between neighbouring zones: one rigid shift of all
-
-are 2N equations for 2N ends. On zone k Δq = -|T_k| Re Ψ_k. The integral over a gap goes over the
-half-circle above it, where nothing is singular. Moving an end e adds a charge κ_e at e, from which
-the derivatives follow (docs/derivations/marching.md).
+whatever is locked in; beside it Δq = s f p₁ - q₀ is known, s the direction of slip. Of its
+potential (`potentials`) with A = ΔQ, B = Δτ nothing is unknown, and the 2N equations give the 2N
+ends. Moving an end e adds a pole κ_e there, from which the derivatives follow
+(docs/derivations/marching.md).
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from sie.errors import ContactError
 from sie.numerics.chord import Chord
-from sie.numerics.graded_panels import (
-    OF_RULES,
-    OF_SERIES,
-    Pieces,
-    Rule,
-    breaks_for,
-    gauss_shares,
-    principal_value,
-)
+from sie.numerics.graded_panels import OF_SERIES, Pieces, Rule, gauss_shares
 from sie.numerics.zones import left_over, united
 
+from .potentials import Potential
 from .rates import LoadRates, Rates
 from .state import KNOWN, SAME, Contact, Ends, State, Zones, intervals
 
 Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 NEAREST = 5  # places next to an end, from which what is there follows
 FEW = 3  # nodes a panel of the places where |q| <= f p is tested on the way
-
-
-class Gap:
-    """The half-circle above a gap between two stick zones."""
-
-    def __init__(self, lo: float, hi: float, breaks: tuple[float, ...] = OF_RULES) -> None:
-        shares = gauss_shares(breaks)
-        half = 0.5 * np.pi * shares.lo  # half the angle from lo
-        other = 0.5 * np.pi * shares.hi
-        length = hi - lo
-        turn = np.exp(-1j * half)
-        self.lo, self.hi = lo, hi
-        self.from_lo: Complex = length * np.sin(half) * 1j * turn
-        self.from_hi: Complex = -length * np.sin(other) * turn
-        self.near_lo = shares.lo < shares.hi
-        self.weight: Complex = 0.5j * length * turn**2 * np.pi * shares.weight
-
-    def apart(self, e: float) -> Complex:
-        """z - e for an end e outside the gap, or one of its ends."""
-        if e <= self.lo:
-            return (self.lo - e) + self.from_lo
-        return (self.hi - e) + self.from_hi
-
-    def from_all(self, rule: Rule) -> Complex:
-        """z - t as a matrix, t the places of a rule."""
-        found = np.empty((len(self.weight), len(rule.lo)), dtype=complex)
-        for rows, e, apart in (
-            (self.near_lo, self.lo, self.from_lo),
-            (~self.near_lo, self.hi, self.from_hi),
-        ):
-            found[rows] = apart[rows, None] - rule.apart_from(e)
-        return found
 
 
 def _at_end(near: Array, h: Array, side: float) -> float:
@@ -90,8 +41,8 @@ def _at_end(near: Array, h: Array, side: float) -> float:
 
 
 @dataclass(frozen=True, eq=False)
-class Equations:
-    """The 2N equations for given zones, and the potential.
+class Equations(Potential):
+    """The 2N equations for given zones, and the potential of Δq.
 
     before   the state at the start
     after    the contact at the end
@@ -108,18 +59,9 @@ class Equations:
     def chord(self) -> Chord:
         return Chord(self.after.period)
 
-    @property
-    def slipped_strips(self) -> list[tuple[float, float, Pieces]]:
-        """The integral of D over each strip that is among the data; a finite step has none."""
-        return []
-
     @cached_property
     def stick(self) -> Array:
         return np.array(self.zones.stick, dtype=float).reshape(-1, 2)
-
-    @cached_property
-    def centres(self) -> Array:
-        return self.stick.mean(axis=1)
 
     @cached_property
     def touched(self) -> Ends:
@@ -138,21 +80,6 @@ class Equations:
     def sources(self) -> Array:
         """The intervals where Δq, or on strips D, is given; those beside the stick zones first."""
         return self.beside
-
-    @cached_property
-    def rule(self) -> Rule:
-        """Places on them."""
-        rough = self.rough and len(self.stick) == 1  # the circle above a gap comes near its ends
-        return Rule.graded(self.sources, self.breaks(self.sources) if rough else OF_RULES)
-
-    def breaks(self, ends: Array) -> tuple[float, ...]:
-        """Those of a rule on intervals: as fine as the nearest place beyond an end asks for."""
-        points = np.unique(np.append(ends, self.stick))
-        k = np.searchsorted(points, ends)
-        steps = np.concatenate(([np.inf], np.diff(points), [np.inf]))
-        beyond = np.stack((steps[k[:, 0]], steps[k[:, 1] + 1]), axis=1)
-        nearest = float((beyond / np.diff(ends, axis=1)).min(initial=np.inf))
-        return breaks_for(math.sqrt(nearest)) if 0.0 < nearest < np.inf else OF_RULES
 
     @cached_property
     def slip(self) -> tuple[tuple[float, float, float], ...]:
@@ -188,66 +115,16 @@ class Equations:
             signs[(middle > lo) & (middle < hi)] = s
         return signs * self.after.limit.on(rule) - self.before.shear.on(rule)
 
-    def ratios(self, apart: Callable[[float], Any]) -> Array:
-        """Π_i [d(z, a_i) d(z, b_i)/d(z, μ_i)²]^(1/2)."""
-        d = self.chord
-        out: Any = np.ones(())
-        for (a, b), m in zip(self.stick, self.centres, strict=True):
-            middle = d(apart(m))
-            ratio = (d(apart(a)) / middle) * (d(apart(b)) / middle)
-            out = out * np.sqrt(ratio if np.iscomplexobj(ratio) else np.abs(ratio))
-        return out
-
-    @cached_property
-    def charges(self) -> Array:
-        """ν_k, (N, places)."""
-        ratios = self.ratios(self.rule.apart)
-        scaled = self.rule.weight * self.change / ratios
-        return np.array([scaled / self.chord(self.rule.apart(m)) for m in self.centres])
-
-    @cached_property
-    def gaps(self) -> list[Gap]:
-        found = []
-        for (_, b), (a, _) in zip(self.stick, self.stick[1:], strict=False):
-            points = np.append(self.sources, self.stick)
-            apart = np.abs(points - np.array([[b], [a]]))
-            near = float(apart[apart > 0.0].min()) / (a - b)
-            found.append(Gap(b, a, breaks_for(near) if self.rough else OF_RULES))
+    def known(self, places: Rule, sense: float) -> Array:
+        """Δq at places in a slip zone."""
+        found: Array = sense * self.after.limit.on(places) - self.before.shear.on(places)
         return found
-
-    def root(self, k: int, gap: Gap) -> Complex:
-        """T_k on a half-circle."""
-        middle: Complex = self.chord(gap.apart(self.centres[k]))
-        return middle * self.ratios(gap.apart)
 
     @cached_property
     def residual(self) -> Array:
         """By how much the equations are missed, (2N)."""
-        d, old, new = self.chord, self.before.contact, self.after
-        out = []
-        for m, nu in zip(self.centres, self.charges, strict=True):
-            cos = d.cosine(self.rule.apart(m))
-            out.append(float(nu @ cos) + math.pi * (new.tau - old.tau))
-        out.append(float(self.charges[0] @ d(self.rule.apart(self.centres[0]))))
-        out[-1] -= new.Q - old.Q
-        out += [float(of @ self.charges[k]) for k, of in enumerate(self.over_gaps)]
-        return np.array(out)
-
-    @cached_property
-    def over_gaps(self) -> list[Array]:
-        """What a charge ν_k at each place adds to Re ∫ (F - Δτ) dx over gap k."""
-        return [self._over(k, gap) for k, gap in enumerate(self.gaps)]
-
-    def _over(self, k: int, gap: Gap) -> Array:
-        """The same over any gap, on the half-circle."""
-        kernel = 1.0 / self.chord(gap.from_all(self.rule))
-        found: Array = ((gap.weight * self.root(k, gap)) @ kernel).real / math.pi
-        return found
-
-    def over(self, gap: Gap) -> float:
-        """Re ∫ (F - Δτ) dx over a gap beside a stick zone."""
-        k = int(np.abs(self.stick - gap.lo).min(axis=1).argmin())
-        return float(self._over(k, gap) @ self.charges[k])
+        old, new = self.before.contact, self.after
+        return self.missed(new.Q - old.Q, new.tau - old.tau)
 
     @cached_property
     def stuck_shear(self) -> tuple[Array, Array, Array]:
@@ -270,7 +147,7 @@ class Equations:
 
     @cached_property
     def charge_of_ends(self) -> Array:
-        """κ of each end: what moving it adds to F is κ T_k(z)/d(z, e).
+        """κ of each end: the pole that moving it adds.
 
         2π κ is the finite part of ∫ dν_k/d(t, e).
         """
@@ -296,50 +173,7 @@ class Equations:
     @cached_property
     def derivatives(self) -> Array:
         """Those of the residual by the ends, (2N, 2N)."""
-        N, d = len(self.stick), self.chord
-        out = np.zeros((2 * N, 2 * N))
-        for j, (e, kappa) in enumerate(zip(self.stick.ravel(), self.charge_of_ends, strict=True)):
-            own = float(d(e - self.centres[j // 2]))
-            for k, m in enumerate(self.centres):
-                out[k, j] = math.pi * kappa * own / d(e - m) * d.cosine(e - m)
-            out[N, j] = math.pi * kappa * own
-            for k, gap in enumerate(self.gaps):
-                ratio = own / float(d(e - self.centres[k]))
-                value = gap.weight @ (self.root(k, gap) / d(gap.apart(e)))
-                out[N + 1 + k, j] = kappa * ratio * float(value.real)
-        return out
-
-    def in_stick(self, k: int, places: Rule) -> Array:
-        """Δq at places in stick zone k."""
-        found: Array = -self.size_of_root(k, places) * self.psi(k, places, np.zeros(0))
-        return found
-
-    def psi(self, k: int, places: Rule, density: Array) -> Array:
-        """Ψ_k at places on the axis; `density` is ν_k' at those where data are given."""
-        total, ends = np.zeros(len(places.lo)), self.stick.ravel()
-        for n, (lo, hi) in enumerate(self.rule.ends):
-            at, source = self.rule.part(n)
-            own = (density.size > 0) & (places.lo >= lo) & (places.hi <= hi)
-            if own.any():
-                nu = self.charges[k][at] / source.weight, density[own]
-                roots = bool((ends == lo).any()), bool((ends == hi).any())
-                x = places.among(own)
-                total[own] += principal_value(source, nu, x, roots, self.chord)
-            if not own.all():
-                x = places.among(~own)
-                total[~own] += (1.0 / self.chord(x.from_all(source))) @ self.charges[k][at]
-        return total / math.pi
-
-    def size_of_root(self, k: int, places: Rule) -> Array:
-        """|T_k| at places in stick zone k."""
-        d = self.chord
-        a, b = self.stick[k]
-        out: Array = np.sqrt(np.abs(d(places.apart(a)) * d(places.apart(b))))
-        for i, ((lo, hi), m) in enumerate(zip(self.stick, self.centres, strict=True)):
-            if i != k:
-                middle = d(places.apart(m))
-                out *= np.sqrt((d(places.apart(lo)) / middle) * (d(places.apart(hi)) / middle))
-        return out
+        return self.by_poles * self.charge_of_ends
 
     @cached_property
     def state(self) -> State:

@@ -1,8 +1,8 @@
 """The slip in a part of a step, from the potential of the change of shear, and what it shifts.
 
-(E*/2) dΔg/dx = Re F - Δτ = T_k PV Ψ_k beside the stick zones, and D on strips. Beside a stick zone
-it is fitted on panels and integrated from the end of the zone: an end that receded stuck all along,
-one that gained a strip slipped by the integral of D before.
+(E*/2) dΔg/dx = Re F - Δτ beside the stick zones, and D on strips. Beside a stick zone it is fitted
+on panels and integrated from the end of the zone: an end that receded stuck all along, one that
+gained a strip slipped by the integral of D before.
 """
 
 from __future__ import annotations
@@ -20,8 +20,8 @@ from sie.errors import ContactError
 from sie.numerics.graded_panels import OF_SERIES, Pieces, Rule
 from sie.numerics.zones import united
 
-from .equations import Equations, Gap
-from .state import SAME, intervals
+from .potentials import Gap, Potential
+from .state import SAME, Contact, intervals
 
 if TYPE_CHECKING:
     from .finite_step import Part
@@ -31,9 +31,9 @@ Array = NDArray[np.float64]
 
 @dataclass(eq=False)
 class GainedSlip:
-    """(E*/2) Δg from a place that stuck all along, where equations are solved."""
+    """(E*/2) Δg from a place that stuck all along, or the rate of g, of a potential."""
 
-    equations: Equations
+    potential: Potential
 
     def at(self, x: Array) -> Array:
         total = np.zeros(x.shape)
@@ -48,7 +48,7 @@ class GainedSlip:
 
         A strip behind an edge that grows and sticks never slipped.
         """
-        slip = self.equations.slip
+        slip = self.potential.slip
         senses = {e: s for lo, hi, s in slip for e in (lo, hi)}
         found = [(lo, hi, senses[lo], pieces) for lo, hi, pieces in self.beside]
         for lo, hi, pieces in self.strips:
@@ -57,9 +57,9 @@ class GainedSlip:
                 found.append((lo, hi, sense, pieces))
         return found
 
-    def paired(self, density: Callable[[Rule], Array]) -> float:
-        """∫ d s Δg dx of a density d, s the direction of slip."""
-        total, contact = 0.0, self.equations.after
+    def paired(self, density: Callable[[Rule], Array], contact: Contact) -> float:
+        """∫ d s Δg dx of a density d on a contact, s the direction of slip."""
+        total = 0.0
         for lo, hi, sense, pieces in self.slipped:
             marks = np.unique(np.concatenate((pieces.marks, contact.limit.marks)))
             rule = Rule.graded(intervals([(lo, hi)], marks, SAME * contact.width), OF_SERIES)
@@ -69,7 +69,7 @@ class GainedSlip:
     @cached_property
     def at_ends(self) -> dict[float, float]:
         """Δg at the ends of the stick zones."""
-        found = dict.fromkeys(self.equations.stick.ravel().tolist(), 0.0)
+        found = dict.fromkeys(self.potential.stick.ravel().tolist(), 0.0)
         for lo, hi, pieces in self.strips:
             for e in (lo, hi):
                 if e in found:
@@ -79,19 +79,19 @@ class GainedSlip:
     @cached_property
     def strips(self) -> list[tuple[float, float, Pieces]]:
         """The integral of D over each strip, from its beginning."""
-        return self.equations.slipped_strips
+        return self.potential.slipped_strips
 
     @cached_property
     def beside(self) -> list[tuple[float, float, Pieces]]:
         """Δg on each slip zone."""
-        now, found = self.equations, []
+        now, found = self.potential, []
         for lo, hi, s in now.slip:
             ends = now.rule.ends
             ends = ends[(ends[:, 0] >= lo) & (ends[:, 1] <= hi)]
             if not ends.size:  # as short as marks are known
                 continue
             places = Pieces.places(ends)
-            whole = Pieces.integral(places, self._strain(places, s))
+            whole = Pieces.integral(places, now.strain(places, s))
             if lo in self.at_ends:
                 start = self.at_ends[lo]
             elif hi in self.at_ends:
@@ -102,19 +102,9 @@ class GainedSlip:
             found.append((lo, hi, whole))
         return found
 
-    def _strain(self, places: Rule, sense: float) -> Array:
-        """Re F - Δτ at places in a slip zone."""
-        now = self.equations
-        middle = 0.5 * float(places.ends.min() + places.ends.max())
-        k = int(np.abs(now.stick - middle).min(axis=1).argmin())
-        root = now.chord(places.apart(now.centres[k])) * now.ratios(places.apart)
-        change = sense * now.after.limit.on(places) - now.before.shear.on(places)
-        found: Array = root * now.psi(k, places, change / root)
-        return found
-
     def _across_gap(self, lo: float, hi: float, across: float) -> float:
         """Δg at the left edge of a patch that slides as a whole, from the nearest stick zone."""
-        now, ends = self.equations, self.equations.stick.ravel()
+        now, ends = self.potential, self.potential.stick.ravel()
         if (ends < lo).any():
             e = float(ends[ends < lo].max())
             return self.at_ends[e] + now.over(Gap(e, lo))

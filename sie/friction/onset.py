@@ -17,9 +17,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie.errors import ContactError
+from sie.numerics.graded_panels import Rule
 from sie.numerics.root_finding import false_position
 
-from .potentials import Between
 from .rates import LoadRates, Rates
 from .state import State, Zones
 
@@ -253,7 +253,7 @@ def _slips_on(state: State, now: Onset, rates: Callable[[Onset], Rates]) -> Onse
             k = sum(end.place < e for end in now.ends)
             if e not in stick or k % 2 == 0 or now.ends[k].place < max(e, far):
                 continue
-            here, at = rates(now), Between(e, e, np.zeros(1), np.zeros(1))
+            here, at = rates(now), Rule.graded(np.array([[e, e]]))
             margin = here.friction * here.pressure.density(at) - s * here.shear.density(at)
             if float(margin[0]) >= 0.0:
                 continue

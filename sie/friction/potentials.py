@@ -1,294 +1,277 @@
-"""Rates of pressure and of shear in closed form, for any intervals on which they are unknown.
+"""The potential of a shear or a pressure that is unknown on zones and known beside them.
 
-The unknown density ρ lives on N intervals [a_k, b_k]; beside them densities d are given. Asked is
+On zones [a_k, b_k], k = 1...N, of centres μ_k, a density has 1/π PV∫ ρ(t)/(x - t) dt = B; beside
+them ρ is given. With d the chord of a period, or the difference of two places, and
 
-    1/π PV∫ (ρ + d)/(x - ξ) dξ = B  on the intervals,      ∫ (ρ + d) dx = A,
+    T_k(z) = d(z, μ_k) Π_i [d(z, a_i) d(z, b_i)/d(z, μ_i)²]^(1/2)
+    F(z)   = B + T_k(z) Ψ_k(z),   Ψ_k(z) = 1/π ∫ dν_k(t)/d(z, t),   dν_k = ρ/T_k dt; any k
 
-and that the ends of every gap between neighbouring intervals keep their distance:
+the conditions of balance, ∫ρ dt = A, and one rigid shift of all zones are 2N equations
 
-    pressure    intervals: patches       A = dP, B = (E*/2) d tilt      nothing is given
-    shear       intervals: stick zones   A = dQ, B = dσ/4               d = s f dp in slip
+    Σ cos(t - μ_k) dν_k = -π B for each k,      Σ d(t, μ_k) dν_k = A
+    Re ∫ T_k Ψ_k dz = 0 over each gap between neighbouring zones
 
-With W = Π sqrt(z - a_k) sqrt(z - b_k) and the intervals' centres μ_k the potential of ρ + d is
+The integral over a gap goes over the half-circle above it, where nothing is singular. On zone k the
+density is -|T_k| Re Ψ_k, beside the zones Re F - B is the strain (Muskhelishvili 1953, chapter 11).
 
-    Φ = B + n/W,     n = -B Π(z - μ_k) + Σ_j α_j Π_{i≠j}(z - μ_i) + 1/π ∫ d W/(z - ξ) dξ,
-
-where Σ α_j = A/π and Re ∫ n/W dz = 0 on the half-circle above each gap. On an interval the density
-is -Im n/W, beside the intervals Re n/W = (E*/2) dg', the rate at which the slope of the gap changes
-(Muskhelishvili 1953, chapter 11). At an end the density is K/sqrt(distance).
-
-A given density is a Chebyshev series of W d sqrt(1 - t²), t in [-1, 1] on its piece: W d has a root
-at an end that an interval shares and 1/root at a contact edge, so that the series converges
-geometrically. With it the integral is Σ c_n v^n/sqrt(t² - 1), v = t - sqrt(t² - 1), beside the
-piece and -Σ c_n U_{n-1}(t) on it: no principal value is found by subtraction.
-
-Per period λ every difference is the chord (λ/π) sin(π(x - y)/λ), the term of α_j has a factor
-cos(π(z - μ_j)/λ), B = 0, and 1/(z - ξ) is (π/λ) csc for odd N, for which W changes its sign over a
-period, and (π/λ) cot for even N. The variable of a piece is t ~ tan(π(x - c)/λ), c its centre.
+A pole y_e at an end e adds y_e T_k(z)/d(z, e) to F, k the zone of e, and the equations are linear
+in the poles. They are what a state gains per length where an end moves (`equations`). Of a rate
+they are the unknowns: there the density is like K/sqrt(distance) (`rates`).
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
-from functools import cached_property, lru_cache
+import math
+from abc import ABC, abstractmethod
+from collections.abc import Callable
+from functools import cached_property
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from sie.errors import ContactError
-from sie.numerics import chebyshev
 from sie.numerics.chord import Chord
-from sie.numerics.graded_rule import graded_angle
+from sie.numerics.graded_panels import (
+    OF_RULES,
+    Pieces,
+    Rule,
+    breaks_for,
+    gauss_shares,
+    principal_value,
+)
 
 Array = NDArray[np.float64]
-Zones = Sequence[tuple[float, float]]
-# Arrays of places between lo and hi with both distances, from_lo and from_hi, exact: a `Between`,
-# or a rule of the same four fields. Complex ones lie above the axis.
-Places = Any
-Density = Callable[[Places], Any]
-
-NODES, MOST_NODES = 48, 6144
-SETTLED = 1e-13  # of the largest coefficient: the tail of a series
-TAIL = 6  # coefficients in it
+Complex = NDArray[np.complex128]
+Slips = tuple[tuple[float, float, float], ...]
 
 
-@dataclass(frozen=True)
-class Between:
-    """Places lo + from_lo = hi - from_hi."""
+class Gap:
+    """The half-circle above a gap between two zones."""
 
-    lo: Any
-    hi: Any
-    from_lo: Any
-    from_hi: Any
+    def __init__(self, lo: float, hi: float, breaks: tuple[float, ...] = OF_RULES) -> None:
+        shares = gauss_shares(breaks)
+        half = 0.5 * np.pi * shares.lo  # half the angle from lo
+        other = 0.5 * np.pi * shares.hi
+        length = hi - lo
+        turn = np.exp(-1j * half)
+        self.lo, self.hi = lo, hi
+        self.from_lo: Complex = length * np.sin(half) * 1j * turn
+        self.from_hi: Complex = -length * np.sin(other) * turn
+        self.near_lo = shares.lo < shares.hi
+        self.weight: Complex = 0.5j * length * turn**2 * np.pi * shares.weight
+
+    def apart(self, e: float) -> Complex:
+        """z - e for an end e outside the gap, or one of its ends."""
+        if e <= self.lo:
+            return (self.lo - e) + self.from_lo
+        return (self.hi - e) + self.from_hi
+
+    def from_all(self, rule: Rule) -> Complex:
+        """z - t as a matrix, t the places of a rule."""
+        found = np.empty((len(self.weight), len(rule.lo)), dtype=complex)
+        for rows, e, apart in (
+            (self.near_lo, self.lo, self.from_lo),
+            (~self.near_lo, self.hi, self.from_hi),
+        ):
+            found[rows] = apart[rows, None] - rule.apart_from(e)
+        return found
 
 
-def in_angle(lo: float, hi: float, v: Any) -> Between:
-    """Places lo + (hi - lo) sin²(πv/2): roots of both distances are smooth functions of v."""
-    half = 0.5 * np.pi * np.asarray(v)
-    return Between(lo, hi, (hi - lo) * np.sin(half) ** 2, (hi - lo) * np.cos(half) ** 2)
+class Potential(ABC):
+    """F of a density that is unknown on zones.
 
+    rough   whether coarse rules do: for the equations, and not for what is next to an end
+    """
 
-@lru_cache(maxsize=1)
-def _half_circle() -> tuple[Any, Any, Any]:
-    """(z - 0, 1 - z, dz) at nodes of the half-circle above [0, 1], graded to both ends."""
-    near, far, weight = graded_angle()
-    turn = np.exp(-0.5j * np.pi * near)
-    step = 0.5j * np.pi * turn * turn * weight
-    return 1j * np.sin(0.5 * np.pi * near) * turn, np.sin(0.5 * np.pi * far) * turn, step
-
-
-def above_gap(lo: float, hi: float) -> tuple[Between, Any]:
-    """Places on the half-circle from lo to hi above the axis, and dz."""
-    from_lo, from_hi, step = _half_circle()
-    length = hi - lo
-    return Between(lo, hi, length * from_lo, length * from_hi), length * step
-
-
-@dataclass(frozen=True)
-class Frame:
-    """Differences and roots over the intervals, lengths in a quarter of their span."""
-
-    intervals: tuple[tuple[float, float], ...]
-    chord: Chord
-
-    @cached_property
-    def unit(self) -> float:
-        if self.chord.periodic:
-            return self.chord.period / np.pi
-        return 0.25 * (self.intervals[-1][1] - self.intervals[0][0])
+    rough: bool
 
     @property
-    def wave(self) -> float:
-        return np.pi / self.chord.period
+    @abstractmethod
+    def chord(self) -> Chord: ...
 
     @property
-    def odd(self) -> bool:
-        return len(self.intervals) % 2 == 1
+    @abstractmethod
+    def stick(self) -> Array:
+        """The zones, (N, 2)."""
 
-    def parts(self, x: Places, e: float) -> tuple[Any, Any]:
-        """X - e as the difference of two anchors and the distance from the nearer one."""
-        low = np.abs(x.from_lo) <= np.abs(x.from_hi)
-        return np.where(low, x.lo, x.hi) - e, np.where(low, x.from_lo, -x.from_hi)
+    @property
+    @abstractmethod
+    def slip(self) -> Slips:
+        """The zones beside them, with the direction of slip."""
 
-    def apart(self, x: Places, e: float) -> Any:
-        return self.chord.apart(*self.parts(x, e)) / self.unit
+    @property
+    @abstractmethod
+    def sources(self) -> Array:
+        """The intervals on which the density is given, (n, 2)."""
 
-    def cosine(self, x: Places, e: float) -> Any:
-        return self.chord.cosine(*self.parts(x, e))
-
-    def root(self, x: Places, e: float) -> Any:
-        """The root of the chord, analytic above the axis and positive just right of e."""
-        if not self.chord.periodic:
-            return np.sqrt(self.apart(x, e) + 0j)
-        step, offset = self.parts(x, e)
-        angle = self.wave * (step + offset)
-        sine = self.chord.apart(step, offset) / self.unit
-        return np.exp(0.25j * np.pi - 0.5j * angle) * np.sqrt(-1j * np.exp(1j * angle) * sine)
-
-    def W(self, x: Places) -> Any:
-        return np.prod([self.root(x, e) for pair in self.intervals for e in pair], axis=0)
+    @property
+    @abstractmethod
+    def change(self) -> Array:
+        """The density at the places of the rule on them."""
 
     @cached_property
-    def at_ends(self) -> tuple[Between, Any]:
-        """The ends, and -i W at each without the root of the distance from it."""
-        ends = np.array(self.intervals).ravel()
-        x = Between(ends, ends, np.zeros_like(ends), np.zeros_like(ends))
-        roots = np.array([self.root(x, e) for e in ends])
-        # the root of x - e is that of the distance at a left end, i times that at a right one
-        np.fill_diagonal(roots, np.where(np.arange(ends.size) % 2, 1j, 1.0))
-        return x, -1j * np.prod(roots, axis=0)
+    def rule(self) -> Rule:
+        """Places on the sources."""
+        rough = self.rough and len(self.stick) == 1  # the circle above a gap comes near its ends
+        return Rule.graded(self.sources, self.breaks(self.sources) if rough else OF_RULES)
 
-    def product(self, x: Places) -> Any:
-        """Π(x - μ_k)."""
-        return np.prod([self.apart(x, 0.5 * (a + b)) for a, b in self.intervals], axis=0)
+    def breaks(self, ends: Array) -> tuple[float, ...]:
+        """Those of a rule on intervals: as fine as the nearest place beyond an end asks for."""
+        points = np.unique(np.append(ends, self.singular))
+        k = np.searchsorted(points, ends)
+        steps = np.concatenate(([np.inf], np.diff(points), [np.inf]))
+        beyond = np.stack((steps[k[:, 0]], steps[k[:, 1] + 1]), axis=1)
+        nearest = float((beyond / np.diff(ends, axis=1)).min(initial=np.inf))
+        return breaks_for(math.sqrt(nearest)) if 0.0 < nearest < np.inf else OF_RULES
 
-    def basis(self, x: Places) -> Any:
-        """Π_{i≠j}(x - μ_i) for each j, over the unit of length; stacked along a new first axis."""
-        middles = [0.5 * (a + b) for a, b in self.intervals]
-        factors = np.array([self.apart(x, m) for m in middles])
-        ones = np.ones_like(factors[:1])
-        ahead = np.cumprod(np.concatenate((ones, factors[:-1])), axis=0)
-        behind = np.cumprod(np.concatenate((ones, factors[:0:-1])), axis=0)[::-1]
-        return ahead * behind * np.array([self.cosine(x, m) for m in middles]) / self.unit
+    @abstractmethod
+    def known(self, places: Rule, sense: float) -> Array:
+        """The density at places in a zone that slips in a direction."""
 
+    @property
+    def poles(self) -> Array:
+        """The pole at each end, (2N); none of a bounded density."""
+        return np.zeros(0)
 
-@dataclass(frozen=True)
-class Given:
-    """A density beside the intervals: the series of W d sqrt(1 - t²) on [lo, hi]."""
-
-    frame: Frame
-    lo: float
-    hi: float
-    series: Array
-    even: float = 0.0  # what the cotangent adds to the kernel 1/(t_x - t)
-
-    @classmethod
-    def fitted(cls, frame: Frame, lo: float, hi: float, density: Density) -> Given:
-        """The series at NODES points, doubled until its tail has settled."""
-        n = NODES
-        while n <= MOST_NODES:
-            s = chebyshev.points(n)
-            sine, cosine = np.sqrt(0.5 * (1.0 + s)), np.sqrt(0.5 * (1.0 - s))
-            x, stretch, even = _on_piece(frame, lo, hi, sine, cosine)
-            values = (frame.W(x) * density(x)).real * stretch * 2.0 * sine * cosine
-            series = chebyshev.transform(values)
-            if np.abs(series[-TAIL:]).max() <= SETTLED * np.abs(series).max():
-                kept = chebyshev.chopped_length(series, 1e-17 * np.abs(series).max())
-                return cls(frame, lo, hi, series[:kept], float(np.mean(values * even)))
-            n *= 2
-        raise ContactError(
-            f"The slip zone [{lo:g}, {hi:g}] is too long for the stick zone beside it: "
-            f"{MOST_NODES} terms do not settle its rate"
-        )
-
-    def integral(self, x: Places) -> Any:
-        """1/π ∫ d W/(x - ξ) dξ beside the piece and on it."""
-        left, right, cosine = self._ends(x)
-        scale = 1.0 / cosine if self.frame.odd else 1.0
-        on_it = np.isrealobj(left) & (left >= 0.0).real & (right <= 0.0).real
-        root = np.sqrt(left + 0j) * np.sqrt(right + 0j)
-        t = 0.5 * (left + right)
-        v = 1.0 / np.where(on_it, 1.0, t + root)
-        beside = np.polynomial.polynomial.polyval(v, self.series) / np.where(on_it, 1.0, root)
-        inside = np.clip(t.real, -1.0, 1.0)
-        on = -chebyshev.evaluate_second_kind(self.series[1:], inside)
-        return scale * np.where(on_it, on, beside) + self.even
-
-    def _ends(self, x: Places) -> tuple[Any, Any, Any]:
-        """(t + 1, t - 1) of places, and cos(π(x - c)/λ), which is 1 on the line."""
-        frame, middle = self.frame, 0.5 * (self.lo + self.hi)
-        half = frame.chord.apart(self.hi - middle) / frame.unit
-        cosine = frame.cosine(x, middle)
-        scale = half * cosine
-        return frame.apart(x, self.lo) / scale, frame.apart(x, self.hi) / scale, cosine
-
-
-def _on_piece(
-    frame: Frame, lo: float, hi: float, sine: Array, cosine: Array
-) -> tuple[Between, Array, Array]:
-    """Places where 1 + t, 1 - t are 2 sin², 2 cos²; what d W is stretched by there; `even`."""
-    if not frame.chord.periodic:
-        length, ones = hi - lo, np.ones_like(sine)
-        return Between(lo, hi, length * sine**2, length * cosine**2), ones, 0.0 * ones
-    wave = frame.wave
-    half = 0.5 * wave * (hi - lo)
-    tangent = np.tan(half) * (sine**2 - cosine**2)
-    angle = np.arctan(tangent)
-    near = 2.0 * np.sin(half) * np.cos(angle)
-    from_lo = np.arctan2(near * sine**2, np.cos(angle + half)) / wave
-    from_hi = np.arctan2(near * cosine**2, np.cos(angle - half)) / wave
-    x = Between(lo, hi, from_lo, from_hi)
-    if frame.odd:
-        return x, np.cos(angle), 0.0 * angle
-    return x, np.ones_like(angle), np.sin(angle) * np.cos(angle) * np.tan(half)
-
-
-@dataclass(frozen=True)
-class Potential:
-    """Φ of one rate: the densities on its intervals, K at their ends, strain beside them."""
-
-    frame: Frame
-    B: float
-    alpha: Array
-    given: tuple[Given, ...] = ()
-
-    @classmethod
-    def solved(cls, frame: Frame, A: float, B: float, given: tuple[Given, ...] = ()) -> Potential:
-        """The α_j of loads and gaps: N equations."""
-        n = len(frame.intervals)
-        matrix, right = np.ones((n, n)), np.full(n, A / np.pi)
-        without = cls(frame, B, np.zeros(n), given)
-        for k in range(n - 1):
-            x, dz = above_gap(frame.intervals[k][1], frame.intervals[k + 1][0])
-            matrix[k] = (frame.basis(x) / frame.W(x) @ dz).real
-            right[k] = -(without.numerator(x) / frame.W(x) @ dz).real
-        return cls(frame, B, np.linalg.solve(matrix, right), given)
-
-    def numerator(self, x: Places) -> Any:
-        """The function n."""
-        own = np.tensordot(self.alpha, self.frame.basis(x), 1)
-        if self.B:
-            own = own - self.B * self.frame.product(x)
-        return own + sum(piece.integral(x) for piece in self.given)
-
-    def value(self, x: Places) -> Any:
-        """n/W above the axis: strain - i density."""
-        return self.numerator(x) / self.frame.W(x)
-
-    def density(self, x: Places) -> Any:
-        return -self.value(x).imag
-
-    def strain(self, x: Places) -> Any:
-        return self.value(x).real
+    @property
+    def slipped_strips(self) -> list[tuple[float, float, Pieces]]:
+        """The integral of D over each strip that is among the data; a finite step has none."""
+        return []
 
     @cached_property
-    def K(self) -> Array:
-        """The density's coefficient of 1/sqrt(distance) at each end, (N, 2)."""
-        x, rest = self.frame.at_ends
-        found: Array = (self.numerator(x) / rest).real * np.sqrt(self.frame.unit)
-        return found.reshape(-1, 2)
+    def centres(self) -> Array:
+        return self.stick.mean(axis=1)
+
+    def ratios(self, apart: Callable[[float], Any]) -> Array:
+        """Π_i [d(z, a_i) d(z, b_i)/d(z, μ_i)²]^(1/2)."""
+        d = self.chord
+        out: Any = np.ones(())
+        for (a, b), m in zip(self.stick, self.centres, strict=True):
+            middle = d(apart(m))
+            ratio = (d(apart(a)) / middle) * (d(apart(b)) / middle)
+            out = out * np.sqrt(ratio if np.iscomplexobj(ratio) else np.abs(ratio))
+        return out
 
     @cached_property
-    def moment(self) -> float:
-        """∫ x ρ dx on the line where nothing is given, from Φ at infinity."""
-        ends = np.array(self.frame.intervals)
-        middles, halves = ends.mean(axis=1), 0.5 * np.diff(ends, axis=1).ravel()
-        return float(np.pi * (self.alpha @ middles - 0.5 * self.B * np.sum(halves**2)))
+    def charges(self) -> Array:
+        """ν_k, (N, places)."""
+        ratios = self.ratios(self.rule.apart)
+        scaled = self.rule.weight * self.change / ratios
+        return np.array([scaled / self.chord(self.rule.apart(m)) for m in self.centres])
 
-    def between(self, lo: float, hi: float) -> float:
-        """∫ Re n/W dx from lo to hi, beside the intervals, over the half-circle."""
-        x, dz = above_gap(lo, hi)
-        return float((self.value(x) @ dz).real)
+    @cached_property
+    def gaps(self) -> list[Gap]:
+        found = []
+        for (_, b), (a, _) in zip(self.stick, self.stick[1:], strict=False):
+            points = np.append(self.sources, self.stick)
+            apart = np.abs(points - np.array([[b], [a]]))
+            near = float(apart[apart > 0.0].min()) / (a - b)
+            found.append(Gap(b, a, breaks_for(near) if self.rough else OF_RULES))
+        return found
 
+    def root(self, k: int, gap: Gap) -> Complex:
+        """T_k on a half-circle."""
+        middle: Complex = self.chord(gap.apart(self.centres[k]))
+        return middle * self.ratios(gap.apart)
 
-def pressure_rate(edges: Zones, dP: float, B: float, period: float = np.inf) -> Potential:
-    """The rate of pressure on the patches for a rate of load, B = (E*/2) d tilt."""
-    return Potential.solved(Frame(tuple(edges), Chord(period)), dP, B)
+    @cached_property
+    def over_gaps(self) -> list[Array]:
+        """What a charge ν_k at each place adds to Re ∫ (F - B) dx over gap k."""
+        return [self._over(k, gap) for k, gap in enumerate(self.gaps)]
 
+    def _over(self, k: int, gap: Gap) -> Array:
+        """The same over any gap, on the half-circle."""
+        kernel = 1.0 / self.chord(gap.from_all(self.rule))
+        found: Array = ((gap.weight * self.root(k, gap)) @ kernel).real / np.pi
+        return found
 
-def pressure_rate_of_moment(edges: Zones, dP: float, dM: float) -> Potential:
-    """The rate of pressure where not the tilt but the moment about x = 0 is given."""
-    load, turn = pressure_rate(edges, dP, 0.0), pressure_rate(edges, 0.0, 1.0)
-    return pressure_rate(edges, dP, (dM - load.moment) / turn.moment)
+    def _poles_over(self, k: int, gap: Gap) -> Array:
+        """What a unit pole at each end adds to Re ∫ (F - B) dx over a gap, (2N)."""
+        root = gap.weight * self.root(k, gap)
+        over = [(root / self.chord(gap.apart(e))).sum().real for e in self.stick.ravel()]
+        found: Array = self.scales[k] * np.array(over)
+        return found
+
+    @cached_property
+    def scales(self) -> Array:
+        """T_j/T_k at each end, j its zone, (N, 2N)."""
+        d, ends = self.chord, self.stick.ravel()
+        own = d(ends - np.repeat(self.centres, 2))
+        found: Array = own / d(ends - self.centres[:, None])
+        return found
+
+    def over(self, gap: Gap) -> float:
+        """Re ∫ (F - B) dx over a gap beside a zone."""
+        k = int(np.abs(self.stick - gap.lo).min(axis=1).argmin())
+        total = float(self._over(k, gap) @ self.charges[k])
+        return total + (float(self._poles_over(k, gap) @ self.poles) if self.poles.size else 0.0)
+
+    def missed(self, A: float, B: float) -> Array:
+        """By how much the density that is given misses the equations, (2N)."""
+        d, apart = self.chord, self.rule.apart
+        out = [
+            float(nu @ d.cosine(apart(m))) + np.pi * B
+            for m, nu in zip(self.centres, self.charges, strict=True)
+        ]
+        out.append(float(self.charges[0] @ d(apart(self.centres[0]))) - A)
+        out += [float(of @ self.charges[k]) for k, of in enumerate(self.over_gaps)]
+        return np.array(out)
+
+    @cached_property
+    def by_poles(self) -> Array:
+        """The derivatives of what is missed by the poles, (2N, 2N)."""
+        N, d, ends = len(self.stick), self.chord, self.stick.ravel()
+        out = np.zeros((2 * N, 2 * N))
+        out[:N] = np.pi * self.scales * d.cosine(ends - self.centres[:, None])
+        out[N] = np.pi * self.scales[0] * d(ends - self.centres[0])
+        for k, gap in enumerate(self.gaps):
+            out[N + 1 + k] = self._poles_over(k, gap)
+        return out
+
+    def psi(self, k: int, places: Rule, density: Array) -> Array:
+        """Ψ_k at places on the axis; `density` is ν_k' at those where data are given."""
+        total, singular = np.zeros(len(places.lo)), self.singular
+        for n, (lo, hi) in enumerate(self.rule.ends):
+            at, source = self.rule.part(n)
+            own = (density.size > 0) & (places.lo >= lo) & (places.hi <= hi)
+            if own.any():
+                nu = self.charges[k][at] / source.weight, density[own]
+                roots = bool((singular == lo).any()), bool((singular == hi).any())
+                x = places.among(own)
+                total[own] += principal_value(source, nu, x, roots, self.chord)
+            if not own.all():
+                x = places.among(~own)
+                total[~own] += (1.0 / self.chord(x.from_all(source))) @ self.charges[k][at]
+        total /= np.pi
+        for e, y in zip(self.stick.ravel(), self.poles * self.scales[k] if self.poles.size else ()):
+            total += y / self.chord(places.apart(e))
+        return total
+
+    @property
+    def singular(self) -> Array:
+        """Where ν' is like 1/sqrt(distance)."""
+        return self.stick.ravel()
+
+    def size_of_root(self, k: int, places: Rule) -> Array:
+        """|T_k| at places in zone k."""
+        d = self.chord
+        a, b = self.stick[k]
+        out: Array = np.sqrt(np.abs(d(places.apart(a)) * d(places.apart(b))))
+        for i, ((lo, hi), m) in enumerate(zip(self.stick, self.centres, strict=True)):
+            if i != k:
+                middle = d(places.apart(m))
+                out *= np.sqrt((d(places.apart(lo)) / middle) * (d(places.apart(hi)) / middle))
+        return out
+
+    def in_stick(self, k: int, places: Rule) -> Array:
+        """The density at places in zone k."""
+        found: Array = -self.size_of_root(k, places) * self.psi(k, places, np.zeros(0))
+        return found
+
+    def strain(self, places: Rule, sense: float) -> Array:
+        """Re F - B at places in a zone that slips in a direction."""
+        middle = 0.5 * float(places.ends.min() + places.ends.max())
+        k = int(np.abs(self.stick - middle).min(axis=1).argmin())
+        root = self.chord(places.apart(self.centres[k])) * self.ratios(places.apart)
+        found: Array = root * self.psi(k, places, self.known(places, sense) / root)
+        return found

@@ -1,87 +1,32 @@
 """The rates of a state of stick and slip, whatever its history.
 
-The pressure's follow from those of P and the tilt on the patches; the shear's from them, Q and the
-bulk stress on the stick zones (`potentials`). They give the coefficient K of 1/sqrt(distance) at
-each end of a stick zone, and the rate of slip beside it.
+    pressure    on the patches            A = dP, B = (E*/2) d tilt      nothing is given
+    shear       on the stick zones        A = dQ, B = dτ                 s f dp in the slip zones
+
+They are potentials whose poles are unknown (`potentials`). A rate is like K/sqrt(distance) at an
+end.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from sie.numerics import chebyshev
+from sie.inheritance import override
 from sie.numerics.chord import Chord
+from sie.numerics.graded_panels import Rule
 
-from .potentials import (
-    MOST_NODES,
-    NODES,
-    SETTLED,
-    TAIL,
-    Density,
-    Frame,
-    Given,
-    Places,
-    Potential,
-    Zones,
-    in_angle,
-    pressure_rate,
-    pressure_rate_of_moment,
-)
+from .gained_slip import GainedSlip
+from .potentials import Potential, Slips
 
 Array = NDArray[np.float64]
-TESTED = np.linspace(0.0, 1.0, 26)[1:-1]  # angles in a slip zone where its direction is tested
-
-
-@dataclass(frozen=True)
-class Slip:
-    """The rate of slip (E*/2) dg on one slip zone, and its sense: -1 or 1."""
-
-    lo: float
-    hi: float
-    sense: float
-    series: Array  # of the rate in 2v - 1, x = lo + (hi - lo) sin²(πv/2)
-
-    @classmethod
-    def fitted(cls, potential: Potential, lo: float, hi: float, sense: float) -> Slip:
-        """The strain integrated from the stick end of the zone, or from the nearest one."""
-        series = _strain_series(potential, lo, hi)
-        rate = 0.5 * chebyshev.antiderivative(series)  # v runs over half of [-1, 1]
-        rate[0] += _slip_at(potential, lo, hi, float(rate.sum()))
-        return cls(lo, hi, sense, rate)
-
-    def at(self, x: Places) -> Any:
-        v = (2.0 / np.pi) * np.arctan2(np.sqrt(x.from_lo), np.sqrt(x.from_hi))
-        return chebyshev.evaluate(self.series, 2.0 * v - 1.0)
-
-
-def _strain_series(potential: Potential, lo: float, hi: float) -> Array:
-    n = NODES
-    while True:
-        x = in_angle(lo, hi, 0.5 * (1.0 + chebyshev.points(n)))
-        stretched = potential.strain(x) * np.pi * np.sqrt(x.from_lo * x.from_hi)
-        series = chebyshev.transform(stretched)
-        if np.abs(series[-TAIL:]).max() <= SETTLED * np.abs(series).max() or n >= MOST_NODES:
-            return series
-        n *= 2
-
-
-def _slip_at(potential: Potential, lo: float, hi: float, across: float) -> float:
-    """The rate of slip at the lower end of a zone."""
-    ends = [e for pair in potential.frame.intervals for e in pair]
-    if lo in ends:
-        return 0.0
-    if hi in ends:
-        return -across
-    below = [e for e in ends if e < lo]
-    if below:
-        return potential.between(max(below), lo)
-    return -across - potential.between(hi, min(ends))
+Zones = Sequence[tuple[float, float]]
+# angles in a slip zone where its direction is tested
+TESTED = np.sin(0.5 * np.pi * np.linspace(0.0, 1.0, 26)[1:-1]) ** 2
 
 
 @dataclass(frozen=True)
@@ -95,39 +40,115 @@ class LoadRates:
     moment: float | None = None  # None: the tilt is given
 
 
+@dataclass(frozen=True, eq=False)
+class Rate(Potential):
+    """The rate of a density on zones.
+
+    zones    those on which it is unknown
+    A, B     its resultant, and the strain on the zones
+    slip     the slip zones, and
+    given    the rate there in the direction of slip
+    beyond   where that is infinite
+    rough    no, where the circle above the gap to a patch that slides comes near its data
+    """
+
+    zones: Zones
+    period: float
+    A: float
+    B: float
+    slip: Slips = ()
+    given: Callable[[Rule], Array] = lambda places: np.zeros_like(places.lo)
+    beyond: Zones = ()
+    rough: bool = False
+
+    @cached_property
+    def stick(self) -> Array:
+        return np.array(self.zones, dtype=float).reshape(-1, 2)
+
+    @property
+    def chord(self) -> Chord:
+        return Chord(self.period)
+
+    @cached_property
+    def sources(self) -> Array:
+        return np.array([zone[:2] for zone in self.slip]).reshape(-1, 2)
+
+    @cached_property
+    def change(self) -> Array:
+        parts = [self.known(self.rule.part(n)[1], s) for n, (*_, s) in enumerate(self.slip)]
+        return np.concatenate([*parts, np.zeros(0)])
+
+    def known(self, places: Rule, sense: float) -> Array:
+        return sense * self.given(places)
+
+    @property
+    @override
+    def singular(self) -> Array:
+        return np.append(self.stick, self.beyond)
+
+    @cached_property
+    def poles(self) -> Array:
+        return np.asarray(np.linalg.solve(self.by_poles, -self.missed(self.A, self.B)))
+
+    @cached_property
+    def K(self) -> Array:
+        """The density's coefficient of 1/sqrt(distance) at each end, (N, 2)."""
+        d, N = self.chord, len(self.stick)
+        found = self.poles.reshape(N, 2) * [-1.0, 1.0]
+        for k, (a, b) in enumerate(self.stick):
+            others = np.arange(N) != k
+            lo, hi = self.stick[others].T
+            for side, e in enumerate((a, b)):
+                ratios = d(e - lo) * d(e - hi) / d(e - self.centres[others]) ** 2
+                found[k, side] *= np.sqrt(d(b - a) * np.prod(ratios))
+        return np.asarray(found)
+
+    def density(self, places: Rule) -> Array:
+        """The density at places in one zone."""
+        middle = 0.5 * float(places.lo.min() + places.hi.max())
+        return self.in_stick(int(np.searchsorted(self.stick[:, 0], middle)) - 1, places)
+
+    @property
+    def moment(self) -> float:
+        """∫ x ρ dx on the line where nothing is given, from F at infinity."""
+        first = self.centres[0]
+        poles, apart = self.poles * self.scales[0], self.stick.ravel() - first
+        squares = float(np.sum((0.5 * np.diff(self.stick, axis=1)) ** 2))
+        return float(np.pi * (poles @ apart**2 + 0.5 * self.B * squares) + first * self.A)
+
+
 @dataclass(frozen=True)
 class Rates:
-    """The rates of a state of stick and slip, whatever its history."""
+    """The rates of a state of stick and slip."""
 
-    edges: tuple[tuple[float, float], ...]
-    slip: tuple[tuple[float, float, float], ...]  # (lo, hi, sense)
+    edges: Zones
     friction: float
-    pressure: Potential
-    shear: Potential
+    pressure: Rate
+    shear: Rate
 
     @classmethod
     def solved(
         cls,
         edges: Zones,
         stick: Zones,
-        slip: Sequence[tuple[float, float, float]],
+        slip: Slips,
         loads: LoadRates,
         *,
         friction: float,
         period: float = np.inf,
     ) -> Rates:
-        if loads.moment is None:
-            pressure = pressure_rate(edges, loads.P, loads.eta, period)
-        else:
-            pressure = pressure_rate_of_moment(edges, loads.P, loads.moment)
-        frame = Frame(tuple(stick), Chord(period))
-        given = tuple(
-            Given.fitted(frame, lo, hi, _times(s * friction, pressure.density))
-            for lo, hi, s in slip
-            if pressure.alpha.any() or pressure.B
-        )
-        shear = Potential.solved(frame, loads.Q, loads.tau, given)
-        return cls(tuple(edges), tuple(slip), friction, pressure, shear)
+        pressure = Rate(edges, period, loads.P, loads.eta)
+        if loads.moment is not None:
+            load, turn = Rate(edges, period, loads.P, 0.0), Rate(edges, period, 0.0, 1.0)
+            tilt = (loads.moment - load.moment) / turn.moment
+            pressure = Rate(edges, period, loads.P, tilt)
+
+        def limit(places: Rule) -> Array:
+            changes = pressure.A or pressure.B
+            return friction * pressure.density(places) if changes else np.zeros_like(places.lo)
+
+        shear = Rate(stick, period, loads.Q, loads.tau, tuple(slip), limit, edges, len(edges) == 1)
+        return cls(edges, friction, pressure, shear)
 
     @property
     def K(self) -> Array:
@@ -145,24 +166,15 @@ class Rates:
 
         It is nan at an end that is an edge of the contact.
         """
-        left = {lo: s for lo, _, s in self.slip}
-        right = {hi: s for _, hi, s in self.slip}
-        senses = [
-            [right.get(a, np.nan), left.get(b, np.nan)] for a, b in self.shear.frame.intervals
-        ]
+        left = {lo: s for lo, _, s in self.shear.slip}
+        right = {hi: s for _, hi, s in self.shear.slip}
+        senses = [[right.get(a, np.nan), left.get(b, np.nan)] for a, b in self.shear.zones]
         return self.K * np.array(senses)
-
-    @cached_property
-    def slips(self) -> tuple[Slip, ...]:
-        return tuple(Slip.fitted(self.shear, *zone) for zone in self.slip)
 
     @cached_property
     def turning(self) -> float:
         """The smallest rate of slip in the direction of its zone over the largest one."""
-        rates = [one.sense * one.at(in_angle(one.lo, one.hi, TESTED)) for one in self.slips]
+        slips = GainedSlip(self.shear)
+        rates = [s * slips.at(lo + (hi - lo) * TESTED) for lo, hi, s in self.shear.slip]
         largest = max((float(np.abs(rate).max()) for rate in rates), default=0.0)
         return min(float(rate.min()) for rate in rates) / largest if largest else 0.0
-
-
-def _times(factor: float, density: Density) -> Density:
-    return lambda x: factor * density(x)

@@ -127,7 +127,7 @@ class TwoSignedSlip(StateSlip):
     @property
     def energy(self) -> float:
         now = self.part.state.contact
-        return self._gained.paired(now.limit.on) * 2.0 / self.step.scene.Estar
+        return self._gained.paired(now.limit.on, now) * 2.0 / self.step.scene.Estar
 
     @property
     def shift(self) -> float:

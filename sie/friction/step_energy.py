@@ -66,7 +66,7 @@ def work(part: Part, step: LoadStep) -> float:
             "energy lost is not covered; ask for the state alone, or change Q at constant P"
         )
     contact = part.state.contact
-    whole, error = GainedSlip(part.equations).paired(contact.limit.on), 0.0
+    whole, error = GainedSlip(part.equations).paired(contact.limit.on, contact), 0.0
     if not step.constant:
         if part.panel is not None:
             moved, error = _of_panel(part.panel)
@@ -113,7 +113,7 @@ def _sticking(state: State) -> list[bool]:
 
 def _by_pressure(now: Equations, rates: Rates) -> float:
     """∫ f dp/dt s Δg dx."""
-    return rates.friction * GainedSlip(now).paired(rates.pressure.density)
+    return rates.friction * GainedSlip(now).paired(rates.pressure.density, now.after)
 
 
 @lru_cache(maxsize=2)

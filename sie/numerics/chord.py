@@ -56,7 +56,7 @@ class Chord:
 
     def __call__(self, step: Any) -> Any:
         """d of differences shorter than a period, which may be complex."""
-        return self.both(0.0, step)[0]
+        return self.both(0.0, step)[0] if self.periodic else step
 
     def logarithm(self, step: Any) -> Any:
         """ln|d| of such differences."""
