@@ -10,8 +10,8 @@ H_k, Q_k the polynomials of piece k (`panels`), [lo, hi] its ends,
     N    = Σ_k v(lo) D_lo - v(hi) D_hi + (z - x1)(z - x2) Q_k' + M Q_k  +  Σ_e v(e) [H]_e / (z - e)
 
 where D_e = (H_k(z) - H_k(e)) / (z - e) is a polynomial, [H]_e the jump of the slope at a break, and
-M = (1/2+ε)(z - x2) + (1/2-ε)(z - x1): no poles cancel next to a break. V' is the derivative of V; H =
-(|t| - a)/R gives back Fp' of the rounded punch (Ciavarella, Hills & Monno 1998, after eq. (23)).
+M = (1/2+ε)(z - x2) + (1/2-ε)(z - x1): no poles cancel next to a break. V' is the derivative of V;
+H = (|t| - a)/R gives back Fp' of the rounded punch (Ciavarella, Hills & Monno 1998, after (23)).
 
 Where a piece is far, its Gauss rule serves: V = X S and N = M S + (z - x1)(z - x2) S' with
 S = ∫H/(w (t - z)) dt. Of many pieces whole branches are summed at once (`cauchy_sums`), and pairs
