@@ -27,7 +27,7 @@ LINES = {
     "live": 1140,
     "many": 770,
     "numerics": 2240,
-    "patches": 4900,
+    "patches": 4810,
     "paths": 1200,
     "plots": 960,
     "problem": 890,
