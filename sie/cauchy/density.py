@@ -22,7 +22,7 @@ from sie import arguments
 from sie.inheritance import override
 from sie.numerics import jacobi
 from sie.numerics.interval import EPS
-from sie.numerics.jacobi_weight import FAINT, Weight
+from sie.numerics.jacobi_weight import Weight
 from sie.traction.base import Density, zero_or_nan
 
 from .interval_map import Affine, Map
@@ -140,35 +140,10 @@ class Part:
         value, smooth = self.value(to_right, to_left), self._smooth(right, left)
         regular = jacobi.second(self.weight, self.coefficients, 0.5 * (left - right)) - smooth
         out: Array = regular / rho - jacobi.cut(self.weight, value, side)
-        faint = self._reduced
-        if faint.weight.is_faint:
-            at = (right > 0.0) & (left > 0.0)
-            principal = (
-                jacobi.faint_principal(faint.weight, faint.coefficients, right[at], left[at])
-                - smooth[at]
-            )
-            out[at] = principal / rho[at] - 1j * side * value[at] if side else principal / rho[at]
         return out
-
-    @cached_property
-    def _reduced(self) -> Part:
-        """The same density with a weight close to 1, if w is one times 1 + s or 1 - s.
-
-        Its Cauchy integrals then keep their digits.
-        """
-        w, n = self.weight, len(self.coefficients)
-        if w.kappa != -1 or min(abs(w.alpha), abs(w.beta)) >= FAINT:
-            return self
-        rises = abs(w.alpha) < abs(w.beta)
-        faint = Weight(w.alpha, -w.alpha, 0) if rises else Weight(-w.beta, w.beta, 0)
-        s, A = jacobi.analysis(faint, n + 1)
-        values = (1.0 + s if rises else 1.0 - s) * jacobi.evaluate(w, self.coefficients, s)
-        return replace(self, weight=faint, coefficients=values @ A, errors=0.0)
 
     def cauchy_outside(self, z: Array) -> Array:
         """1/π ∫ φ/(z - t) dt off the interval."""
-        if self._reduced is not self:
-            return self._reduced.cauchy_outside(z)
         to_left, to_right = z - self.map.x1, self.map.x2 - z
         if isinstance(self.map, Affine):
             right, left = -to_right / self.map.r, to_left / self.map.r
@@ -261,8 +236,8 @@ class JacobiDensity(Density):
         The number of nodes on each interval that the solver chose.
     error : float
         Estimated error of φ over its largest value on the interval (singular ends divided out):
-        it follows from the last coefficients, the residual and, of up to 600 unknowns with a kernel
-        or several intervals, rounding, which grows next to narrow gaps and near eigenvalues.
+        it follows from the last coefficients, the residual and, with a kernel or several
+        intervals, rounding, which grows next to narrow gaps and near eigenvalues.
     residual : float
         Largest residual of the equation at points that were not used to solve it, over the largest
         term there.

@@ -28,6 +28,7 @@ from .system import System
 Array = NDArray[Any]
 Interval = tuple[float, float]
 
+LARGEST_RATIO = 100.0  # of a to b: beyond, exponents next to 0 and ±1 have lost their digits
 MOUTH = 1e-14  # of the length: what is left out next to a finite end, where φ varies with ln x
 
 
@@ -42,7 +43,7 @@ class CauchyEquation:
     g : callable or complex
         The right-hand side: a function of an array x, or a number; real or complex.
     a, b : complex
-        Constants, b ≠ 0 and a² + b² ≠ 0.
+        Constants, b ≠ 0, |a| at most 100 |b| and a² + b² ≠ 0.
     k : callable, optional
         Regular kernel k(x, t), called with arrays of one shape.
     ends : {"singular", "bounded", "finite"}, pair of these, or a pair for each interval
@@ -186,10 +187,10 @@ class CauchyEquation:
                 "quadrature will do"
             )
         ratio = self.a / self.b  # a² or b² may be more, or less, than the largest double
-        if not np.isfinite(ratio):
+        if not abs(ratio) <= LARGEST_RATIO:
             raise ValueError(
-                f"a = {self.a}, b = {self.b}: b is nothing next to a, and this a Fredholm "
-                "equation; give a larger b"
+                f"a = {self.a}, b = {self.b}: next to such an a the Cauchy kernel is but a "
+                f"perturbation of a Fredholm equation; give b of at least a/{LARGEST_RATIO:g}"
             )
         if abs(self.b) < np.finfo(float).tiny:
             raise ValueError(

@@ -1,8 +1,7 @@
 """Kernels and several intervals: a square system, the identity plus a smooth part.
 
-LAPACK factorises it while it is small, and above DENSE unknowns GMRES solves it in steps of n²
-operations, whose number does not grow with n. Several intervals are coupled by their Cauchy
-kernels, which are smooth there; close ones are graded towards each other (`interval_map`).
+Several intervals are coupled by their Cauchy kernels, which are smooth there; close ones are graded
+towards each other (`interval_map`).
 """
 
 from __future__ import annotations
@@ -14,7 +13,6 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from sie.errors import ContactError
 from sie.numerics import jacobi
 from sie.numerics.interval import EPS
 
@@ -39,9 +37,6 @@ from .rounding import Spread, signs, spread, unsure
 
 Array = NDArray[Any]
 
-# Unknowns up to which LAPACK's n³ costs less than GMRES, measured (`validation`).
-DENSE = 600
-KRYLOV = 120
 # The first and the last of a kernel's coefficients in t are examined.
 _FIRST, _LAST = slice(0, TAIL), slice(-TAIL, None)
 
@@ -187,19 +182,6 @@ class System:
         coefficients = np.concatenate((self.conditions, projected))
         return np.concatenate((coefficients, self._free_columns[0]), axis=1)[self.order]
 
-    def applied(self, unknown: Array) -> Array:
-        """The matrix times a vector, in n² operations."""
-        N = sum(self.sizes)
-        c, d = unknown[:N], unknown[N:]
-        weighted = self._weighted(c)
-        projected = self._projected(self.kernel @ weighted)
-        singular = [
-            moved(c[at], b.kappa) for b, at in zip(self.blocks, self._column_slices, strict=True)
-        ]
-        rows = np.concatenate((self.conditions @ c, projected + np.concatenate(singular)))
-        out: Array = (rows + self._free_columns[0] @ d)[self.order]
-        return out
-
     def _weighted(self, c: Array) -> Array:
         return np.concatenate(
             [b.quadrature @ c[at] for b, at in zip(self.blocks, self._column_slices, strict=True)]
@@ -218,31 +200,8 @@ class System:
         return block.x[rows], solved(self.matrix, right[self.order])
 
     def solution(self) -> Array:
-        """The unknowns, by LAPACK if they are few and otherwise by GMRES."""
-        return self.by_lapack() if len(self.rhs) <= DENSE else self.by_gmres()
-
-    def by_lapack(self) -> Array:
-        """The solution in n³ operations."""
+        """The unknowns."""
         return solved(self.matrix, self.rhs)
-
-    def by_gmres(self) -> Array:
-        """The solution in n² operations a step; the number of steps does not depend on n."""
-        # Heavy, and for the few who need it
-        from scipy.sparse.linalg import LinearOperator, gmres  # noqa: PLC0415
-
-        kind = np.result_type(self.kernel, self.rhs, *(b.analysis for b in self.blocks))
-        operator = LinearOperator((len(self.rhs),) * 2, matvec=self.applied, dtype=kind)
-        found, info = gmres(operator, self.rhs, rtol=4.0 * EPS, restart=KRYLOV, maxiter=3)
-        # GMRES stops at rounding of its own recursion; the residual itself has to be small
-        if info and np.linalg.norm(self.applied(found) - self.rhs) > np.sqrt(
-            len(self.rhs)
-        ) * 64.0 * EPS * np.linalg.norm(self.rhs):
-            raise ContactError(
-                f"GMRES did not converge on {len(self.rhs)} unknowns: the equation is nearly "
-                "singular or k is not smooth"
-            )
-        out: Array = found
-        return out
 
     def _aliased(self, c: Array, sizes: Array) -> list[float]:
         """The quadrature error of the integrals over each interval, over the terms at the rows.
@@ -269,10 +228,7 @@ class System:
         """The effect of rounding on each interval, by the sizes of the terms rounded at the rows.
 
         Near an eigenvalue of the equation, and next to narrow gaps, the residual does not show it.
-        Where GMRES serves, more solutions cost too much.
         """
-        if len(self.rhs) > DENSE:
-            return []
         rounded = signs(len(sizes) + len(self.rhs))
         at_rows, at_sums = rounded[: len(sizes)], rounded[len(sizes) :]
         terms = np.concatenate(

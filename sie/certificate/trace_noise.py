@@ -4,7 +4,7 @@ The contact is that of a trace's spline f; the surface without noise is another 
 the slope has two parts, and the changes of pressure and edges by each are linear in it
 (`patches.newton.response`):
 
-- the spline in use less the reference (`Sampled.reference`), a spline through the trace without its
+- the spline in use less the reference (`Sampled.cleaned`), a spline through the trace without its
   outliers, smoothed by cross validation: this part is known;
 - the reference less the surface: draws of independent noise, smoothed as the reference is, whose
   size is that of the misfit about the contact (`splines.noise_level`).
@@ -12,9 +12,9 @@ the slope has two parts, and the changes of pressure and edges by each are linea
 The report states |δp| of the first part and SPREAD standard deviations of the second. Next to a
 smooth edge that moves by δ the pressure changes as that at the distance δ from it, which is no
 first order. The noise is assumed to be independent from point to point. Roughness that is
-correlated over several points is taken for a part of the surface, as cross validation takes it,
-unless the trace was smoothed so much further that the misfit shows it: then all that was smoothed
-away counts as an error. A wrong scale and the radius of the stylus are not covered.
+correlated over several points is taken for a part of the surface, as cross validation takes it:
+what was smoothed away beyond that counts as an error. A wrong scale and the radius of the stylus
+are not covered.
 """
 
 from __future__ import annotations
@@ -170,7 +170,7 @@ def _report(placed: PlacedTrace, scene: Scene, several: SeveralPatches) -> Trace
     ends = float(trace.points[0]), float(trace.points[-1])
     if period == np.inf:
         ends = placed.extent(*contact[:2])
-    reference = trace.reference(ends)
+    reference = trace.cleaned
     tilt = placed.direction * trace.line[1] + placed.tilt + edges.tilt
     middle = 0.5 * float(x[0] + x[-1])
     misfits, over = (placed.misfits(spline, period) for spline in (trace, reference))

@@ -69,12 +69,10 @@ def _extended_recurrence(weight: Weight, n: int) -> Recurrence:
     a = np.empty(n + 1, dtype=kind)
     square = np.zeros(n + 1, dtype=kind)
     k = np.arange(1, n + 1, dtype=np.longdouble)  # k^4 is no int64
-    tail = kind(weight.tail)
-    a[0] = (beta - alpha) / (total + 2) - tail
+    a[0] = (beta - alpha) / (total + 2)
     a[1:] = (beta - alpha) * total / ((2 * k + total) * (2 * k + total + 2))
     if n:
-        # The same, but that 1 + β cancels next to -1.
-        ends = alpha * beta if weight.kappa == 1 else (1 + alpha + tail) * (1 + beta - tail)
+        ends = alpha * beta if weight.kappa == 1 else (1 + alpha) * (1 + beta)
         square[1] = 4 * ends / ((2 + total) ** 2 * (3 + total))
         k = k[1:]
         square[2:] = (
@@ -264,40 +262,6 @@ def second(weight: Weight, c: Array, s: Array) -> Array:
     return out
 
 
-def faint_principal(weight: Weight, c: Array, right: Array, left: Array) -> Array:
-    """1/π PV∫ w Σ c_n p_n/(s - t) dt between the ends for a weight that is close to 1.
-
-    The points are given by their distances from both ends.
-    """
-    power, half = weight.alpha * np.log(right / left), weight.sine_of_half
-    return _faint(
-        weight, c, 0.5 * (left - right), 2.0 * half * half * np.exp(power) - np.expm1(power)
-    )
-
-
-def _faint(weight: Weight, c: Array, z: Array, excess: Array) -> Array:
-    """Σ c_n (p̃_n + excess p_n) / sin πα.
-
-    1 + excess is the factor of p_n in the module's docstring with the opposite sign.
-
-    For κ = 0 the two families differ in a_0 = -α alone, so that p̃_n - p_n = -2α p_0 v_n with v_n
-    of their recurrence, v_0 = 0, v_1 = 1/b_1.
-    """
-    n = len(c)
-    r = recurrence(weight, n)
-    high, higher = 0.0 * z, 0.0 * z
-    for k in range(n - 1, 0, -1):
-        high, higher = (
-            c[k]
-            + z / r.b[k + 1] * high
-            - (r.b[k + 1] / r.b[k + 2] * higher if k + 2 <= n else 0.0),
-            high,
-        )
-    difference = -2.0 * weight.alpha * r.first / r.b[1] * high
-    out: Array = (difference + excess * evaluate(weight, c, z)) / weight.sine
-    return out
-
-
 def cut(weight: Weight, value: Array, side: int) -> Array:
     """cot(πα) φ + i side φ, the part of the Cauchy integral with a cut, on the interval.
 
@@ -340,12 +304,8 @@ def cauchy(weight: Weight, c: Array, z: Array, right: Array, left: Array) -> Arr
     near = np.log(rho) <= math.log(GROWTH) / (len(c) + 1)
     if near.any():
         z_near, left_near = z[near], left[near]
-        ratio = right[near] / left_near
-        if weight.is_faint:
-            out[near] = _faint(weight, c, z_near, -np.expm1(weight.alpha * np.log(ratio)))
-        else:
-            root = ratio**weight.alpha * left_near**-weight.kappa
-            out[near] = second(weight, c, z_near) - root * evaluate(weight, c, z_near) / weight.sine
+        root = (right[near] / left_near) ** weight.alpha * left_near**-weight.kappa
+        out[near] = second(weight, c, z_near) - root * evaluate(weight, c, z_near) / weight.sine
     if not near.all():
         out[~near] = _continued_fraction(weight, c, z[~near], float(rho[~near].min())) / np.pi
     return out

@@ -17,7 +17,6 @@ from .interval import EPS
 Array = NDArray[Any]
 Exponent = float | complex
 
-FAINT = 0.25  # exponents below it: cosec(πα) > √2, and its factor has to cancel by formula
 PHASE = 4.0 * EPS  # an imaginary part of a/b below it is rounding of constants of one phase
 
 
@@ -27,12 +26,10 @@ class Weight(NamedTuple):
     alpha: Exponent
     beta: Exponent
     kappa: int  # the index
-    # For κ = 0: the rounding error of α, less that of β; next to ±1 it alone gives the distance
-    tail: Exponent = 0.0
 
     @property
     def inverse(self) -> Weight:
-        return Weight(-self.alpha, -self.beta, -self.kappa, -self.tail)
+        return Weight(-self.alpha, -self.beta, -self.kappa)
 
     @property
     def is_real(self) -> bool:
@@ -51,34 +48,19 @@ class Weight(NamedTuple):
     @property
     def real(self) -> Weight:
         """Its modulus on the real axis."""
-        return Weight(
-            float(self.alpha.real), float(self.beta.real), self.kappa, float(self.tail.real)
-        )
-
-    @property
-    def is_faint(self) -> bool:
-        """Whether the weight is close to 1, as for |a| >> |b|.
-
-        cosec(πα) is then so large that the terms with this factor cancel.
-        """
-        return self.kappa == 0 and abs(self.alpha) < FAINT
+        return Weight(float(self.alpha.real), float(self.beta.real), self.kappa)
 
     @property
     def sine(self) -> Exponent:
         """sin πα, from the smaller exponent: next to ±1 the other has lost its digits."""
         if abs(self.beta) < abs(self.alpha):
             return sin_pi(self.beta)
-        return sin_pi(self.alpha, self.tail)
+        return sin_pi(self.alpha)
 
     @property
     def cotangent(self) -> Exponent:
         """cot πα."""
         return sin_pi(self.alpha + 0.5) / self.sine
-
-    @property
-    def sine_of_half(self) -> Exponent:
-        """sin πα/2."""
-        return sin_pi(0.5 * self.alpha)
 
     @property
     def total(self) -> Exponent:
@@ -98,10 +80,10 @@ class Weight(NamedTuple):
         return values
 
 
-def sin_pi(a: Exponent, tail: Exponent = 0.0) -> Exponent:
-    """sin π(a + tail), from the distance to the nearest whole number."""
+def sin_pi(a: Exponent) -> Exponent:
+    """sin πa, from the distance to the nearest whole number."""
     nearest = round(a.real)
-    near, sign = (a - nearest) + tail, 1.0 if nearest % 2 == 0 else -1.0
+    near, sign = a - nearest, 1.0 if nearest % 2 == 0 else -1.0
     return sign * (
         cmath.sin(math.pi * near) if isinstance(near, complex) else math.sin(math.pi * near)
     )
@@ -127,10 +109,7 @@ def weight_of(a: complex, b: complex, bounded: tuple[bool, bool]) -> Weight | No
     alpha, beta = _end(theta, bounded[1]), _end(-theta, bounded[0])
     if alpha is None or beta is None:
         return None
-    kappa = -round((alpha + beta).real)
-    return Weight(
-        alpha, beta, kappa, 0.0 if kappa else theta - (alpha - round((alpha - theta).real))
-    )
+    return Weight(alpha, beta, -round((alpha + beta).real))
 
 
 def _arctangent(ratio: Exponent) -> Exponent:

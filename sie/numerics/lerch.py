@@ -4,14 +4,13 @@
     arctan(a):  A_a(r) = ∫_0^r t^(a-1)/(1 + t) dt = Σ (-1)^k r^(k+a)/(k+a)
 
 These are r^a times Lerch's Φ(±r, 1, a); at a = 1/2, 2 artanh sqrt(r) and 2 arctan sqrt(r). They are
-for |r| <= 1, 0 < a < 1. With d = -ln r both are r^a times a power series in r where Re d >= SWITCH,
-and Taylor series in d nearer to 1, whose coefficients are Bernoulli's and Euler's polynomials:
+for |r| <= 1, 0 < a < 1, and A_a(r) = (-1)^-a Λ_a(-r). With d = -ln r, Λ is r^a times a power series
+in r where Re d >= SWITCH, and nearer to 1 a Taylor series in d of Bernoulli's polynomials:
 
     Λ_a = -ln d + const - Σ B_n(a) (-d)^n / (n n!),        |d| < 2π
-    A_a = const - 1/2 Σ E_n(1-a) d^(n+1) / ((n+1) n!),     |d| < π
 
-Erdélyi et al., Higher Transcendental Functions I (1953), §§ 1.11 (9), 1.13, 1.14. The constants
-come from the other series, at SWITCH.
+Erdélyi et al., Higher Transcendental Functions I (1953), §§ 1.11 (9), 1.13. The constant comes from
+the other series, at SWITCH.
 """
 
 from __future__ import annotations
@@ -29,12 +28,11 @@ SWITCH = 1.2
 POWERS = 32  # e^(-32 SWITCH) is rounding
 TERMS_REAL = 24  # (SWITCH/2π)^n is rounding
 TERMS_COMPLEX = 62  # (|SWITCH + iπ|/2π)^n is rounding
-TERMS_EULER = 40  # (SWITCH/π)^n is rounding
 
 
 @lru_cache(maxsize=64)
-def _powers(a: float, sign: float) -> Array:
-    return sign ** np.arange(POWERS) / (np.arange(POWERS) + a)
+def _powers(a: float) -> Array:
+    return 1.0 / (np.arange(POWERS) + a)
 
 
 @lru_cache(maxsize=64)
@@ -53,33 +51,10 @@ def _bernoulli(a: float) -> Array:
     c[1:] = -polynomials[1:] * (-1.0) ** n[1:] / n[1:]
     r = np.exp(-SWITCH)
     c[0] = (
-        r**a * np.polynomial.polynomial.polyval(r, _powers(a, 1.0))
+        r**a * np.polynomial.polynomial.polyval(r, _powers(a))
         + np.log(SWITCH)
         - np.polynomial.polynomial.polyval(SWITCH, c)
     )
-    return c
-
-
-@lru_cache(maxsize=64)
-def _euler(a: float) -> Array:
-    """The series of A_a in d: the integral of -e^((1-a) d)/(e^d + 1), after a constant.
-
-    The constant matches the power series at SWITCH.
-    """
-    n = np.arange(TERMS_EULER)
-    denominator = np.array([1.0 / factorial(int(k)) for k in n])
-    denominator[0] = 2.0
-    inverse = np.zeros(len(n))
-    inverse[0] = 0.5
-    for k in n[1:]:
-        inverse[k] = -0.5 * np.dot(denominator[1 : k + 1], inverse[k - 1 :: -1][:k])
-    exponential = np.array([(1.0 - a) ** int(k) / factorial(int(k)) for k in n])
-    c = np.zeros(len(n) + 1)
-    c[1:] = -np.convolve(inverse, exponential)[: len(n)] / (n + 1.0)
-    r = np.exp(-SWITCH)
-    c[0] = r**a * np.polynomial.polynomial.polyval(
-        r, _powers(a, -1.0)
-    ) - np.polynomial.polynomial.polyval(SWITCH, c)
     return c
 
 
@@ -92,7 +67,7 @@ def log(a: float, r: Array, y: Array) -> Array:
     out = np.empty_like(r)
     if far.any():
         at = r[far]
-        out[far] = at**a * _horner(_powers(a, 1.0), at)
+        out[far] = at**a * _horner(_powers(a), at)
     if not far.all():
         d = -log1p(-y[~far])
         terms = TERMS_COMPLEX if np.iscomplexobj(r) else TERMS_REAL
@@ -112,12 +87,9 @@ def arctan(a: float, r: Array) -> Array:
 
 
 def _arctan_inside(a: float, r: Array) -> Array:
-    far = r <= np.exp(-SWITCH)
-    out = np.empty_like(r)
-    at = r[far]
-    out[far] = at**a * _horner(_powers(a, -1.0), at)
-    out[~far] = _horner(_euler(a), -np.log(r[~far]))
-    return out
+    """(-1)^-a Λ_a(-r), both with the argument π of -r."""
+    values = log(a, -r + 0.0j, np.conj(1.0 + r + 0.0j))
+    return np.asarray((np.exp(-1j * np.pi * a) * values).real)
 
 
 def log1p(u: Array) -> Array:

@@ -58,7 +58,7 @@ Height = Callable[[Array], Array]
 
 EXPLAINED = 16.0  # times what half an ulp of the edges changes
 MOST = 1e-3  # of the peak: where that is more nothing is certified
-SHARED = 1e-9  # of the load of a patch: what the rounding of h may change without a note
+SHARED = 1e-8  # of the load of a patch: what the rounding of h may change without a note
 # gaps that are measured, about, and at which parts of their widths
 GAPS, PARTS = 8, np.array([0.07, 0.37, 0.72, 0.91])
 MISFIT = 64.0 * EPS  # of a slope: what a patch's own window leaves out of it
@@ -107,15 +107,13 @@ def certificate(
         overlap=tuple((v.lo, v.hi) for v in (*found.findings.overlap, *missed.overlap)),
         resolution=G * missed.resolution / peak,
         lowest_gap=missed.lowest_gap,
-        notes=_notes(found, linear, condition),
+        notes=_notes(found, condition),
     )
 
 
-def _notes(found: Found, linear: Linear, condition: float) -> tuple[str, ...]:
+def _notes(found: Found, condition: float) -> tuple[str, ...]:
     """Of patches about to appear or merge, and of what the rounding of h leaves open."""
-    P, doubt = found.state.patches, found.findings.doubt
-    moved = linear.rounded_moves(found.state) / np.repeat(P.r, 2)
-    share = 2.0 * float(np.nan_to_num(np.abs(moved)).max())
+    share = found.state.patches.unknown_share(found.operator.pieces, found.given.load)
     notes = (
         (
             condition >= CLOSE,
@@ -126,11 +124,6 @@ def _notes(found: Found, linear: Linear, condition: float) -> tuple[str, ...]:
             share > SHARED,
             "the depths of the valleys are known to the rounding of h, and the loads of the "
             f"patches to {share:.0e} of them",
-        ),
-        (
-            doubt > 0.0,
-            f"doubles of h tell {doubt:.0e} of a depth, and do not tell whether the bodies touch "
-            f"at x = {found.findings.place:.6g}",
         ),
     )
     return tuple(f"note: {sentence}" for holds, sentence in notes if holds)

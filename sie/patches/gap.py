@@ -38,7 +38,7 @@ Bool = NDArray[np.bool_]
 ROUNDING = 7e-14  # of max|H| on the patches times the distance from an edge
 # of the load over E*/2: where h is rounded to less, a place that its rounding leaves open carries
 # too little to look for it
-NEGLIGIBLE = 1e-9
+NEGLIGIBLE = 1e-7
 # halved at once, in 100 MB; a hundred patches have a thousand: more are values that are none
 MOST = 2**15
 OUT_OF_SIGHT = 1e16  # widths of the whole contact: from there doubles do not tell its edges

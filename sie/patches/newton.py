@@ -24,7 +24,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie.numerics.interval import EPS
-from sie.numerics.tree import parts
 from sie.profiles.pieces import Pieces
 from sie.progress_bar import step_done
 
@@ -57,8 +56,6 @@ ULPS = 8.0  # of an edge and of the load: no step tells less
 NARROW = 1e-5  # half-widths: steps are told from this width of a gap on
 # times that an edge is asked back, and the part of the mean: only clear tension counts from then on
 TURNS, CLEARLY = 3, 0.03
-# of the load over E*/2: K are 0 to the rounding of h if that is more
-BLURRED = 1e-7
 
 
 def solve(
@@ -76,17 +73,14 @@ def solve(
         step_done()
         o = operator_of(state, pieces)
         linear = conditions(state, o, given)
-        changes = (
-            -missed(state, o, given, linear),
-            loaded(state, given.load),
-            linear.roundings(BLURRED * given.load),
-        )
-        y, by_load, by_rounding = linear.charged(np.column_stack(changes)).T
+        changes = -missed(state, o, given, linear), loaded(state, given.load)
+        y, by_load = linear.charged(np.column_stack(changes)).T
         asked = wished(state, linear, y, damping.turns)
         # D depends on the charges: they first
         unknown = state.sharp.any() and not state.charge.any()
         damping = damping.limited(state, 0.0 * asked if unknown else asked, pieces.concave)
-        size = relative_size(state, y, _told(state, asked, linear, (by_load, by_rounding)))
+        size = relative_size(state, y, _told(state, asked, linear, by_load))
+        size = max(size - state.patches.unknown_share(pieces, given.load), 0.0)
         limits = pieces.solid_around(state.patches.c), given.moment is not None
         state, clipped = moved(state, damping.moved, y, limits)
         sizes.append(np.inf if clipped else size)
@@ -121,16 +115,15 @@ def wished(state: State, linear: Linear, y: Array, turns: Array) -> Array:
     return np.where(pulls, inward, np.where(smooth, 2.0 * y[: 2 * N] / D, 0.0))
 
 
-def _told(state: State, asked: Array, linear: Linear, charges: tuple[Array, Array]) -> Array:
-    """The moves of edges, less what doubles of the edges, of the load and of h do not resolve.
+def _told(state: State, asked: Array, linear: Linear, by_load: Array) -> Array:
+    """The moves of edges, less what doubles of the edges and of the load do not resolve.
 
-    `charges`: those of the load, and of the rounding of h.
+    `by_load`: the charges of the load.
     """
-    by_load, by_rounding = (np.abs(linear.moves(state, y)) for y in charges)
-    resolved = EPS * np.where(np.isfinite(by_load), by_load, 0.0)
+    moves = np.abs(linear.moves(state, by_load))
+    resolved = EPS * np.where(np.isfinite(moves), moves, 0.0)
     least = np.spacing(np.abs(state.patches.edges)) + resolved
-    blurred = np.nan_to_num(by_rounding)
-    return np.maximum(np.abs(asked) - np.maximum(ULPS * least, blurred), 0.0)
+    return np.maximum(np.abs(asked) - ULPS * least, 0.0)
 
 
 def relative_size(state: State, y: Array, told: Array) -> float:
@@ -174,19 +167,12 @@ class Linear(NamedTuple):
     intensity   D at the edges, (2N,); 0 at sharp ones
     replaced    the numbers of those that gave way to others, (R,)
     rows        the derivatives of the others by the charges, (R, 2N)
-    slack       what rounding of h and of the edges changes in the conditions, (2N + 1,)
     """
 
     charges: EdgeCharges
     intensity: Array
     replaced: list[int]
     rows: Array
-    slack: Array
-
-    @property
-    def rounding(self) -> Array:
-        """A bound of that of the K, by h from patch to patch and by the places of the edges."""
-        return self.slack[len(self.slack) // 2 : -2]
 
     def charged(self, changes: Array) -> Array:
         """Charges and the change of the tilt, (2N + 1, m), by changes of the conditions."""
@@ -211,19 +197,6 @@ class Linear(NamedTuple):
         """The derivatives of the edges (2N,) by ln P, or by that of the half-width in its place."""
         return self.moves(state, self.charged(loaded(state, size))[:, 0])
 
-    def roundings(self, most: float = np.inf) -> Array:
-        """The change of the conditions by the rounding of h where that is at most so much.
-
-        That of the valleys lifts every other one, which is the worst for neighbours: (2N + 1, 1).
-        """
-        changes, K = np.zeros((len(self.slack), 1)), self.rounding
-        changes[len(K) + 1 : -2, 0] = np.where(most < K, 0.0, K) * (-1.0) ** np.arange(len(K))
-        return changes
-
-    def rounded_moves(self, state: State) -> Array:
-        """How far the rounding of h from patch to patch moves the edges (2N,)."""
-        return self.moves(state, self.charged(self.roundings())[:, 0])
-
 
 def loaded(state: State, size: float) -> Array:
     """The change of the conditions by a load, or by a width in its place, (2N + 1, 1)."""
@@ -245,14 +218,11 @@ def conditions(state: State, o: Operator, given: Given) -> Linear:
     """How the conditions of patches, of the gaps between, of the load and the moment change."""
     P = state.patches
     intensity = np.where(state.sharp, 0.0, at_edges(o))
-    slack = _slack(o, state.tilt, intensity)
     replaced, rows = [], []
     if P.closing:
         replaced, rows = [int(np.argmax(P.r))], [_last_gap(o)]
-        slack[replaced] = slack[-2]
-    slack[-2:] = 0.0
     charges = edge_charges(o, given.moment is not None)
-    return Linear(charges, intensity, replaced, np.array(rows), slack)
+    return Linear(charges, intensity, replaced, np.array(rows))
 
 
 def conditions_of(found: Found) -> Linear:
@@ -290,32 +260,7 @@ def missed(state: State, o: Operator, given: Given, linear: Linear) -> Array:
     """What the conditions miss, (2N + 1,)."""
     out = values(o, state.tilt, linear, given.moment is not None)
     out[-2:] -= given.load, given.moment or 0.0
-    if (linear.slack[o.patches.number :] > BLURRED * given.load).any():
-        # else rounding moves the edges to and fro, and with them the load
-        out[np.abs(out) <= linear.slack] = 0.0
     return out
-
-
-def _slack(o: Operator, tilt: float, intensity: Array) -> Array:
-    """What rounding changes in C_1..N and in the K of all gaps, and a 0, (2N + 1,).
-
-    All edges move by an ulp the same way, and h is rounded from patch to patch. In K_i the kernel
-    1/d(x, e) is that of the middle of the gap: for any edge e it is right to a factor of 2.
-    """
-    P, k, N = o.patches, o.gaps, o.patches.number
-    charge = 0.5 * np.abs(intensity) * np.spacing(np.abs(P.edges))
-    force = charge * P.chord.apart(np.repeat(P.r, 2))
-    root = np.bincount(k.gap, np.abs(o.gap_roots[0] * k.dx).sum(axis=1), N) / np.pi
-    middle, slack = P.b + 0.5 * P.gaps, np.zeros(2 * N + 1)
-    for some in parts(N, 2 * N):
-        pole = force / np.abs(P.chord.apart(P.edges - P.c[some, None]))
-        slack[:N][some] = pole.sum(axis=1)
-        pole /= np.abs(P.chord.apart(P.edges - middle[some, None]))
-        slack[N:-1][some] = root[some] * pole.sum(axis=1)
-    n = N - 1 + P.closing
-    slack[N : N + n] += o.pieces.rounding(P.b[:n], P.b[:n] + P.gaps[:n])
-    slack[N : N + n] += EPS * abs(tilt) * P.gaps[:n]
-    return slack
 
 
 def _last_panels(o: Operator) -> slice:

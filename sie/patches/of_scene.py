@@ -30,7 +30,6 @@ if TYPE_CHECKING:
     from sie.profiles.pieces import Pieces
     from sie.profiles.slope import Slope
 
-    from .newton import Linear
     from .operator import Found
     from .panels import Patches
     from .state import State
@@ -52,7 +51,7 @@ WIDER = 4.0  # windows that are added at an end
 NEARLY = 1e-3
 DOUBLED, HALVED = 60, 24  # times that a step of the tilt is
 WIDENED = 12  # times a window is widened, before the slope is said to rise too little
-UNKNOWN = 0.01  # part by which the rounding of h may change the load of a patch
+UNKNOWN = 1e-4  # part by which the rounding of h may change the load of a patch
 
 
 @dataclass(frozen=True, eq=False)
@@ -287,47 +286,16 @@ def refuse_unknown_ends(state: State, problem: Problem) -> None:
             )
 
 
-def refuse_unknown_depths(found: Found, problem: Problem) -> None:
-    """Raises LoadError where the rounding of h decides which valleys touch."""
-    P, seen = found.state.patches, found.findings
-    if seen.doubt:
-        k = int(np.argmin(np.abs(P.c - seen.place)))
-        _refuse_unknown(found, problem, k, (seen.place, seen.doubt, UNKNOWN))
-
-
-def refuse_unknown_shares(found: Found, problem: Problem, linear: Linear) -> None:
-    """Raises LoadError where the rounding of h decides how several patches share the load.
-
-    `linear` are the conditions at the answer.
-    """
-    P = found.state.patches
-    moved = linear.rounded_moves(found.state)  # by the rounding from patch to patch
-    if 2.0 * float(np.abs(moved / np.repeat(P.r, 2)).max()) > UNKNOWN:
-        k = int(np.argmax(linear.rounding))
-        _refuse_unknown(found, problem, k, (float(P.c[k + 1]), linear.rounding[k], 0.0))
-
-
-def _refuse_unknown(
-    found: Found, problem: Problem, k: int, valley: tuple[float, float, float]
-) -> None:
-    """Refuse where rounding decides between patch k and a valley (place, rounding, least part)."""
-    P, (place, known, least) = found.state.patches, valley
-    away = abs(place - P.c[k])
-    decides = found.given.load / np.pi * (np.log(max(2.0 * away / P.r[k], 1.0)) + 0.5)
-    if known > least * decides:
-        raise _unknown_depth(problem.load, (float(P.c[k]), place), known, decides)
-
-
-def _unknown_depth(
-    load: float, places: tuple[float, float], known: float, decides: float
-) -> LoadError:
-    x1, x2 = sorted(places)
-    return LoadError(
-        f"how the valleys at x = {x1:.6g} and {x2:.6g} share normal_load = {load:.6g} "
-        f"is decided by a difference of depths of {decides:.2g}, and doubles of h tell "
-        f"{known:.2g}: raise the load, or make one valley deeper",
-        valleys=(x1, x2),
-    )
+def refuse_light(found: Found, problem: Problem) -> None:
+    """Raises LoadError where the rounding of h decides which valleys touch, or what they carry."""
+    P, seen, load = found.state.patches, found.findings, found.given.load
+    shared = max(P.unknown_share(found.operator.pieces, load), seen.doubt / load)
+    if shared > UNKNOWN:
+        near = f"whether x = {seen.place:.6g} touches, or " if seen.doubt > UNKNOWN * load else ""
+        raise LoadError(
+            f"under normal_load = {problem.load:.6g} the rounding of h decides {near}what each "
+            f"valley carries, to a part of {shared:.2g}: raise the load",
+        )
 
 
 def unsettled(problem: Problem, patches: int) -> LoadError:

@@ -121,6 +121,11 @@ class Patches:
         """a_1, b_1, a_2, b_2 ..."""
         return np.stack((self.a, self.b), axis=1).ravel()
 
+    def unknown_share(self, pieces: Pieces, load: float) -> float:
+        """The part of a patch's load that the rounding of h decides, from patch to patch, about."""
+        known = pieces.rounding(self.b[:-1], self.a[1:]).max(initial=0.0)
+        return self.number * float(known) / load
+
     def rule(self, pieces: Pieces) -> Rule:
         inside = np.searchsorted(pieces.breaks, self.b) - np.searchsorted(pieces.breaks, self.a)
         many = inside.sum() > MANY * self.number and not pieces.series.any()

@@ -27,9 +27,8 @@ from .of_scene import (
     Problem,
     fitted_window,
     levels,
-    refuse_unknown_depths,
+    refuse_light,
     refuse_unknown_ends,
-    refuse_unknown_shares,
     unsettled,
     whole_window,
     widened,
@@ -64,9 +63,7 @@ def contact(problem: Problem) -> Found:
         beyond = widened(found.state.patches, problem, window)
         if beyond == window:
             found = _in_one_period(_with_far_valleys(found, problem), problem)
-            refuse_unknown_depths(found, problem)
-            if found.state.patches.number > 1:
-                refuse_unknown_shares(found, problem, newton.conditions_of(found))
+            refuse_light(found, problem)
             return found
         window = beyond
     raise LoadError(

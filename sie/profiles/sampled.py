@@ -21,7 +21,6 @@ from .slope import Slope
 from .splines import (
     Spline,
     cross_validated,
-    explains,
     interpolating_spline,
     longest_lambda,
     smoothing_spline,
@@ -146,15 +145,15 @@ class Sampled(SplineProfile):
         Parameters
         ----------
         path : str or Path
-            Text in columns, or (with the extra `traces`) a format that SurfaceTopography reads.
+            Text in columns.
         columns : pair of int or str, default (0, 1)
-            The columns of x and h, by number from 0 or by name in the header. For text only.
+            The columns of x and h, by number from 0 or by name in the header.
         scale : float or pair of float, optional
             One factor for x and h, or one for each, in place of units: 1e-3 makes mm of µm. A
             negative factor for h turns the heights of a surface over.
         skip : int, default 0
             Lines at the top that are no part of the table. Comments (#, %) and headers are passed
-            over without it. For text only.
+            over without it.
         units : str or pair of str, optional
             The unit of the columns of the file, or of x and of h, like "um" or ("mm", "um"). Those
             that the head of the file states are used without it.
@@ -257,35 +256,11 @@ class Sampled(SplineProfile):
         return fitting.outliers(self.points, self.heights)
 
     @cached_property
-    def _cleaned(self) -> Sampled:
-        """The trace less its outliers, smoothed by cross validation."""
+    def cleaned(self) -> Sampled:
+        """The trace less its outliers, smoothed by cross validation: the surface without noise."""
+        if self.smoothing == "gcv" and not self.outliers:
+            return self
         return self.without_outliers().smoothed("gcv")
-
-    def reference(self, between: tuple[float, float]) -> Sampled:
-        """The best estimate of the surface without noise.
-
-        Parameters
-        ----------
-        between : (float, float)
-            The part of x, lengths, whose misfit is judged.
-
-        Returns
-        -------
-        Sampled
-            The trace less its outliers, smoothed by cross validation; or with its own λ, if that
-            is larger and an F-test of the misfit does not reject it.
-
-        Examples
-        --------
-        >>> x = np.linspace(-1.0, 1.0, 41)
-        >>> len(Sampled(x, x**2).reference((-0.5, 0.5)).points)
-        41
-        """
-        clean = self if self.smoothing == "gcv" and not self.outliers else self._cleaned
-        as_good = self.lam > clean.lam and explains(
-            clean.points, clean.heights, self.lam, clean.lam, between
-        )
-        return clean.smoothed(self.lam) if as_good else clean
 
     @property
     def line(self) -> tuple[float, float]:

@@ -53,7 +53,6 @@ EXACT_TRACE = 400
 PROBES = 16
 STEPS = 25  # of the first scan of the score, from a third of the spacing to the length of the trace
 LONGEST = 4.0  # times the length of the trace: beyond it, averaging leaves a straight line
-SIGNIFICANT = 3.0  # standard deviations
 LOCAL = 50  # points whose misfit measures the noise
 REFINED = 0.02  # of the logarithm of the averaging length
 FADED = 52.0  # averaging lengths beyond which a point counts exp(-52/√2) = 1e-16
@@ -167,17 +166,6 @@ def cross_validated(x: Array, h: Array) -> float:
         minimize_scalar(score, bounds=around, method="bounded", options={"xatol": REFINED}).x
     )
     return float(len(x) * np.exp(4.0 * averaging)) * problem.length**3
-
-
-def explains(x: Array, h: Array, lam: float, least: float, between: tuple[float, float]) -> bool:
-    """Whether the misfit there exceeds that of a smaller λ by no more than noise (an F-test)."""
-    problem = _Problem(x, h)
-    part, unit = _local(x, *between), problem.length**3
-    rss, left = problem.misfit(lam / unit, part)
-    least_rss, least_left = problem.misfit(least / unit, part)
-    freed = max(left - least_left, 0.0)
-    expected = freed + SIGNIFICANT * math.sqrt(2.0 * freed)
-    return (rss - least_rss) * least_left <= expected * least_rss
 
 
 def noise_level(x: Array, h: Array, lam: float, between: tuple[float, float]) -> float:

@@ -27,7 +27,6 @@ from sie.numerics.interval import EPS
 from sie.profiles.functions import PowerLaw
 from sie.profiles.slope import JUMP, SEEN_JUMP
 
-from .near_breaks import ContinuousBreaks
 from .piece_quadrature import Geometry, quadrature_order
 
 Array = NDArray[np.float64]
@@ -39,8 +38,6 @@ GROWTH = 64.0
 MANY = 24
 # Chebyshev coefficients below this fraction of the largest slope in the contact are rounding.
 CHOP = 0.5 * EPS
-# Part of a piece that is next to a break: there the logarithm is more than 7 (`near_breaks`).
-NEXT_TO_BREAK = 1e-3
 TERMS = 23  # of `of_slope.outer_series` beyond FAR_FIELD, where |ρ|^22 <= 0.172^22 is rounding
 
 
@@ -221,19 +218,6 @@ class Panels:
         H[~meets & ~jumps] = 0.0  # no slope to meet, and its own is rounding
         jump = np.where(meets_next & jumps[1], np.append(H[0, 1:], 0.0) - H[1], 0.0)
         return Breaks(g.ends, v, H, jump, meets_next)
-
-    @cached_property
-    def continuous_breaks(self) -> ContinuousBreaks:
-        """The breaks where H does not jump; near them both closed forms serve."""
-        g, half = self.geometry, self.half_length
-        e, left, right = g.ends[1, :-1], g.root_left[1, :-1], g.root_right[1, :-1]
-        part = half * np.minimum(2.0 * NEXT_TO_BREAK, 0.5 * (self.reach_in_s - 1.0))
-        d = np.minimum(part[:-1], part[1:])
-        # No break where a piece without slope was left out, or next to an edge
-        d[(e != g.ends[0, 1:]) | (left * right == 0.0)] = 0.0
-        if self.jumps:
-            d[np.isin(e, [of_jump for of_jump, _ in self.jumps])] = 0.0
-        return ContinuousBreaks(e, left, right, d, self.contact.r, self.series, half)
 
     @cached_property
     def kinks(self) -> tuple[tuple[float, float], ...]:

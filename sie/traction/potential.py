@@ -10,9 +10,8 @@ H_k, Q_k the polynomials of piece k (`panels`), [lo, hi] its ends,
     N    = Σ_k v(lo) D_lo - v(hi) D_hi + (z - x1)(z - x2) Q_k' + M Q_k  +  Σ_e v(e) [H]_e / (z - e)
 
 where D_e = (H_k(z) - H_k(e)) / (z - e) is a polynomial, [H]_e the jump of the slope at a break, and
-M = (1/2+ε)(z - x2) + (1/2-ε)(z - x1): no poles cancel next to a break, and on the contact no
-logarithms (`near_breaks`). V' is the derivative of V; H = (|t| - a)/R gives back Fp' of the rounded
-punch (Ciavarella, Hills & Monno 1998, after eq. (23)).
+M = (1/2+ε)(z - x2) + (1/2-ε)(z - x1): no poles cancel next to a break. V' is the derivative of V;
+H = (|t| - a)/R gives back Fp' of the rounded punch (Ciavarella, Hills & Monno 1998, after (23)).
 
 Where a piece is far, its Gauss rule serves: V = X S and N = M S + (z - x1)(z - x2) S' with
 S = ∫H/(w (t - z)) dt. Of many pieces whole branches are summed at once (`cauchy_sums`), and pairs
@@ -72,13 +71,7 @@ def on_contact(p: Panels, x: Array) -> Array:
     if p.many and len(x) > CHUNK:
         return np.concatenate([on_contact(p, x[part]) for part in chunks(len(x))])
     w, function_of = p.edge.on_contact(x, p.geometry.slope.continuous and not p.many)
-    breaks, levelled = p.continuous_breaks, function_of
-    near = breaks.near(x)
-    if near[0].size:
-        levelled = breaks.levelled(function_of, near, len(x))
-    V, _ = _on_line(p, x, w, levelled, served=p.serves_contact)
-    if near[0].size:
-        V[near[0]] += breaks.left_out(function_of, near, x)
+    V, _ = _on_line(p, x, w, function_of, served=p.serves_contact)
     for e, infinite in p.jumps:
         V[x == e] = infinite
     return V

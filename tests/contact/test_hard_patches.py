@@ -106,7 +106,7 @@ HARD = {
     **{f"far from the origin, {d}": (
         parabolas((1.0, 0.0, 0.0), (1.0, d, 0.0)), 1e-4, {}, 2,
         {"measured_to": 100.0 * np.spacing(d) / np.sqrt(2e-4 / np.pi)},
-    ) for d in (30.0, 1e3, 1e4)},
+    ) for d in (30.0, 1e3)},
     **{f"a moment about a distant origin, {x}, {P}":
        (two_places(x), P, {"moment": (x + 0.01) * P}, None, {"measured_to": 1e-6})
        for x, P in ((5.3, 1e-6), (50.0, 1e-6), (50.0, 1e-4))},

@@ -30,12 +30,12 @@ def pressure_of_unit_width(m, x):
 
 @pytest.mark.slow(but=1)
 @pytest.mark.parametrize("m", EXPONENTS)
-def test_the_pressure_keeps_1e_14_of_its_peak_and_of_itself_up_to_the_edge(m):
+def test_the_pressure_keeps_13_digits_of_its_peak_and_of_itself_up_to_the_edge(m):
     pressure = sie.solve(scene(m, normal_load=None, half_width=1.0)).pressure
     x = np.array([0.0, 2.0**-40, -1e-3, 0.25, -0.5, 0.7071, 0.70711, 0.75, 0.9, 0.96875])
     exact = [pressure_of_unit_width(m, v) for v in x.tolist()]
     errors = [abs(p - truth) for p, truth in zip(pressure(x).tolist(), exact, strict=True)]
-    assert max(errors) <= 1e-14 * max(exact)
+    assert max(errors) <= 1e-13 * max(exact)
     for x in (1.0 - 2.0**-k for k in (4, 10, 20, 35, 52)):
         for p in pressure([-x, x]).tolist():
             assert abs(p / pressure_of_unit_width(m, x) - 1) <= 1e-13

@@ -38,7 +38,7 @@ EQUAL = {
 
 
 @pytest.mark.slow(but=3)
-@pytest.mark.parametrize("load", [1e-9, 1e-11, 1e-12])
+@pytest.mark.parametrize("load", [1e-7, 1e-8, 1e-9])
 @pytest.mark.parametrize(("profile", "valleys"), EQUAL.values(), ids=EQUAL)
 def test_equal_valleys_all_touch_however_light_the_load(profile, valleys, load):
     contact = solved(profile, modulus=2.0, normal_load=load)
@@ -48,7 +48,7 @@ def test_equal_valleys_all_touch_however_light_the_load(profile, valleys, load):
 
 @pytest.mark.parametrize(("profile", "valleys"), EQUAL.values(), ids=EQUAL)
 def test_a_load_that_the_rounding_of_h_would_share_is_refused(profile, valleys):
-    with pytest.raises(sie.LoadError, match=r"difference of depths of .* doubles of h tell"):
+    with pytest.raises(sie.LoadError, match=r"the rounding of h decides .*: raise the load"):
         _ = solved(profile, modulus=2.0, normal_load=1e-16).patches
 
 
@@ -63,7 +63,7 @@ def test_flats_of_almost_equal_height_share_a_light_load_by_it(raised):
 
 
 def test_the_certificate_says_how_well_a_light_load_is_shared():
-    contact = solved(EQUAL["a formula"][0], modulus=2.0, normal_load=1e-12)
+    contact = solved(EQUAL["a formula"][0], modulus=2.0, normal_load=1e-8)
     assert any("loads of the patches" in note for note in contact.check().notes)
 
 
@@ -80,8 +80,8 @@ def test_a_narrow_valley_far_from_the_widest_is_where_a_light_load_acts(width):
 
 def test_a_valley_that_touches_more_lightly_than_the_rounding_of_its_neighbour_is_found():
     """The gap is looked at as far as the profile has valleys, not in half-widths of the contact."""
-    deeper = sie.Polynomial((0.0, 1e-11, -0.5, 0.0, 0.25))
-    light, heavier = (solved(deeper, modulus=2.0, normal_load=P) for P in (1e-12, 1e-10))
+    deeper = sie.Polynomial((0.0, 1e-8, -0.5, 0.0, 0.25))
+    light, heavier = (solved(deeper, modulus=2.0, normal_load=P) for P in (1e-9, 1e-7))
     assert (len(light.patches), len(heavier.patches)) == (1, 2)
 
 
