@@ -19,7 +19,6 @@ from .sample_points import SAME_PEAK, ceiling, full, peak, reach
 if TYPE_CHECKING:
     from .beside_scene import Units
     from .scene_file import SceneFile
-    from .solution_names import Answer
 
 NONE: Mapping[str, Any] = {}
 SAME_PLACE = 1e-7  # of the half-width: rounding of p leaves a smooth peak uncertain by as much
@@ -31,7 +30,7 @@ BETWEEN = "  "  # what stands between the columns of a table
 
 
 def summary(
-    solution: Answer, file: SceneFile, more: Mapping[str, Any] = NONE, width: int = WIDE
+    solution: Any, file: SceneFile, more: Mapping[str, Any] = NONE, width: int = WIDE
 ) -> str:
     """All wanted quantities, section by section, with a picture of so many columns.
 
@@ -71,7 +70,7 @@ def summary(
 class Rows:
     """The rows of each quantity, in words with units."""
 
-    solution: Answer
+    solution: Any
     units: Units
 
     def edges(self) -> list[Row]:
@@ -286,7 +285,7 @@ def table(head: Sequence[str], rows: Sequence[Sequence[float | str]]) -> str:
     return "\n".join(lines)
 
 
-def text_picture(solution: Answer, units: Units, width: int = WIDE) -> str:
+def text_picture(solution: Any, units: Units, width: int = WIDE) -> str:
     """The pressure over the contact as columns of blocks; ↑ where it rises above the picture."""
     (x1, x2), r, top = solution.edges, solution.half_width, ceiling(solution)
     margin = len(_number(top))

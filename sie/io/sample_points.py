@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from sie.numerics.interval import EPS
 from sie.problem.request import POINTS
-
-if TYPE_CHECKING:
-    from .solution_names import Answer
 
 Array = NDArray[np.float64]
 
@@ -33,7 +30,7 @@ SPIKE = 3.0
 ABOVE_ORDINARY = 1.4
 
 
-def inside(solution: Answer, points: int = POINTS) -> Array:
+def inside(solution: Any, points: int = POINTS) -> Array:
     """About `points` positions from x1 to x2, ascending, with the edges and the breaks.
 
     Between breaks the points are Chebyshev's, dense at both ends. Half of all points are shared out
@@ -55,7 +52,7 @@ def inside(solution: Answer, points: int = POINTS) -> Array:
     return np.unique(np.concatenate([*parts, ends]))
 
 
-def beside(solution: Answer, points: int = POINTS) -> tuple[Array, Array]:
+def beside(solution: Any, points: int = POINTS) -> tuple[Array, Array]:
     """Positions left and right of the contact, ascending, without the edges.
 
     They end at a distance `reach`, or where the indenter ends.
@@ -68,23 +65,23 @@ def beside(solution: Answer, points: int = POINTS) -> tuple[Array, Array]:
     return x[(x >= left) & (x < x1)], x[(x > x2) & (x <= right)]
 
 
-def reach(solution: Answer) -> float:
+def reach(solution: Any) -> float:
     """REACH half-widths, or half the way to the contact of the next period if that is less."""
     (x1, x2), period = solution.edges, solution.scene.profile.period
     return min(REACH * solution.half_width, max(0.5 * (period - (x2 - x1)), 0.0))
 
 
-def full(solution: Answer) -> bool:
+def full(solution: Any) -> bool:
     """Whether all of a period is in contact, so that the contact has no edges."""
     return solution.contact_length >= solution.scene.profile.period
 
 
-def _corners(solution: Answer, points: int) -> tuple[float, ...]:
+def _corners(solution: Any, points: int) -> tuple[float, ...]:
     breaks = solution.scene.profile.breaks
     return breaks if len(breaks) <= points // PER_BREAK else ()
 
 
-def abscissae(solution: Answer, points: int = POINTS) -> Array:
+def abscissae(solution: Any, points: int = POINTS) -> Array:
     """Left of the contact, in it, and right of it."""
     left, right = beside(solution, points)
     return np.concatenate((left, inside(solution, points), right))
@@ -102,7 +99,7 @@ class Summit(NamedTuple):
     p: float
 
 
-def summits(solution: Answer) -> tuple[Summit, ...]:
+def summits(solution: Any) -> tuple[Summit, ...]:
     """The local maxima of the pressure, from left to right; only the highest are narrowed down."""
     x = np.union1d(inside(solution), [solution.centre])
     if len(solution.patches) > 1:
@@ -116,7 +113,7 @@ def summits(solution: Answer) -> tuple[Summit, ...]:
     return tuple(map(Summit, x[top].tolist(), p[top].tolist()))
 
 
-def peak(solution: Answer) -> tuple[float, tuple[float, ...]]:
+def peak(solution: Any) -> tuple[float, tuple[float, ...]]:
     """(largest pressure, where): at more than one x if the pressure is as large there."""
     maxima = summits(solution)
     largest = max(s.p for s in maxima)
@@ -124,7 +121,7 @@ def peak(solution: Answer) -> tuple[float, tuple[float, ...]]:
     return largest, tuple(s.x for s in maxima if s.p == largest or s.p >= least)
 
 
-def ceiling(solution: Answer) -> float:
+def ceiling(solution: Any) -> float:
     """The largest pressure that a picture shows: the peak, unless it is infinite or narrow."""
     starts, stops = np.transpose(solution.patches)
     before = np.cumsum(stops - starts) - (stops - starts)
@@ -136,7 +133,7 @@ def ceiling(solution: Answer) -> float:
     return largest if largest <= SPIKE * ordinary else ABOVE_ORDINARY * ordinary
 
 
-def _narrowed(solution: Answer, x: Array, lo: Array, hi: Array) -> tuple[Array, Array]:
+def _narrowed(solution: Any, x: Array, lo: Array, hi: Array) -> tuple[Array, Array]:
     """(x, value) of the largest pressures in [lo, hi]; x moves only for a gain beyond rounding."""
     p, every = solution.pressure(x), np.arange(len(x))
     for _ in range(ZOOMS):

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,7 +22,6 @@ if TYPE_CHECKING:
     from sie.stress.half_plane import Stress
 
     from .scene_file import SceneFile
-    from .solution_names import Answer
 
 Array = NDArray[np.float64]
 
@@ -35,7 +34,7 @@ BESIDE, DEPTH = 1.0, 2.0
 class Grid:
     """The stress of a solution at nx × ny points around the contact, in arrays (ny, nx)."""
 
-    solution: Answer
+    solution: Any
     nx: int = GRID[0]
     ny: int = GRID[1]
 

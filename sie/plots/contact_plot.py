@@ -31,7 +31,6 @@ from sie.errors import ContactError
 from sie.io.answers import slip_of
 from sie.io.beside_scene import UNITS, Units
 from sie.io.sample_points import ABOVE_ORDINARY, abscissae, ceiling, full, peak, reach, summits
-from sie.io.solution_names import Answer
 from sie.problem.load_path import Path
 
 from . import style
@@ -53,7 +52,7 @@ GROUND = 0.28  # thickness of the half-plane in the lower panel, relative to the
 
 
 def picture(
-    solution: Answer, units: Units = UNITS, title: str = "", width: float = style.WIDTH
+    solution: Any, units: Units = UNITS, title: str = "", width: float = style.WIDTH
 ) -> style.Picture:
     """A Matplotlib figure of the pressure and the gap, and of shear and slip if there are any.
 
@@ -87,7 +86,7 @@ def picture(
     return figure
 
 
-def panel(solution: Answer, what: str, axes: Axes, units: Units = UNITS) -> None:
+def panel(solution: Any, what: str, axes: Axes, units: Units = UNITS) -> None:
     """One panel of the picture on given axes: pressure, gap, shear or slip."""
     view = _View(solution, units)
     PANELS[what](axes, view)
@@ -114,7 +113,7 @@ class _View:
     units       their names
     """
 
-    solution: Answer
+    solution: Any
     units: Units
 
     @cached_property

@@ -17,7 +17,6 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from sie.io.beside_scene import UNITS, Units
-from sie.io.solution_names import Answer
 from sie.io.stress_grid import Grid
 
 from . import style
@@ -35,7 +34,7 @@ COLOURS, PALEST = "YlGnBu", 0.08
 
 
 def contours(
-    solution: Answer, units: Units = UNITS, title: str = "", width: float = style.WIDTH
+    solution: Any, units: Units = UNITS, title: str = "", width: float = style.WIDTH
 ) -> Figure:
     """A Matplotlib figure of √J2 under the contact; save it with figure.savefig("stress.pdf")."""
     grid = Grid(solution, NX, NY)
@@ -47,7 +46,7 @@ def contours(
     return figure
 
 
-def draw(axes: Axes, solution: Answer, units: Units) -> None:
+def draw(axes: Axes, solution: Any, units: Units) -> None:
     """The contours on given axes, with a scale of colours beside them."""
     grid, weakest = Grid(solution, NX, NY), solution.elastic_limit()
     root = np.sqrt(grid.stress.j2)
@@ -93,7 +92,7 @@ def _caption(ratio: float) -> str:
     )
 
 
-def _mark(axes: Any, solution: Answer, factor: float, depth: float) -> None:
+def _mark(axes: Any, solution: Any, factor: float, depth: float) -> None:
     """The surface, and above it the patches of contact and where they stick."""
     level = -0.4 * ABOVE * depth
     axes.axhline(0.0, color=style.INK, linewidth=0.6)
