@@ -17,7 +17,7 @@ LINES = {
     "cracks": 770,
     "wear": 470,
     "cauchy": 2170,
-    "certificate": 1540,
+    "certificate": 1500,
     "cli": 800,
     "contact": 2390,
     "examples": 10,

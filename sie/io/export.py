@@ -38,10 +38,10 @@ and, where they are wanted,
                  certificate, and with its constants threshold and arrest ("Infinity" for none)}
     path        of load paths: [{normal_load, tangential_load, bulk_stress, tilt or moment if the
                  path has them, stick, energy_lost if known}, ..]
-    traces      with check, of measured traces: [{points, smoothing, averaged, separated, misfit,
+    traces      with check, of measured traces: [{points, smoothing, misfit,
                  outliers [[x, off], ..], gaps [{lo, hi, missing}, ..],
-                 mended {left_out, averaged, sorted}, tilt, aside,
-                 pressure_error, inner_error, edge_errors [x1, x2], unsure_patches}, ..]
+                 mended {left_out, averaged, sorted}, tilt, pressure_error, edge_errors [x1, x2]},
+                 ..]
 
 Floats are written as `repr` writes them, so that nothing is lost. JSON has no infinity: it is the
 string "Infinity" or "-Infinity", which Python's float(), NumPy and JavaScript's Number() read as
