@@ -33,8 +33,8 @@ LINES = {
     "problem": 890,
     "profiles": 5270,
     "sensitivity": 1260,
-    "stress": 2280,
-    "sweeps": 720,
+    "stress": 2200,
+    "sweeps": 700,
     "traction": 2490,
 }
 FILES = 254
