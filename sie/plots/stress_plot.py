@@ -17,7 +17,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from sie.io.beside_scene import UNITS, Units
-from sie.io.stress_grid import Grid
+from sie.io.stress_grid import BESIDE, DEPTH, grid
 
 from . import style
 
@@ -37,8 +37,7 @@ def contours(
     solution: Any, units: Units = UNITS, title: str = "", width: float = style.WIDTH
 ) -> Figure:
     """A Matplotlib figure of √J2 under the contact; save it with figure.savefig("stress.pdf")."""
-    grid = Grid(solution, NX, NY)
-    shape = float((1.0 + ABOVE) * grid.y[-1] / (grid.x[-1] - grid.x[0]))
+    shape = (1.0 + ABOVE) * 0.5 * DEPTH / (1.0 + BESIDE)  # of a contact of any width
     height = PANEL * width * shape + LABELS + LINE * len(style.title_lines(title, width))
     figure = style.Picture(height, width)
     draw(figure.subplots(), solution, units)
@@ -48,15 +47,15 @@ def contours(
 
 def draw(axes: Axes, solution: Any, units: Units) -> None:
     """The contours on given axes, with a scale of colours beside them."""
-    grid, weakest = Grid(solution, NX, NY), solution.elastic_limit()
-    root = np.sqrt(grid.stress.j2)
+    found, weakest = grid(solution, NX, NY), solution.elastic_limit()
+    root = np.sqrt(found.stress.j2)
     top = (
         weakest.stress
         if math.isfinite(weakest.stress)
         else float(np.quantile(root[np.isfinite(root)], 0.999))
     )
     factor, length = style.scaled(solution.half_width, units.length)
-    x, y, shares = grid.x * factor, grid.y * factor, np.minimum(root, top) / top
+    x, y, shares = found.x * factor, found.y * factor, np.minimum(root, top) / top
     levels = _levels(shares)
     colours = matplotlib.colormaps[COLOURS](np.linspace(PALEST, 1.0, len(levels) - 1))
     filled = axes.contourf(x, y, shares, levels=levels, colors=colours)
