@@ -21,8 +21,7 @@ if TYPE_CHECKING:
     from .scene_file import SceneFile
 
 NONE: Mapping[str, Any] = {}
-SAME_PLACE = 1e-7  # of the half-width: rounding of p leaves a smooth peak uncertain by as much
-NOTHING = 1e-13  # of its scale: a smaller number is rounding, and is printed as 0
+NOTHING = 1e-12  # of its scale: a smaller number is rounding, and is printed as 0
 MANY_ZONES = 8  # so many zones of stick or slip are listed
 HEIGHT, NARROWEST = 8, 20  # rows of the text picture, and its columns at least
 Row = tuple[str, str]  # the name and the words of one quantity
@@ -121,7 +120,7 @@ class Rows:
     def pressure(self) -> list[Row]:
         """The peak pressure and the mean pressure."""
         largest, where = peak(self.solution)
-        places = [_number(x, self._r, SAME_PLACE) for x in where[:2]]
+        places = [_number(x, self._r) for x in where[:2]]
         places += [f"{len(where) - 2} more"] if len(where) > 2 else []
         mean = self.solution.normal_load / self.solution.contact_length
         return [
@@ -207,9 +206,7 @@ class Rows:
         if math.isinf(limit.stress):
             place = f"x = {self._length(limit.x, r)} on the surface"
             return [("elastic limit", f"0: the stress is infinite at {place}")]
-        places = (
-            f"x = {_number(x, r, SAME_PLACE)}, y = {self._length(y)}" for x, y in limit.places
-        )
+        places = (f"x = {_number(x, r)}, y = {self._length(y)}" for x, y in limit.places)
         ratio = f"P/(bk) = {_number(limit.ratio)} (von Mises)"
         stress = f"it yields if k < {self._stress(limit.stress)}"
         return [("elastic limit", f"{ratio}: {stress}"), ("weakest point", " and ".join(places))]
@@ -245,8 +242,8 @@ ROWS: dict[str, Callable[[Rows], list[Row]]] = {
 }
 
 
-def _number(value: float, scale: float = 0.0, nothing: float = NOTHING) -> str:
-    return f"{0.0 if abs(value) < nothing * scale else value:.6g}"
+def _number(value: float, scale: float = 0.0) -> str:
+    return f"{0.0 if abs(value) < NOTHING * scale else value:.6g}"
 
 
 # -- tables and pictures ---------------------------------------------------------------------------

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie.numerics.interval import EPS
+from sie.numerics.root_finding import false_positions
 from sie.problem.request import POINTS
 
 Array = NDArray[np.float64]
@@ -17,12 +18,11 @@ Array = NDArray[np.float64]
 BESIDE = 0.25
 REACH = 0.6
 FEWEST = 12  # points on each of several patches, and in each gap
-# Peaks of the pressure: sampled, then narrowed this often among this many points. The last step is
-# below the flat top that rounding leaves.
 PER_BREAK = 4  # points for each break; where there are fewer, breaks are passed over
-ZOOMS = 8
-ZOOM_POINTS = 41
-LESSER = 0.5  # of the largest pressure: below it a peak is not narrowed
+# Of a peak's neighbours, what is left out next to them, where p' may be infinite; and how far a
+# sample may be from the zero of p', in half-widths, to be taken for it.
+INSET, SAME_PLACE = 1e-9, 1e-12
+LESSER = 0.5  # of the largest pressure: below it a peak is not looked for between samples
 SAME_PEAK = 1e-9  # relative: a symmetric pressure has its peak twice
 # A picture cuts a spike that is so many times the 95th percentile of the pressure over the contact.
 # The picture then ends a little above that percentile.
@@ -100,7 +100,7 @@ class Summit(NamedTuple):
 
 
 def summits(solution: Any) -> tuple[Summit, ...]:
-    """The local maxima of the pressure, from left to right; only the highest are narrowed down."""
+    """The local maxima of the pressure, from left to right; the highest ones where p' = 0."""
     x = np.union1d(inside(solution), [solution.centre])
     if len(solution.patches) > 1:
         x = np.union1d(x, solution.pressure.breaks)
@@ -108,8 +108,15 @@ def summits(solution: Any) -> tuple[Summit, ...]:
     padded = np.concatenate(([-np.inf], p, [-np.inf]))
     top = np.flatnonzero((p > padded[:-2]) & (p >= padded[2:]))
     high = top[np.isfinite(p[top]) & (p[top] >= LESSER * p[np.isfinite(p)].max())]
-    ends = x[np.maximum(high - 1, 0)], x[np.minimum(high + 1, len(x) - 1)]
-    x[high], p[high] = _narrowed(solution, x[high], *ends)
+    lo, hi = x[np.maximum(high - 1, 0)], x[np.minimum(high + 1, len(x) - 1)]
+    inset = INSET * (hi - lo)
+    zeros = false_positions(
+        lambda t: -solution.pressure.cauchy_derivative(t).imag, lo + inset, hi - inset
+    )
+    own, values = high[np.searchsorted(hi, zeros)], solution.pressure(zeros)
+    apart = np.abs(zeros - x[own]) > SAME_PLACE * solution.half_width
+    better = apart & (values >= p[own] * (1.0 - 4.0 * EPS))
+    x[own[better]], p[own[better]] = zeros[better], values[better]
     return tuple(map(Summit, x[top].tolist(), p[top].tolist()))
 
 
@@ -131,17 +138,3 @@ def ceiling(solution: Any) -> float:
     ordinary = float(np.quantile(p, 0.95, method="lower"))
     largest, _ = peak(solution)
     return largest if largest <= SPIKE * ordinary else ABOVE_ORDINARY * ordinary
-
-
-def _narrowed(solution: Any, x: Array, lo: Array, hi: Array) -> tuple[Array, Array]:
-    """(x, value) of the largest pressures in [lo, hi]; x moves only for a gain beyond rounding."""
-    p, every = solution.pressure(x), np.arange(len(x))
-    for _ in range(ZOOMS):
-        near = np.linspace(lo, hi, ZOOM_POINTS, axis=1)
-        values = solution.pressure(near)
-        k = np.argmax(values, axis=1)
-        gain = values[every, k] > p * (1.0 + 4.0 * EPS)
-        x, p = np.where(gain, near[every, k], x), np.where(gain, values[every, k], p)
-        step = (hi - lo) / (ZOOM_POINTS - 1)
-        lo, hi = np.maximum(x - step, lo), np.minimum(x + step, hi)
-    return x, p
