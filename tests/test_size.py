@@ -14,7 +14,7 @@ LINES = {
     "": 1460,
     "answers": 1310,
     "benchmark_set": 10,
-    "cracks": 770,
+    "cracks": 760,
     "wear": 470,
     "cauchy": 2170,
     "certificate": 1460,

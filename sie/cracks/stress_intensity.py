@@ -29,6 +29,7 @@ from sie.cauchy.density import Part
 from sie.cauchy.equation import CauchyEquation
 from sie.cauchy.system import System
 from sie.numerics import jacobi
+from sie.numerics.root_finding import false_positions
 from sie.stress.fretting import table_of_rows
 
 from .edge_crack import CrackCertificate, EdgeCrack, cells, opened, regular_kernel
@@ -36,7 +37,6 @@ from .edge_crack import CrackCertificate, EdgeCrack, cells, opened, regular_kern
 Array = NDArray[np.float64]
 
 MOST_DEPTHS = 10_000
-BISECTIONS = 60  # of the logarithm of the depth at which a crack stops
 LEAST = 64.0  # spacings of doubles at the place of a crack: the least depth
 # W then has 9 digits for a stress that varies over a thousandth of the depth, next to the surface,
 # and 13 where it varies over a tenth
@@ -148,14 +148,11 @@ class StressIntensity:
         k = int(np.argmin(above))
         if k == 0:
             return float(self.depth[0])
-        low, high = self.depth[k - 1], self.depth[k]
-        for _ in range(BISECTIONS):
-            a = np.array([math.sqrt(low * high)])
-            if not low < a[0] < high:
-                break
-            grows = np.ptp(self._modes(a)[0]) > self.threshold(threshold, fatigue_limit, a)[0]
-            low, high = (a[0], high) if grows else (low, a[0])
-        return float(high)
+
+        def excess(a: Array) -> Array:
+            return np.ptp(self._modes(a)[0], axis=0) - self.threshold(threshold, fatigue_limit, a)
+
+        return float(false_positions(excess, self.depth[k - 1 : k], self.depth[k : k + 1])[0])
 
     def crack(self, turning_point: int, depth: float) -> EdgeCrack:
         """One of the cracks by itself, with its opening, its closed zones and its certificate.
