@@ -23,7 +23,7 @@ LINES = {
     "examples": 10,
     "friction": 9880,
     "inverse": 310,
-    "io": 4620,
+    "io": 4610,
     "live": 1140,
     "many": 770,
     "numerics": 2310,

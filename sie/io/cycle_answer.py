@@ -143,21 +143,11 @@ def _largest(x: Array, quantity: Callable[[Array], Array], rounds: int = ROUNDS)
 
 def _stress_range(cycle: Cycle, x: Array, name: str) -> dict[str, Any]:
     """The largest range of a stress on the surface, its place, and the stresses there."""
-
-    def over_cycle(x: Array) -> Array:
-        stresses = np.stack([getattr(state.stress(x, 0.0), name) for state in cycle.states])
-        return np.where(np.isfinite(stresses), stresses, np.inf)
-
-    def width(x: Array) -> Array:
-        stresses = over_cycle(x)
-        finite = np.isfinite(stresses).all(axis=0)
-        return np.where(finite, np.ptp(np.where(finite, stresses, 0.0), axis=0), np.inf)
-
-    found = _largest(x, width)
+    found = _largest(x, lambda x: cycle.range(x, 0.0)[name].range)
     if "reason" in found:
         return found
-    stresses = over_cycle(np.array([found["x"]]))
-    ends = {"lowest": float(stresses.min()), "highest": float(stresses.max())}
+    there = cycle.range(found["x"], 0.0)[name]
+    ends = {"lowest": float(there.lowest), "highest": float(there.highest)}
     return {"range": found["value"], "x": found["x"]} | ends
 
 
