@@ -98,7 +98,7 @@ class DerivativeAnswers:
         Returns
         -------
         Uncertainty
-            `.of(quantity)`, `.shares(quantity)`, `.pressure(x)`, `.shear(x)`.
+            `.of(quantity)` and `.shares(quantity)`.
 
         Examples
         --------

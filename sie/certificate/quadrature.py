@@ -2,14 +2,12 @@
 
 A corner of the slope leaves (x - e)^(m+1) ln|x - e| in the pressure, m the order of the derivative
 of H that jumps there. Panels are graded towards the breaks, and none is much longer than its
-neighbours. Each of a few breaks is treated as a corner. Where there are many (a trace), the jumps
-at a break determine the number of levels, which for a smooth spline is none or one.
+neighbours. The jumps at a break determine the number of levels, which for a smooth spline is none
+or one; each break of a function is treated as a corner.
 """
 
 from __future__ import annotations
 
-import math
-from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -18,11 +16,10 @@ from numpy.typing import NDArray
 from sie.numerics import chebyshev
 from sie.numerics.chord import Chord, Points
 from sie.numerics.gauss_jacobi import gauss_jacobi
-from sie.numerics.graded_rule import GRADING, NODES, balanced, graded, on_panels
+from sie.numerics.graded_rule import GRADING, NODES, balanced, on_panels
 from sie.numerics.interval import EPS, Interval, angles, inner, position
 from sie.patches.panels import Patches
 from sie.patches.rule import Rule as PatchRule
-from sie.profiles.functions import PowerLaw
 from sie.profiles.resolution import refined
 from sie.profiles.slope import Slope
 
@@ -32,14 +29,13 @@ FEW_BREAKS = 40
 # Panels need no grading to an edge, but the residual is wanted near it.
 TOWARDS_EDGE = np.array([0.0625, 0.125, 0.1875])
 # What the last panel of a graded rule leaves is rounding with LEVELS for the logarithm under a
-# corner of the profile, and with fewer levels for the root at the end of a stick zone, and for the
-# x ln|x| under a corner of the slope.
-LEVELS, ROOT_LEVELS, KINK_LEVELS = 22, 14, 9
+# corner of the profile, and with fewer levels for the root at the end of a stick zone.
+LEVELS, ROOT_LEVELS = 22, 14
 # Part of the distance from the next break: a resolution halves its pieces towards a break, and
 # shorter pieces resolve another feature.
 CLOSING_IN = 0.1
 COMPARABLE = 0.05  # smaller panels close in on a corner, where rounding of x hides all
-LONGEST = np.pi / 32  # of a panel where there are many
+LONGEST, PARTS = np.pi / 16, 8  # of a panel; panels of a piece at least where pieces are few
 POINTS = 48  # at which the residual is measured: between the longest panels, where no node is near
 
 
@@ -91,21 +87,20 @@ def composite_rule(
     in on a kink. The panels next to the edges take the powers ψ^(±2ε) of sliding into their
     weights.
     """
-    many = not slope.functions and len(inner(contact, slope.breaks)) > FEW_BREAKS
     also = np.zeros(0) if also is None else also
     resolution = resolution or refined(slope, contact.x1, contact.x2, EPS)
-    edges, large = (
-        _panels_of_many(contact, slope, also) if many else _panels(contact, slope, also, resolution)
-    )
+    breaks = np.union1d(inner(contact, resolution.breaks), also)
+    edges = _panels(contact, slope, also, breaks)
+    length = np.diff(edges)
+    large = edges[1:-1][_largest(edges[1:-1], np.minimum(length[:-1], length[1:]))]
     angle, weight = on_panels(edges)
     if epsilon:
-        length = np.diff(edges)
         for k, power, start in ((0, -2.0 * epsilon, edges[0]), (-1, 2.0 * epsilon, edges[-1])):
             g, _, w = gauss_jacobi(NODES, 0.0, power)
             angle[k] = abs(start - length[k] * g)
             weight[k] = length[k] * w / g**power
     x = position(contact, angle)
-    _count_from_breaks(x, contact, edges, np.union1d(inner(contact, resolution.breaks), also))
+    _count_from_breaks(x, contact, edges, breaks)
     x, weight, angle = x.ravel(), (weight * contact.r * np.sin(angle)).ravel(), angle.ravel()
     ends, patch = contact[:2], np.zeros(len(x), dtype=int)
     if epsilon:
@@ -135,30 +130,28 @@ def _count_from_breaks(x: Array, contact: Interval, edges: Array, breaks: Array)
         x[j] = breaks[chosen, None] + offset
 
 
-def _panels(contact: Interval, slope: Slope, also: Array, resolution: Slope) -> tuple[Array, Array]:
-    """The ends of the panels, as angles from the right edge, and those of the largest."""
-    levels = _levels_of_few(slope, also)
-    cut = angles(contact, np.union1d(inner(contact, resolution.breaks), also))
+def _panels(contact: Interval, slope: Slope, also: Array, breaks: Array) -> Array:
+    """The ends of the panels, as angles from the right edge."""
     # Many breaks of a resolution close in on a few places by themselves; of few, each may be a
     # corner that was not declared
-    towards = (
-        cut
-        if len(cut) <= FEW_BREAKS
-        else angles(contact, np.union1d(inner(contact, slope.breaks), also))
-    )
-    ends = np.concatenate(([0.0], towards, [np.pi]))
-    cut = cut[_shorter_than_graded(cut, ends)]
-    cuts = [cut]
-    inwards = graded(levels)[:-1]
-    for k, (lo, hi) in enumerate(pairwise(ends)):
-        left = inwards if k > 0 else TOWARDS_EDGE
-        right = 1.0 - (inwards if k < len(ends) - 2 else TOWARDS_EDGE)[::-1]
-        cuts.append(
-            lo + (hi - lo) * np.concatenate(([0.0], left, np.linspace(0.25, 0.75, 9), right))
-        )
-    edges = balanced(np.unique(np.concatenate([*cuts, [np.pi]])))
-    length = np.diff(edges)
-    return edges, edges[1:-1][_largest(edges[1:-1], np.minimum(length[:-1], length[1:]))]
+    towards = breaks
+    if slope.functions and len(breaks) > FEW_BREAKS:
+        towards = np.union1d(inner(contact, slope.breaks), also)
+    ends = np.concatenate(([0.0], angles(contact, towards), [np.pi]))
+    length, every = np.diff(ends), angles(contact, breaks)
+    least = PARTS if len(towards) <= FEW_BREAKS else 1
+    parts = np.ceil(length / LONGEST).clip(min=least).astype(int)
+    # The number of each part within its piece.
+    number = np.arange(parts.sum()) - np.repeat(parts.cumsum() - parts, parts)
+    cuts = [ends, np.repeat(ends[:-1], parts) + np.repeat(length / parts, parts) * number]
+    cuts += [length[0] * TOWARDS_EDGE, np.pi - length[-1] * TOWARDS_EDGE]
+    cuts += [every[_shorter_than_graded(every, ends)]]
+    levels = _levels(slope, contact, towards, also)[::-1]
+    for level in range(1, int(levels.max(initial=0)) + 1):
+        at = np.flatnonzero(levels >= level)
+        share, cut = GRADING**level, ends[1:-1][at]
+        cuts += [cut - share * length[at], cut + share * length[at + 1]]
+    return balanced(np.unique(np.concatenate(cuts)))
 
 
 def _shorter_than_graded(cut: Array, ends: Array) -> NDArray[np.bool_]:
@@ -169,60 +162,27 @@ def _shorter_than_graded(cut: Array, ends: Array) -> NDArray[np.bool_]:
     return np.minimum(beside[:-1], beside[1:]) < CLOSING_IN * distance
 
 
-def _panels_of_many(contact: Interval, slope: Slope, also: Array) -> tuple[Array, Array]:
-    """The panels where the slope has many breaks, and the middles of the largest pieces.
+def _levels(slope: Slope, contact: Interval, towards: Array, also: Array) -> NDArray[np.int64]:
+    """The number of gradings at each break.
 
-    Each piece is one panel, graded where a break needs it.
+    After so many, the error of NODES nodes for (x - e)^(m+1) ln|x - e| is rounding, m the order of
+    the derivative of H that jumps; a function may have any corner.
     """
-    cut = angles(contact, inner(contact, slope.breaks))
-    ends = np.concatenate(([0.0], cut, [np.pi]))
-    length = np.diff(ends)
-    levels = _levels(slope, contact)[::-1]
-    parts = np.ceil(length / LONGEST).astype(int)
-    # The number of each part within its piece.
-    number = np.arange(parts.sum()) - np.repeat(parts.cumsum() - parts, parts)
-    within = np.repeat(ends[:-1], parts) + np.repeat(length / parts, parts) * number
-    middle = 0.5 * (ends[:-1] + ends[1:])
-    chosen = middle[_largest(middle, length)]
-    cuts = [within, [np.pi], chosen, length[0] * TOWARDS_EDGE, np.pi - length[-1] * TOWARDS_EDGE]
-    beside = LONGEST * graded(LEVELS - 1)
-    cuts += [c + np.concatenate(([0.0], beside, -beside)) for c in angles(contact, also)]
-    for level in range(1, int(levels.max()) + 1):
-        at = np.flatnonzero(levels >= level)
-        cuts += [cut[at] - GRADING**level * length[at], cut[at] + GRADING**level * length[at + 1]]
-    every = np.unique(np.concatenate(cuts))
-    return balanced(every[(every >= 0.0) & (every <= np.pi)]), chosen
-
-
-def _levels_of_few(slope: Slope, also: Array) -> int:
-    """The number of gradings at the breaks where these are few.
-
-    Under powers |x|^(a+1) of the profile alone the pressure has |x|^a, which needs fewer.
-    """
-    powers = [f.function for f in slope.functions if isinstance(f.function, PowerLaw)]
-    if not powers or len(powers) < len(slope.functions) or slope.coefficients.any() or also.size:
-        return LEVELS if not slope.continuous else ROOT_LEVELS if also.size else KINK_LEVELS
-    a = min(power.exponent for power in powers) - 1.0
-    return math.ceil(max(math.log(EPS ** (-1.0 / (a + 1.0)) / NODES**2) / -math.log(GRADING), 0.0))
-
-
-def _levels(slope: Slope, contact: Interval) -> NDArray[np.int64]:
-    """The number of gradings at each break inside.
-
-    After so many, the error of NODES nodes for (x - e)^(m+1) ln|x - e| is rounding.
-    """
-    b = slope.breaks[1:-1]
-    inside = (contact.from_left(b) > 0.0) & (contact.from_right(b) > 0.0)
-    longer = np.minimum(
-        np.maximum(np.diff(slope.breaks)[:-1], np.diff(slope.breaks)[1:])[inside], 2.0 * contact.r
-    )
+    if slope.functions:
+        return np.full(len(towards), LEVELS)
+    b = inner(contact, slope.breaks[1:-1])
+    inside = np.isin(slope.breaks[1:-1], b)
+    pieces = np.diff(slope.breaks)
+    longer = np.minimum(np.maximum(pieces[:-1], pieces[1:])[inside], 2.0 * contact.r)
     jumps = np.abs(slope.corners[inside])
     m = np.arange(jumps.shape[1])
     scale = float(np.abs(slope(np.array([contact.x1, contact.x2]))).max()) or 1.0
     size = (jumps * longer[:, None] ** m / (scale * EPS)) ** (1.0 / (m + 1)) / NODES**2
-    return np.clip(
-        np.ceil(np.log(np.maximum(size.max(axis=1), 1.0)) / -np.log(GRADING)), 0, LEVELS
-    ).astype(np.int64)
+    levels = np.where(np.isin(towards, also), ROOT_LEVELS, 0)
+    found = np.ceil(np.log(np.maximum(size.max(axis=1), 1.0)) / -np.log(GRADING))
+    known = np.searchsorted(towards, b)
+    levels[known] = np.maximum(levels[known], found.clip(0, LEVELS).astype(int))
+    return levels
 
 
 def _largest(x: Array, size: Array) -> list[int]:

@@ -19,7 +19,6 @@ are not covered.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from dataclasses import asdict, dataclass, replace
 from typing import Any
 
@@ -61,12 +60,6 @@ class TraceReport:
         The number of points.
     smoothing : float
         λ of the spline in use, length³; 0 if it interpolates.
-    averaged : float
-        The number of points over which it averages, (λ/Δ³)^(1/4), Δ their mean distance. Below
-        about 1 the spline follows the noise too.
-    separated : bool
-        Whether cross validation averages over more than a point. Where it does not, noise that is
-        correlated from point to point is not in the errors below.
     misfit : float
         Root of the mean square of the heights less the spline, length.
     outliers : tuple of (float, float)
@@ -77,34 +70,22 @@ class TraceReport:
         Points left out without a value, points averaged at equal x, and whether x was sorted.
     tilt : float
         Slope of the line through the trace and of the scene: the levelling that is left to do.
-    aside : bool
-        Whether the contact lies off the middle of the trace, where that line is low.
     pressure_error : float
         Largest error of the pressure over its peak, estimated from the misfit. It is no part of the
         certificate.
-    inner_error : float
-        The same over the inner 90 % of the contact: next to an edge that moves by e the pressure
-        changes as sqrt(e).
     edge_errors : (float, float)
         Errors of x1 and x2, lengths, from the same; 0 for a corner of the indenter.
-    unsure_patches : int
-        The number of patches, of several, of which an edge moves by more than half of their width.
     """
 
     points: int
     smoothing: float
-    averaged: float
-    separated: bool
     misfit: float
     outliers: tuple[tuple[float, float], ...]
     gaps: tuple[Gap, ...]
     mended: Mended
     tilt: float
-    aside: bool
     pressure_error: float
-    inner_error: float
     edge_errors: tuple[float, float]
-    unsure_patches: int = 0
 
     def as_dict(self) -> dict[str, Any]:
         """The report for JSON.
@@ -119,44 +100,31 @@ class TraceReport:
         return asdict(self) | pairs | named
 
     def __str__(self) -> str:
-        smoothing = f"smoothed over {self.averaged:.2g}, λ = {self.smoothing:.3g}"
-        smoothing = smoothing if self.smoothing else "interpolated"
-        rows = [("trace", f"{self.points} points, {smoothing}, misfit {self.misfit:.3g} rms")]
+        smoothing = f"smoothed, λ = {self.smoothing:.3g}" if self.smoothing else "interpolated"
+        left_out, averaged, is_sorted = self.mended
         done = (
-            (self.mended.left_out, f"{self.mended.left_out} points without a value left out"),
-            (
-                self.mended.averaged,
-                f"{self.mended.averaged} points averaged with others of equal x",
-            ),
-            (self.mended.sorted, "x sorted"),
+            (left_out, f"{left_out} points without a value left out"),
+            (averaged, f"{averaged} points averaged with others of equal x"),
+            (is_sorted, "x sorted"),
         )
-        mended = ", ".join(text for is_done, text in done if is_done)
-        rows += [("mended", mended)] if mended else []
-        missing = (f"{gap.missing} from {gap.lo:.6g} to {gap.hi:.6g}" for gap in self.gaps[:NAMED])
-        rows.append(("missing points", _listed(missing, len(self.gaps))))
-        off = (f"{off:+.3g} at x = {x:.6g}" for x, off in self.outliers[:NAMED])
-        rows.append(("outliers", _listed(off, len(self.outliers), ", kept")))
-        low = "; the contact lies where it is low: is the trace level?" if self.aside else ""
-        rows.append(("levelling left", f"slope {self.tilt:.3g} of the line through the trace{low}"))
+        mended = [text for is_done, text in done if is_done]
+        missing = [f"{gap.missing} from {gap.lo:.6g} to {gap.hi:.6g}" for gap in self.gaps]
+        off = [f"{off:+.3g} at x = {x:.6g}" for x, off in self.outliers]
         x1, x2 = self.edge_errors
-        inner = f"{self.inner_error:.1e} away from the edges"
-        rows += [
-            ("noise estimate", f"p to {self.pressure_error:.1e} of its peak, {inner}"),
-            ("", f"x1 to {x1:.1e}, x2 to {x2:.1e}; the certificate is of the equations alone"),
-        ]
-        taken = (
-            "correlated noise is taken for the shape and not counted: smooth further, if there is "
-            "any"
-        )
-        rows += [] if self.separated else [("", taken)]
-        unsure = f"of {self.unsure_patches} patches an edge moves by more than half of their width"
-        rows += [("", unsure)] if self.unsure_patches else []
-        return named_rows(*rows)
+        return named_rows(
+            ("trace", f"{self.points} points, {smoothing}, misfit {self.misfit:.3g} rms"),
+            ("mended", _listed(mended)),
+            ("missing points", _listed(missing)),
+            ("outliers", _listed(off)),
+            ("levelling left", f"slope {self.tilt:.3g} of the line through the trace"),
+            ("noise estimate", f"p to {self.pressure_error:.1e} of its peak, x1 to {x1:.1e}, x2 to "
+             f"{x2:.1e}, by noise that is independent from point to point"),
+        )  # fmt: skip
 
 
-def _listed(shown: Iterable[str], count: int, after: str = "") -> str:
-    more = f" and {count - NAMED} more" if count > NAMED else ""
-    return f"{', '.join(shown)}{more}{after}" if count else "none"
+def _listed(texts: list[str]) -> str:
+    more = f" and {len(texts) - NAMED} more" if len(texts) > NAMED else ""
+    return ", ".join(texts[:NAMED]) + more if texts else "none"
 
 
 def trace_reports(scene: Scene, several: SeveralPatches) -> tuple[TraceReport, ...]:
@@ -171,21 +139,20 @@ def _report(placed: PlacedTrace, scene: Scene, several: SeveralPatches) -> Trace
     if period == np.inf:
         ends = placed.extent(*contact[:2])
     reference = trace.cleaned
-    tilt = placed.direction * trace.line[1] + placed.tilt + edges.tilt
-    middle = 0.5 * float(x[0] + x[-1])
     misfits, over = (placed.misfits(spline, period) for spline in (trace, reference))
+    pressure_error, edge_errors = _implied(
+        _errors(placed, reference, over - misfits, ends, period), scene, several
+    )
     return TraceReport(
         points=len(x),
         smoothing=trace.lam,
-        averaged=trace.averaged,
-        separated=reference.averaged > 1.0,
         misfit=float(np.sqrt(np.mean(misfits**2))),
         outliers=tuple((float(x[k]), float(over[k])) for k in trace.outliers),
         gaps=placed.gaps(),
         mended=trace.mended,
-        tilt=tilt,
-        aside=period == np.inf and (middle - contact.m) * tilt > 0.5 * contact.r * abs(tilt),
-        **_implied(_errors(placed, reference, over - misfits, ends, period), scene, several),
+        tilt=placed.direction * trace.line[1] + placed.tilt + edges.tilt,
+        pressure_error=pressure_error,
+        edge_errors=edge_errors,
     )
 
 
@@ -204,8 +171,10 @@ def _errors(
     return found if period == np.inf else [Periodic(one, period) for one in found]
 
 
-def _implied(errors: list[Profile], scene: Scene, several: SeveralPatches) -> dict[str, Any]:
-    """The errors of pressure and edges by those of the profile, as a report names them."""
+def _implied(
+    errors: list[Profile], scene: Scene, several: SeveralPatches
+) -> tuple[float, tuple[float, float]]:
+    """The error of the pressure over its peak and those of the edges, by those of the profile."""
     found, pressure, G = several.found, several.pressure, several.pressure.half_modulus
     if scene.moment is not None:
         found = replace(found, given=found.given._replace(moment=scene.moment / G))
@@ -221,14 +190,9 @@ def _implied(errors: list[Profile], scene: Scene, several: SeveralPatches) -> di
     p, edges = _together(changes), _together(moves)
     capped = np.where(edges > 0.0, np.minimum(edges, P.r[:, None]), 0.0)
     beside = pressure(np.stack((P.a, P.b), axis=1) + capped * (1, -1))
-    inner, peak = float(p.max()), float(pressure(places).max())
-    outer = float(np.where(edges > 0.0, beside, 0.0).max())
-    return {
-        "pressure_error": max(inner, outer) / peak,
-        "inner_error": inner / peak,
-        "edge_errors": (float(edges[0, 0]), float(edges[-1, 1])),
-        "unsure_patches": int((edges.max(axis=1) > P.r).sum()),
-    }
+    outer = np.where(edges > 0.0, beside, 0.0)
+    largest = max(float(p.max()), float(outer.max())) / float(pressure(places).max())
+    return largest, (float(edges[0, 0]), float(edges[-1, 1]))
 
 
 def _together(changes: list[Array]) -> Array:

@@ -1,25 +1,8 @@
-"""The command line.
-
-    sie solve scene.toml            solve a scene, and print, draw or write the answer
-        [--want WHAT ...] [--plot FILE] [--csv FILE] [--json [FILE]]
-        [--field FILE] [--grid NXxNY] [--points N] [--tol T] [--quiet]
-    sie compare scene.toml fem.csv  a mesh result against the exact one: error norms, peaks
-        [--nodes FILE] [--columns NAMES] [--surface Y] [--body SIDE] [--tol T]
-        [--plot FILE] [--json [FILE]] [--quiet]
-    sie plan scene.toml             what would be computed, what would be skipped, and why
-        [--want WHAT ...]
-    sie live [scene.toml]           a page with sliders, served on this machine
-        [--port N] [--no-browser]
-    sie example [NAME]              a commented scene file; without NAME, the list of them
-    sie export-boundary scene.toml --nodes deck.inp --set NAME     lines for the deck: exact
-        [--kind KIND] [--surface Y]      displacements or forces on the boundary of a mesh
-        [--body SIDE] [--zero X,Y] [--csv FILE] [--quiet]
-    sie benchmark-set DIR           contacts with exact references, to measure other codes by
-    sie schema                      the JSON Schema of scene files, for editors
+"""The command line; `sie --help` lists the commands, `sie COMMAND --help` the options of one.
 
 `python -m sie` is the same. In place of a file, - is standard input (the scene) or standard output
-(--csv, --json). No file that a scene or a command reads is written to. The exit codes
-are those of `parser.EXIT_CODES`.
+(--csv, --json). No file that a scene or a command reads is written to. The exit codes are those of
+`parser.EXIT_CODES`.
 """
 
 from __future__ import annotations
@@ -297,9 +280,9 @@ def _content(
 ) -> bytes:
     """The content of a file that `sie solve` writes."""
     if kind == "field":
-        from sie.io.stress_grid import Grid
+        from sie.io.stress_grid import grid_csv
 
-        return Grid(solution, *(arguments.grid or GRID)).csv(file).encode()
+        return grid_csv(solution, file, *(arguments.grid or GRID)).encode()
     if kind == "plot":
         return _bytes(_picture(solution, file), path)
     from sie.io import export

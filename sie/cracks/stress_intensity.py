@@ -19,7 +19,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from functools import lru_cache, partial
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -29,31 +29,20 @@ from sie.cauchy.density import Part
 from sie.cauchy.equation import CauchyEquation
 from sie.cauchy.system import System
 from sie.numerics import jacobi
-from sie.stress.half_plane import Stress, Tractions
+from sie.numerics.root_finding import false_positions
+from sie.stress.fretting import table_of_rows
 
 from .edge_crack import CrackCertificate, EdgeCrack, cells, opened, regular_kernel
 
 Array = NDArray[np.float64]
 
 MOST_DEPTHS = 10_000
-BISECTIONS = 60  # of the logarithm of the depth at which a crack stops
 LEAST = 64.0  # spacings of doubles at the place of a crack: the least depth
 # W then has 9 digits for a stress that varies over a thousandth of the depth, next to the surface,
 # and 13 where it varies over a tenth
 NODES = 192
 # Cells at the tip in which the sign of K tells more than that of the opening does
 AT_TIP = 3
-
-
-class State(Protocol):
-    """The attributes of a solution that a crack uses."""
-
-    def stress(self, x: ArrayLike, y: ArrayLike) -> Stress:
-        """The stress in the body."""
-
-    @property
-    def tractions(self) -> Tractions:
-        """The tractions, the bulk stress and the body."""
 
 
 class StressIntensity:
@@ -85,7 +74,7 @@ class StressIntensity:
     Fract. Mech. 73 (2006) 207-222.
     """
 
-    def __init__(self, states: Sequence[State], at: float, depth: Array) -> None:
+    def __init__(self, states: Sequence[Any], at: float, depth: Array) -> None:
         self.states, self.at, self.depth = states, at, depth
         self.mode_1, self.mode_2 = self._modes(depth)
         self.range, self.shear_range = np.ptp(self.mode_1, axis=0), np.ptp(self.mode_2, axis=0)
@@ -94,7 +83,7 @@ class StressIntensity:
         found = [modes(partial(self._stress, state), depth) for state in self.states]
         return np.stack(found, axis=1)
 
-    def _stress(self, state: State, y: Array) -> tuple[Array, Array]:
+    def _stress(self, state: Any, y: Array) -> tuple[Array, Array]:
         stress = state.stress(self.at, y)
         return stress.xx, stress.xy
 
@@ -112,12 +101,7 @@ class StressIntensity:
             columns[f"{name}_max"], columns[f"{name}_min"] = K.max(axis=0), K.min(axis=0)
             columns[f"{name}_range"] = np.ptp(K, axis=0)
         table = np.transpose([*columns.values()]).tolist()
-        rows = [dict(zip(columns, row, strict=True)) for row in table]
-        try:
-            import pandas  # type: ignore[import, unused-ignore]  # noqa: PLC0415
-        except ImportError:
-            return rows
-        return pandas.DataFrame(rows)
+        return table_of_rows([dict(zip(columns, row, strict=True)) for row in table])
 
     def threshold(
         self, threshold: float, fatigue_limit: float, depth: ArrayLike | None = None
@@ -164,14 +148,11 @@ class StressIntensity:
         k = int(np.argmin(above))
         if k == 0:
             return float(self.depth[0])
-        low, high = self.depth[k - 1], self.depth[k]
-        for _ in range(BISECTIONS):
-            a = np.array([math.sqrt(low * high)])
-            if not low < a[0] < high:
-                break
-            grows = np.ptp(self._modes(a)[0]) > self.threshold(threshold, fatigue_limit, a)[0]
-            low, high = (a[0], high) if grows else (low, a[0])
-        return float(high)
+
+        def excess(a: Array) -> Array:
+            return np.ptp(self._modes(a)[0], axis=0) - self.threshold(threshold, fatigue_limit, a)
+
+        return float(false_positions(excess, self.depth[k - 1 : k], self.depth[k : k + 1])[0])
 
     def crack(self, turning_point: int, depth: float) -> EdgeCrack:
         """One of the cracks by itself, with its opening, its closed zones and its certificate.
@@ -242,7 +223,7 @@ class StressIntensity:
 
 
 def stress_intensity(
-    states: Sequence[State], at: float, depth: ArrayLike, face_friction: float = 0.0
+    states: Sequence[Any], at: float, depth: ArrayLike, face_friction: float = 0.0
 ) -> StressIntensity:
     """The cracks of a cycle. ValueError for cracks that are none, before anything is computed."""
     at = arguments.measure("at", at)

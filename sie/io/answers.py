@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from contextlib import suppress
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,7 +19,6 @@ if TYPE_CHECKING:
     from sie.profiles.trace_units import Reading
 
     from .scene_file import SceneFile
-    from .solution_names import Answer
 
 Array = NDArray[np.float64]
 
@@ -31,20 +30,21 @@ def wanted(file: SceneFile) -> tuple[str, ...]:
     return file.want or UNASKED
 
 
-def readings_of(solution: Answer) -> list[Reading]:
+def readings_of(solution: Any) -> list[Reading]:
     """How the columns of each trace from a file were read: their units, and what is material."""
     readings = (placed.trace.reading for placed in traces_in(solution.scene.profile))
     return [reading for reading in readings if reading.file]
 
 
-def notes_of(solution: Answer, file: SceneFile) -> tuple[str, ...]:
+def notes_of(solution: Any, file: SceneFile) -> tuple[str, ...]:
     """The notes on what is neglected, and on slip where a wanted quantity depends on it.
 
     If only the edges are wanted, the pressure is not computed, and its mean stands for it.
     """
     asked, scene = set(wanted(file)), solution.scene
     if asked == {"edges"} and not scene.bonded:
-        slopes = scene.profile.slope(np.linspace(*solution.edges, LOOKED_AT)) + solution.tilt
+        x1, x2 = solution.edges
+        slopes = scene.profile.slope(np.linspace(x1, x2, LOOKED_AT)) + solution.tilt
         strains = notes(slopes, 0.5 * solution.normal_load / solution.half_width / scene.Estar)
     else:
         strains = solution.strain_notes
@@ -52,7 +52,7 @@ def notes_of(solution: Answer, file: SceneFile) -> tuple[str, ...]:
     return *strains, *solution.coupling_notes, *_yield_notes(solution, file), *slip
 
 
-def _yield_notes(solution: Answer, file: SceneFile) -> tuple[str, ...]:
+def _yield_notes(solution: Any, file: SceneFile) -> tuple[str, ...]:
     """A sentence where the yield stress is exceeded at a point of a path, not between them."""
     strength, unit = file.fatigue.yield_stress, file.units.stress
     mises = max(map(_mises, solution.history or (solution,))) if strength else 0.0
@@ -65,14 +65,14 @@ def _yield_notes(solution: Answer, file: SceneFile) -> tuple[str, ...]:
     )
 
 
-def _mises(solution: Answer) -> float:
+def _mises(solution: Any) -> float:
     """The largest Mises stress in the body; 0 where it is not known."""
     with suppress(ContactError, ValueError):
         return math.sqrt(3.0) * solution.elastic_limit().stress
     return 0.0
 
 
-def slip_of(solution: Answer, x: Array) -> dict[str, Array]:
+def slip_of(solution: Any, x: Array) -> dict[str, Array]:
     """The slip at x; {} where it is not known.
 
     A path does not determine it for points that came into contact while the bodies slipped.
@@ -82,14 +82,14 @@ def slip_of(solution: Answer, x: Array) -> dict[str, Array]:
     return {}
 
 
-def energy_of(solution: Answer) -> dict[str, float]:
+def energy_of(solution: Any) -> dict[str, float]:
     """The dissipated energy; {} where it is a sum over states, or not known (full sliding)."""
     with suppress(ContactError):
         return {} if energy_costs(solution.scene) else {"energy_lost": solution.energy_lost}
     return {}
 
 
-def slipping(solution: Answer) -> tuple[tuple[float, float, float], ...]:
+def slipping(solution: Any) -> tuple[tuple[float, float, float], ...]:
     """The zones that slip or have slipped, (lo, hi, sign of q)."""
     if solution.scene.epsilon:
         return ((*solution.edges, float(solution.scene.slides)),)

@@ -13,15 +13,12 @@ import itertools
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from sie.problem.material import Elastic
-
-if TYPE_CHECKING:
-    from .solution_names import Answer
 
 Array = NDArray[np.float64]
 
@@ -69,7 +66,7 @@ class Blocks:
     @classmethod
     def around(
         cls,
-        solution: Answer,
+        solution: Any,
         per_half_width: int,
         *,
         reach: float = REACH,

@@ -29,7 +29,6 @@ if TYPE_CHECKING:
 
     from .beside_scene import Fatigue, Units
     from .scene_file import SceneFile
-    from .solution_names import Answer
 
 Array = NDArray[np.float64]
 
@@ -76,7 +75,7 @@ def _earlier(path: Path) -> int:
 
 
 @reported("cycle")
-def cycle_of(solution: Answer, file: SceneFile) -> dict[str, Any]:
+def cycle_of(solution: Any, file: SceneFile) -> dict[str, Any]:
     """What JSON and the report say of the last cycle of a path."""
     start = start_of_cycle(file.load_path)
     assert solution.history is not None
@@ -96,7 +95,7 @@ def cycle_of(solution: Answer, file: SceneFile) -> dict[str, Any]:
     return answer | _parameters(cycle, file.fatigue, (0.0, *depths), known)
 
 
-def _states(history: Any, start: int, parts: int) -> Sequence[Answer]:
+def _states(history: Any, start: int, parts: int) -> Sequence[Any]:
     """The solutions over the cycle; steps that are followed part by part are not divided."""
     if parts == 1 or any(point.parts for point in history.turning_points):
         return history[start:]
@@ -111,7 +110,7 @@ def _energy(history: Any, start: int) -> dict[str, float]:
         return {}
 
 
-def _slip(turning: Cycle, tractions: Sequence[Tractions], widest: Answer) -> dict[str, Any]:
+def _slip(turning: Cycle, tractions: Sequence[Tractions], widest: Any) -> dict[str, Any]:
     """The largest slip amplitude and Ruiz' parameters, by the states at the turning points.
 
     In each step a point slips in one direction, so that no other states are needed; the slip of
@@ -144,21 +143,11 @@ def _largest(x: Array, quantity: Callable[[Array], Array], rounds: int = ROUNDS)
 
 def _stress_range(cycle: Cycle, x: Array, name: str) -> dict[str, Any]:
     """The largest range of a stress on the surface, its place, and the stresses there."""
-
-    def over_cycle(x: Array) -> Array:
-        stresses = np.stack([getattr(state.stress(x, 0.0), name) for state in cycle.states])
-        return np.where(np.isfinite(stresses), stresses, np.inf)
-
-    def width(x: Array) -> Array:
-        stresses = over_cycle(x)
-        finite = np.isfinite(stresses).all(axis=0)
-        return np.where(finite, np.ptp(np.where(finite, stresses, 0.0), axis=0), np.inf)
-
-    found = _largest(x, width)
+    found = _largest(x, lambda x: cycle.range(x, 0.0)[name].range)
     if "reason" in found:
         return found
-    stresses = over_cycle(np.array([found["x"]]))
-    ends = {"lowest": float(stresses.min()), "highest": float(stresses.max())}
+    there = cycle.range(found["x"], 0.0)[name]
+    ends = {"lowest": float(there.lowest), "highest": float(there.highest)}
     return {"range": found["value"], "x": found["x"]} | ends
 
 
@@ -192,7 +181,7 @@ def _at_depth(find: Callable[[float], Any], y: float) -> dict[str, Any]:
 
 
 @reported("crack")
-def crack_answer(solution: Answer, file: SceneFile) -> dict[str, Any]:
+def crack_answer(solution: Any, file: SceneFile) -> dict[str, Any]:
     """What JSON and the report say of the cracks."""
     assert file.crack is not None
     states, crack = _of_cracks(solution, file), file.crack
@@ -213,7 +202,7 @@ def crack_answer(solution: Answer, file: SceneFile) -> dict[str, Any]:
     return answer
 
 
-def _of_cracks(solution: Answer, file: SceneFile) -> Sequence[Answer]:
+def _of_cracks(solution: Any, file: SceneFile) -> Sequence[Any]:
     """The turning points of the last cycle, all points of another path, or the one state."""
     history = solution.history
     if history is None or file.load_path is None:
@@ -221,7 +210,7 @@ def _of_cracks(solution: Answer, file: SceneFile) -> Sequence[Answer]:
     return history[max(_earlier(file.load_path), 0) :]
 
 
-def _edge(states: Sequence[Answer], name: str) -> float:
+def _edge(states: Sequence[Any], name: str) -> float:
     """The edge of the contact under the largest tangential load."""
     pushed = max(states, key=lambda state: abs(state.tangential_load))
     Q = pushed.tangential_load

@@ -38,10 +38,10 @@ and, where they are wanted,
                  certificate, and with its constants threshold and arrest ("Infinity" for none)}
     path        of load paths: [{normal_load, tangential_load, bulk_stress, tilt or moment if the
                  path has them, stick, energy_lost if known}, ..]
-    traces      with check, of measured traces: [{points, smoothing, averaged, separated, misfit,
+    traces      with check, of measured traces: [{points, smoothing, misfit,
                  outliers [[x, off], ..], gaps [{lo, hi, missing}, ..],
-                 mended {left_out, averaged, sorted}, tilt, aside,
-                 pressure_error, inner_error, edge_errors [x1, x2], unsure_patches}, ..]
+                 mended {left_out, averaged, sorted}, tilt, pressure_error, edge_errors [x1, x2]},
+                 ..]
 
 Floats are written as `repr` writes them, so that nothing is lost. JSON has no infinity: it is the
 string "Infinity" or "-Infinity", which Python's float(), NumPy and JavaScript's Number() read as
@@ -71,7 +71,6 @@ from .scene_tables import tables_of
 if TYPE_CHECKING:
     from sie.traction.base import Density
 
-    from .solution_names import Answer
 
 Array = NDArray[np.float64]
 
@@ -79,7 +78,7 @@ TRACTIONS = ("x", "p", "gap", "q", "slip")  # columns of CSV, those of ...
 STRESSES, LENGTHS = ("p", "q"), ("x", "gap", "slip")
 
 
-def csv_text(solution: Answer, file: SceneFile, points: int = POINTS) -> str:
+def csv_text(solution: Any, file: SceneFile, points: int = POINTS) -> str:
     """x, pressure and gap, always, as the module's docstring describes; of a path at each point."""
     units, history = file.units, solution.history
     if history is None:
@@ -118,7 +117,7 @@ def _along_path(history: Any, points: int) -> dict[str, Array]:
     return {name: np.concatenate([table[name] for table in tables]) for name in tables[0]}
 
 
-def _columns(solution: Answer, points: int) -> dict[str, Array]:
+def _columns(solution: Any, points: int) -> dict[str, Array]:
     x = abscissae(solution, points)
     columns = {"x": x, "p": solution.pressure(x), "gap": solution.gap(x)}
     if solution.carries_shear:
@@ -127,7 +126,7 @@ def _columns(solution: Answer, points: int) -> dict[str, Array]:
 
 
 def json_text(
-    solution: Answer,
+    solution: Any,
     file: SceneFile,
     points: int = POINTS,
     more: Mapping[str, Any] | None = None,
@@ -142,7 +141,7 @@ def strict_json(value: Any) -> str:
 
 
 def as_dict(
-    solution: Answer,
+    solution: Any,
     file: SceneFile,
     points: int = POINTS,
     more: Mapping[str, Any] | None = None,
@@ -172,7 +171,7 @@ def as_dict(
     return out | {name: of(solution, points) for name, of in SECTIONS.items() if name in asked}
 
 
-def _patches(solution: Answer) -> dict[str, Any]:
+def _patches(solution: Any) -> dict[str, Any]:
     """The patches, their loads, length and gaps, where there are several or the contact repeats."""
     period = solution.scene.profile.period
     if len(solution.patches) < 2 and math.isinf(period):
@@ -196,18 +195,18 @@ def _totals(density: Density) -> dict[str, float]:
     return {"resultant": density.resultant, "moment": density.moment}
 
 
-def _pressure(solution: Answer, points: int) -> dict[str, Any]:
+def _pressure(solution: Any, points: int) -> dict[str, Any]:
     p, x, (largest, where) = solution.pressure, inside(solution, points), peak(solution)
     return {"peak": {"p": largest, "x": list(where)}, **_totals(p), **_lists(x=x, p=p(x))}
 
 
-def _gap(solution: Answer, points: int) -> dict[str, Any]:
+def _gap(solution: Any, points: int) -> dict[str, Any]:
     left, right = beside(solution, points)
     x = np.concatenate((left, solution.edges, right))
     return _lists(x=x, gap=solution.gap(x))
 
 
-def _shear(solution: Answer, points: int) -> dict[str, Any]:
+def _shear(solution: Any, points: int) -> dict[str, Any]:
     x, q = inside(solution, points), solution.shear
     zones = {"stick": solution.stick, "slipping": slipping(solution)}
     return {
@@ -219,13 +218,13 @@ def _shear(solution: Answer, points: int) -> dict[str, Any]:
     }
 
 
-def _stress(solution: Answer, points: int) -> dict[str, Any]:
+def _stress(solution: Any, points: int) -> dict[str, Any]:
     x = abscissae(solution, points)
     s = solution.surface_stress(x)
     return _lists(x=x, xx=s.xx, yy=s.yy, xy=s.xy)
 
 
-def _yield(solution: Answer, _points: int) -> dict[str, Any]:
+def _yield(solution: Any, _points: int) -> dict[str, Any]:
     limit = solution.elastic_limit()
     return {
         "ratio": limit.ratio,
@@ -236,7 +235,7 @@ def _yield(solution: Answer, _points: int) -> dict[str, Any]:
     }
 
 
-SECTIONS: dict[str, Callable[[Answer, int], dict[str, Any]]] = {
+SECTIONS: dict[str, Callable[[Any, int], dict[str, Any]]] = {
     "pressure": _pressure,
     "gap": _gap,
     "shear": _shear,

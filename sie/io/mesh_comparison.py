@@ -22,7 +22,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import asdict, dataclass, replace
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,9 +30,6 @@ from numpy.typing import NDArray
 from .mesh_files.names import STRESSES, TRACTIONS
 from .mesh_result import Mesh, Points, joined
 from .sample_points import inside, peak
-
-if TYPE_CHECKING:
-    from .solution_names import Answer
 
 Array = NDArray[np.float64]
 Exact = Callable[[Any, Array, Array], Array]  # of a solution at x, y
@@ -153,7 +150,7 @@ class Comparison:
         return "\n".join([*lines, verdict])
 
 
-def compare(solution: Answer, mesh: Mesh, tol: float) -> Comparison:
+def compare(solution: Any, mesh: Mesh, tol: float) -> Comparison:
     """Every quantity of the mesh against the exact one. ValueError if no point is in contact."""
     _refuse_elsewhere(solution, mesh)
     for step in (_known, _near_contact, _mirrored, _with_sign_of_shear):
@@ -162,7 +159,7 @@ def compare(solution: Answer, mesh: Mesh, tol: float) -> Comparison:
     return Comparison(mesh, tol, differences, _peaks(solution, mesh))
 
 
-def _difference(name: str, solution: Answer, mesh: Mesh) -> Difference:
+def _difference(name: str, solution: Any, mesh: Mesh) -> Difference:
     (x, y, values), weight = mesh.fields[name], mesh.weights(name)
     exact = EXACT[name](solution, x, y)
     finite = np.isfinite(exact)
@@ -183,7 +180,7 @@ def _difference(name: str, solution: Answer, mesh: Mesh) -> Difference:
     )
 
 
-def _peaks(solution: Answer, mesh: Mesh) -> tuple[Peak, ...]:
+def _peaks(solution: Any, mesh: Mesh) -> tuple[Peak, ...]:
     """The peaks of what the mesh has: p, q, σ_xx on its surface, Mises; finite ones."""
     fields = mesh.fields
     rows: list[tuple[str, float, float]] = []
@@ -200,7 +197,7 @@ def _peaks(solution: Answer, mesh: Mesh) -> tuple[Peak, ...]:
     return tuple(Peak(*row) for row in rows if row[1] > 0.0 and math.isfinite(row[1]))
 
 
-def largest_shear(solution: Answer) -> tuple[float, float]:
+def largest_shear(solution: Any) -> tuple[float, float]:
     """The shear of the largest size, and its place: among sample points and the ends of stick."""
     x = np.concatenate((inside(solution), *solution.stick[-1:]))
     q = solution.shear(x)
@@ -223,7 +220,7 @@ def _mises(mesh: Mesh) -> float:
 # -- what is compared ------------------------------------------------------------------------------
 
 
-def _refuse_elsewhere(solution: Answer, mesh: Mesh) -> None:
+def _refuse_elsewhere(solution: Any, mesh: Mesh) -> None:
     x1, x2 = solution.edges
     x = np.concatenate([field.x for field in mesh.fields.values()])
     count = np.count_nonzero((x > x1) & (x < x2))
@@ -237,7 +234,7 @@ def _refuse_elsewhere(solution: Answer, mesh: Mesh) -> None:
     )
 
 
-def _known(solution: Answer, mesh: Mesh) -> Mesh:
+def _known(solution: Any, mesh: Mesh) -> Mesh:
     """The mesh without what the scene does not determine. ValueError if nothing remains."""
     fields, notes = dict(mesh.fields), list(mesh.notes)
     for name, (x, y, _) in mesh.fields.items():
@@ -251,7 +248,7 @@ def _known(solution: Answer, mesh: Mesh) -> Mesh:
     return replace(mesh, fields=fields, notes=tuple(notes))
 
 
-def _near_contact(solution: Answer, mesh: Mesh) -> Mesh:
+def _near_contact(solution: Any, mesh: Mesh) -> Mesh:
     """The mesh with those points of stresses that are near the contact."""
     (x1, x2), reach = solution.edges, NEAR * solution.half_width
     fields, notes = dict(mesh.fields), dict.fromkeys(mesh.notes)
@@ -270,7 +267,7 @@ def _near_contact(solution: Answer, mesh: Mesh) -> Mesh:
     return replace(mesh, fields=fields, notes=tuple(notes))
 
 
-def _mirrored(solution: Answer, mesh: Mesh) -> Mesh:
+def _mirrored(solution: Any, mesh: Mesh) -> Mesh:
     """The whole of a symmetric contact, of which the mesh has half."""
     r, centre = solution.half_width, 0.5 * sum(solution.edges)
     traction = next((name for name in TRACTIONS if name in mesh.fields), None)
@@ -301,7 +298,7 @@ def _with_image(name: str, field: Points, centre: float) -> Points:
     return joined([image.chosen(np.abs(x - centre) > SAME * np.ptp(x)), field])
 
 
-def _with_sign_of_shear(solution: Answer, mesh: Mesh) -> Mesh:
+def _with_sign_of_shear(solution: Any, mesh: Mesh) -> Mesh:
     """The mesh with q turned over where that is nearer to the exact one."""
     if "q" not in mesh.fields:
         return mesh

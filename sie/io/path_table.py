@@ -18,7 +18,7 @@ from sie.arguments import suggestion
 from sie.problem.load_path import Path
 from sie.profiles.trace_files import read_table
 
-from .toml_values import refuse_unread
+from .scene_values import refuse_unread
 
 if TYPE_CHECKING:
     from .profile_tables import Files

@@ -15,7 +15,7 @@ from sie.profiles.row import Periodic, Row
 from sie.profiles.sampled import Sampled
 
 from .scene_keys import MODIFIERS, PERIOD, forms_of, naming, read_values, require
-from .toml_values import TEXT, choice, refuse_unread, table_of
+from .scene_values import TEXT, choice, refuse_unread, table_of, value_of
 
 KIND = {"kind": TEXT}
 
@@ -73,7 +73,7 @@ def _term(where: str, table: dict[str, Any], beside: Files) -> Profile:
             if meant
             else f"{where} lacks kind: give kind = {choices([*KINDS, 'row'])}"
         )
-    kind = choice([*KINDS, "row"]).read(f"{where} kind", table["kind"])
+    kind = value_of(f"{where} kind", table["kind"], choice([*KINDS, "row"]))
     if kind == "row":
         return _row(where, table, beside)
     first, *others = forms_of(kind)

@@ -19,11 +19,9 @@ from .sample_points import SAME_PEAK, ceiling, full, peak, reach
 if TYPE_CHECKING:
     from .beside_scene import Units
     from .scene_file import SceneFile
-    from .solution_names import Answer
 
 NONE: Mapping[str, Any] = {}
-SAME_PLACE = 1e-7  # of the half-width: rounding of p leaves a smooth peak uncertain by as much
-NOTHING = 1e-13  # of its scale: a smaller number is rounding, and is printed as 0
+NOTHING = 1e-12  # of its scale: a smaller number is rounding, and is printed as 0
 MANY_ZONES = 8  # so many zones of stick or slip are listed
 HEIGHT, NARROWEST = 8, 20  # rows of the text picture, and its columns at least
 Row = tuple[str, str]  # the name and the words of one quantity
@@ -31,7 +29,7 @@ BETWEEN = "  "  # what stands between the columns of a table
 
 
 def summary(
-    solution: Answer, file: SceneFile, more: Mapping[str, Any] = NONE, width: int = WIDE
+    solution: Any, file: SceneFile, more: Mapping[str, Any] = NONE, width: int = WIDE
 ) -> str:
     """All wanted quantities, section by section, with a picture of so many columns.
 
@@ -71,7 +69,7 @@ def summary(
 class Rows:
     """The rows of each quantity, in words with units."""
 
-    solution: Answer
+    solution: Any
     units: Units
 
     def edges(self) -> list[Row]:
@@ -122,7 +120,7 @@ class Rows:
     def pressure(self) -> list[Row]:
         """The peak pressure and the mean pressure."""
         largest, where = peak(self.solution)
-        places = [_number(x, self._r, SAME_PLACE) for x in where[:2]]
+        places = [_number(x, self._r) for x in where[:2]]
         places += [f"{len(where) - 2} more"] if len(where) > 2 else []
         mean = self.solution.normal_load / self.solution.contact_length
         return [
@@ -208,9 +206,7 @@ class Rows:
         if math.isinf(limit.stress):
             place = f"x = {self._length(limit.x, r)} on the surface"
             return [("elastic limit", f"0: the stress is infinite at {place}")]
-        places = (
-            f"x = {_number(x, r, SAME_PLACE)}, y = {self._length(y)}" for x, y in limit.places
-        )
+        places = (f"x = {_number(x, r)}, y = {self._length(y)}" for x, y in limit.places)
         ratio = f"P/(bk) = {_number(limit.ratio)} (von Mises)"
         stress = f"it yields if k < {self._stress(limit.stress)}"
         return [("elastic limit", f"{ratio}: {stress}"), ("weakest point", " and ".join(places))]
@@ -246,8 +242,8 @@ ROWS: dict[str, Callable[[Rows], list[Row]]] = {
 }
 
 
-def _number(value: float, scale: float = 0.0, nothing: float = NOTHING) -> str:
-    return f"{0.0 if abs(value) < nothing * scale else value:.6g}"
+def _number(value: float, scale: float = 0.0) -> str:
+    return f"{0.0 if abs(value) < NOTHING * scale else value:.6g}"
 
 
 # -- tables and pictures ---------------------------------------------------------------------------
@@ -286,7 +282,7 @@ def table(head: Sequence[str], rows: Sequence[Sequence[float | str]]) -> str:
     return "\n".join(lines)
 
 
-def text_picture(solution: Answer, units: Units, width: int = WIDE) -> str:
+def text_picture(solution: Any, units: Units, width: int = WIDE) -> str:
     """The pressure over the contact as columns of blocks; ↑ where it rises above the picture."""
     (x1, x2), r, top = solution.edges, solution.half_width, ceiling(solution)
     margin = len(_number(top))

@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from sie.numerics.interval import EPS
+from sie.numerics.root_finding import false_positions
 from sie.problem.request import POINTS
-
-if TYPE_CHECKING:
-    from .solution_names import Answer
 
 Array = NDArray[np.float64]
 
@@ -20,12 +18,11 @@ Array = NDArray[np.float64]
 BESIDE = 0.25
 REACH = 0.6
 FEWEST = 12  # points on each of several patches, and in each gap
-# Peaks of the pressure: sampled, then narrowed this often among this many points. The last step is
-# below the flat top that rounding leaves.
 PER_BREAK = 4  # points for each break; where there are fewer, breaks are passed over
-ZOOMS = 8
-ZOOM_POINTS = 41
-LESSER = 0.5  # of the largest pressure: below it a peak is not narrowed
+# Of a peak's neighbours, what is left out next to them, where p' may be infinite; and how far a
+# sample may be from the zero of p', in half-widths, to be taken for it.
+INSET, SAME_PLACE = 1e-9, 1e-12
+LESSER = 0.5  # of the largest pressure: below it a peak is not looked for between samples
 SAME_PEAK = 1e-9  # relative: a symmetric pressure has its peak twice
 # A picture cuts a spike that is so many times the 95th percentile of the pressure over the contact.
 # The picture then ends a little above that percentile.
@@ -33,7 +30,7 @@ SPIKE = 3.0
 ABOVE_ORDINARY = 1.4
 
 
-def inside(solution: Answer, points: int = POINTS) -> Array:
+def inside(solution: Any, points: int = POINTS) -> Array:
     """About `points` positions from x1 to x2, ascending, with the edges and the breaks.
 
     Between breaks the points are Chebyshev's, dense at both ends. Half of all points are shared out
@@ -55,7 +52,7 @@ def inside(solution: Answer, points: int = POINTS) -> Array:
     return np.unique(np.concatenate([*parts, ends]))
 
 
-def beside(solution: Answer, points: int = POINTS) -> tuple[Array, Array]:
+def beside(solution: Any, points: int = POINTS) -> tuple[Array, Array]:
     """Positions left and right of the contact, ascending, without the edges.
 
     They end at a distance `reach`, or where the indenter ends.
@@ -68,23 +65,23 @@ def beside(solution: Answer, points: int = POINTS) -> tuple[Array, Array]:
     return x[(x >= left) & (x < x1)], x[(x > x2) & (x <= right)]
 
 
-def reach(solution: Answer) -> float:
+def reach(solution: Any) -> float:
     """REACH half-widths, or half the way to the contact of the next period if that is less."""
     (x1, x2), period = solution.edges, solution.scene.profile.period
     return min(REACH * solution.half_width, max(0.5 * (period - (x2 - x1)), 0.0))
 
 
-def full(solution: Answer) -> bool:
+def full(solution: Any) -> bool:
     """Whether all of a period is in contact, so that the contact has no edges."""
     return solution.contact_length >= solution.scene.profile.period
 
 
-def _corners(solution: Answer, points: int) -> tuple[float, ...]:
+def _corners(solution: Any, points: int) -> tuple[float, ...]:
     breaks = solution.scene.profile.breaks
     return breaks if len(breaks) <= points // PER_BREAK else ()
 
 
-def abscissae(solution: Answer, points: int = POINTS) -> Array:
+def abscissae(solution: Any, points: int = POINTS) -> Array:
     """Left of the contact, in it, and right of it."""
     left, right = beside(solution, points)
     return np.concatenate((left, inside(solution, points), right))
@@ -102,8 +99,8 @@ class Summit(NamedTuple):
     p: float
 
 
-def summits(solution: Answer) -> tuple[Summit, ...]:
-    """The local maxima of the pressure, from left to right; only the highest are narrowed down."""
+def summits(solution: Any) -> tuple[Summit, ...]:
+    """The local maxima of the pressure, from left to right; the highest ones where p' = 0."""
     x = np.union1d(inside(solution), [solution.centre])
     if len(solution.patches) > 1:
         x = np.union1d(x, solution.pressure.breaks)
@@ -111,12 +108,19 @@ def summits(solution: Answer) -> tuple[Summit, ...]:
     padded = np.concatenate(([-np.inf], p, [-np.inf]))
     top = np.flatnonzero((p > padded[:-2]) & (p >= padded[2:]))
     high = top[np.isfinite(p[top]) & (p[top] >= LESSER * p[np.isfinite(p)].max())]
-    ends = x[np.maximum(high - 1, 0)], x[np.minimum(high + 1, len(x) - 1)]
-    x[high], p[high] = _narrowed(solution, x[high], *ends)
+    lo, hi = x[np.maximum(high - 1, 0)], x[np.minimum(high + 1, len(x) - 1)]
+    inset = INSET * (hi - lo)
+    zeros = false_positions(
+        lambda t: -solution.pressure.cauchy_derivative(t).imag, lo + inset, hi - inset
+    )
+    own, values = high[np.searchsorted(hi, zeros)], solution.pressure(zeros)
+    apart = np.abs(zeros - x[own]) > SAME_PLACE * solution.half_width
+    better = apart & (values >= p[own] * (1.0 - 4.0 * EPS))
+    x[own[better]], p[own[better]] = zeros[better], values[better]
     return tuple(map(Summit, x[top].tolist(), p[top].tolist()))
 
 
-def peak(solution: Answer) -> tuple[float, tuple[float, ...]]:
+def peak(solution: Any) -> tuple[float, tuple[float, ...]]:
     """(largest pressure, where): at more than one x if the pressure is as large there."""
     maxima = summits(solution)
     largest = max(s.p for s in maxima)
@@ -124,7 +128,7 @@ def peak(solution: Answer) -> tuple[float, tuple[float, ...]]:
     return largest, tuple(s.x for s in maxima if s.p == largest or s.p >= least)
 
 
-def ceiling(solution: Answer) -> float:
+def ceiling(solution: Any) -> float:
     """The largest pressure that a picture shows: the peak, unless it is infinite or narrow."""
     starts, stops = np.transpose(solution.patches)
     before = np.cumsum(stops - starts) - (stops - starts)
@@ -134,17 +138,3 @@ def ceiling(solution: Answer) -> float:
     ordinary = float(np.quantile(p, 0.95, method="lower"))
     largest, _ = peak(solution)
     return largest if largest <= SPIKE * ordinary else ABOVE_ORDINARY * ordinary
-
-
-def _narrowed(solution: Answer, x: Array, lo: Array, hi: Array) -> tuple[Array, Array]:
-    """(x, value) of the largest pressures in [lo, hi]; x moves only for a gain beyond rounding."""
-    p, every = solution.pressure(x), np.arange(len(x))
-    for _ in range(ZOOMS):
-        near = np.linspace(lo, hi, ZOOM_POINTS, axis=1)
-        values = solution.pressure(near)
-        k = np.argmax(values, axis=1)
-        gain = values[every, k] > p * (1.0 + 4.0 * EPS)
-        x, p = np.where(gain, near[every, k], x), np.where(gain, values[every, k], p)
-        step = (hi - lo) / (ZOOM_POINTS - 1)
-        lo, hi = np.maximum(x - step, lo), np.minimum(x + step, hi)
-    return x, p

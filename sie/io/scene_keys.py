@@ -27,25 +27,25 @@ from sie.profiles.trace_files import Column
 from sie.profiles.trace_units import SIDES, Side
 from sie.profiles.trace_values import Smoothing
 
-from .toml_values import (
-    CONSTANT,
+from .scene_values import (
     FLAG,
     NUMBER,
     NUMBERS,
-    PAIR,
     POSITIVE,
     TEXT,
     TEXTS,
+    TWO,
     WHOLE,
-    Kind,
-    by_type,
+    Shape,
     choice,
+    either,
     in_range,
     list_of,
     table_of,
+    value_of,
 )
 
-Keys = Mapping[str, Kind]
+Keys = Mapping[str, Shape]
 EDGES = ("trailing edge", "leading edge")
 POISSON = in_range(exclusiveMinimum=-1.0, maximum=0.5)
 BODY: Keys = {
@@ -59,7 +59,7 @@ LOADS: Keys = {
     "normal_load": POSITIVE,
     "half_width": POSITIVE,
     "tangential_load": NUMBER,
-    "sliding": Kind(NUMBER.read, {"enum": [-1, 0, 1]}),
+    "sliding": NUMBER | {"enum": [-1, 0, 1]},
     "bulk_stress": NUMBER,
 }
 TABLES: Mapping[str, Keys] = {
@@ -73,18 +73,18 @@ TABLES: Mapping[str, Keys] = {
         "coupling": choice(COUPLINGS),
     },
     "fatigue": {
-        "findley_k": CONSTANT,
-        "shear_limit": CONSTANT,
-        "fatemi_socie_k": CONSTANT,
-        "yield_stress": CONSTANT,
-        "depth": by_type(list, list_of(CONSTANT), CONSTANT),
+        "findley_k": POSITIVE,
+        "shear_limit": POSITIVE,
+        "fatemi_socie_k": POSITIVE,
+        "yield_stress": POSITIVE,
+        "depth": either(list_of(POSITIVE), POSITIVE),
         "parts": WHOLE,
     },
     "crack": {
-        "at": by_type(str, choice(EDGES), NUMBER),
-        "depths": list_of(CONSTANT),
-        "threshold": CONSTANT,
-        "fatigue_limit": CONSTANT,
+        "at": either(choice(EDGES), NUMBER),
+        "depths": list_of(POSITIVE),
+        "threshold": POSITIVE,
+        "fatigue_limit": POSITIVE,
         "friction": in_range(minimum=0.0),
     },
     "load": {
@@ -92,7 +92,7 @@ TABLES: Mapping[str, Keys] = {
         "tilt": NUMBER,
         "moment": NUMBER,
         "friction": in_range(minimum=0.0),
-        "path": by_type(str, TEXT, list_of(NUMBERS)),
+        "path": either(TEXT, list_of(NUMBERS)),
         "columns": TEXTS,
     },
 }
@@ -113,23 +113,23 @@ REQUIRED: Mapping[str, tuple[str, ...]] = {"crack": ("at", "depths")}
 
 MODIFIERS: Keys = {"mirrored": FLAG} | dict.fromkeys(("tilted", "shifted", "raised"), NUMBER)
 # Modifiers of a trace, applied in this order before the others.
-TREATMENTS: Keys = {"without_outliers": FLAG, "levelled": by_type(list, PAIR, FLAG)}
+TREATMENTS: Keys = {"without_outliers": FLAG, "levelled": either(list_of(NUMBER, **TWO), FLAG)}
 PERIOD: Keys = {"period": POSITIVE}
 # Parameters of profiles with a limit; those of the same name are alike.
 PARAMETERS: Keys = {
     **dict.fromkeys(("radius", "half_flat", "half_width", "coefficient"), POSITIVE),
     "exponent": in_range(minimum=1.0),
 }
-# The kind of any other parameter, by its type.
-ANNOTATED: Mapping[Any, Kind] = {
+# The shape of any other parameter, by its type.
+ANNOTATED: Mapping[Any, Shape] = {
     bool: FLAG,
     int: WHOLE,
     float: NUMBER,
     str: TEXT,
     str | Path: TEXT,
     Vectorised | str: TEXT,
-    float | tuple[float, float] | None: by_type(list, PAIR, NUMBER),
-    str | tuple[str, str]: by_type(list, TEXTS, TEXT),
+    float | tuple[float, float] | None: either(list_of(NUMBER, **TWO), NUMBER),
+    str | tuple[str, str]: either(TEXTS, TEXT),
     Side | Literal[""]: choice(SIDES),
     Parity: choice(get_args(Parity)),
     tuple[float, float]: NUMBERS,
@@ -137,8 +137,8 @@ ANNOTATED: Mapping[Any, Kind] = {
     Sequence[float]: NUMBERS,
     ArrayLike: NUMBERS,
     Sequence[Sequence[float]]: list_of(NUMBERS),
-    Smoothing: by_type(str, choice(["gcv"]), NUMBER),
-    tuple[Column, Column]: list_of(by_type(str, TEXT, WHOLE), "give the columns of x and of h"),
+    Smoothing: either(choice(["gcv"]), NUMBER),
+    tuple[Column, Column]: list_of(either(TEXT, WHOLE), **TWO),
 }
 
 
@@ -195,7 +195,7 @@ def read_values(where: str, table: Mapping[str, Any], keys: Keys, kind: str = ""
     for name in table:
         if name not in keys:
             raise ValueError(f'{where}{kind} has no key "{name}": {remedy(name, keys, where)}')
-    return {name: keys[name].read(f"{where} {name}", value) for name, value in table.items()}
+    return {name: value_of(f"{where} {name}", value, keys[name]) for name, value in table.items()}
 
 
 def require(where: str, values: Mapping[str, Any], names: Iterable[str]) -> None:
@@ -218,14 +218,12 @@ def naming(where: str) -> Iterator[None]:
 # -- keys that are not known -----------------------------------------------------------------------
 
 # What is said of keys that no table, or only one kind of table, has.
+TOP_OF_FILE = "it stands at the top of the file, before the first [table]"
 ELSEWHERE = {
-    **dict.fromkeys(
-        ("title", "want"), "it stands at the top of the file, before the first [table]"
-    ),
-    "plus": "terms are not nested, write one [[profile.plus]] after the other",
+    **dict.fromkeys(("title", "want"), TOP_OF_FILE),
     "of": 'it belongs to kind "row"',
     "period": "it belongs in [profile], and repeats the whole of it",
-    **dict.fromkeys(("file", "filename", "csv"), "a file is named by path"),
+    "file": "a file is named by path",
     "checked": "units are labels, and nothing is converted: leave it out",
 }
 
@@ -233,29 +231,20 @@ ELSEWHERE = {
 def remedy(key: str, known: Iterable[str], here: str) -> str:
     """The remedy for a key that its table may not hold.
 
-    The key is near a known one, belongs in another table, whose header may have been forgotten, or
-    belongs to another kind of profile.
+    The key is near a known one, or belongs to another table or to another kind of profile.
     """
-    known, of_profile = tuple(known), here.startswith(("[profile]", "[[profile"))
-    if here not in ("", f"[{key}]"):
-        if key in ELSEWHERE:
-            return ELSEWHERE[key]
-        if key in TOP:
-            return f"it is a table of its own, write the header [{key}] and its keys below it"
-    if here == f"[{key}]" or nearest(key, known):
-        return suggestion(key, known)
-    return _homes(key, of_profile) or suggestion(key, known)
-
-
-def _homes(key: str, of_profile: bool) -> str:
-    """The tables or the kinds of profile that a key belongs to, "" for none."""
-    kinds = [
-        kind
-        for kind in KINDS
-        if any(key in form.keys or key in form.treatments for form in forms_of(kind))
-    ]
-    if of_profile and kinds:
-        return f"it belongs to kind {choices(kinds)}"
+    known, elsewhere = tuple(known), here not in ("", f"[{key}]")
+    if elsewhere and key in ELSEWHERE:
+        return ELSEWHERE[key]
+    if elsewhere and key in TOP:
+        return f"it is a table of its own, write the header [{key}] and its keys below it"
     homes = [f"[{table}]" for table, keys in TABLES.items() if key in keys]
-    homes += ["[profile]"] if key == "kind" or kinds or key in MODIFIERS else []
-    return f"it belongs in {' or '.join(homes)}" if homes else ""
+    kinds = [
+        kind for kind in KINDS if any(key in {**f.keys, **f.treatments} for f in forms_of(kind))
+    ]
+    if here == f"[{key}]" or nearest(key, known) or not (homes or kinds or key == "kind"):
+        return suggestion(key, known)
+    if kinds and here.startswith(("[profile]", "[[profile")):
+        return f"it belongs to kind {choices(kinds)}"
+    homes += ["[profile]"] if kinds or key == "kind" else []
+    return f"it belongs in {' or '.join(homes)}"

@@ -27,7 +27,7 @@ from sie.profiles.sampled import Sampled
 
 from .beside_scene import Crack, Fatigue
 from .scene_keys import BESIDE, LOADS, MODIFIERS, PERIOD, REQUIRED, TABLES, Form, Keys, forms_of
-from .toml_values import TEXT, Json
+from .scene_values import TEXT, Shape
 
 # Whose docstrings describe the keys of each table; of the others it is the scene's.
 DESCRIBED = {"fatigue": Fatigue, "crack": Crack, "body": Elastic}
@@ -39,12 +39,12 @@ def schema_text() -> str:
     return json.dumps(schema(), indent=2, ensure_ascii=False) + "\n"
 
 
-def schema() -> Json:
+def schema() -> Shape:
     """The schema of a scene file, by draft 7, which editors know."""
     body = {"$ref": "#/definitions/body"}
     whole = {"plus": TERMS} | _values(PERIOD, Periodic)
     properties = {
-        "title": TEXT.shape,
+        "title": TEXT,
         "want": {"type": "array", "items": {"enum": [*WANTS]}},
         "profile": {"anyOf": _kinds(whole)},
         **{name: _table(name) for name in TABLES},
@@ -68,18 +68,18 @@ def schema() -> Json:
 # -- the tables ----------------------------------------------------------------------------------
 
 
-def _table(name: str) -> Json:
+def _table(name: str) -> Shape:
     table = _object(_values(TABLES[name], DESCRIBED.get(name, Scene)), REQUIRED.get(name, ()))
     beside = {key: [other] for key, other in BESIDE.get(name, {}).items()}
     return table | ({"dependencies": beside} if beside else {})
 
 
-def _body() -> Json:
+def _body() -> Shape:
     given = [_all_of(("young", "poisson")), _all_of(("rigid",), {"rigid": {"const": True}})]
     return {"anyOf": [{"const": "rigid"}, _table("body") | {"anyOf": given}]}
 
 
-def _load() -> Json:
+def _load() -> Shape:
     """One of a load, a width and a path; a path takes the place of all loads."""
     table, no_path = _table("load"), {"not": _all_of(("path",))}
     return table | {
@@ -88,7 +88,7 @@ def _load() -> Json:
     }
 
 
-def _kinds(more: Json) -> list[Json]:
+def _kinds(more: Shape) -> list[Shape]:
     """The tables of all kinds of profile, each with more keys."""
     moved = more | _values(MODIFIERS, Profile)
     tables = [_kind(name, form, moved) for name in KINDS for form in forms_of(name)]
@@ -96,7 +96,7 @@ def _kinds(more: Json) -> list[Json]:
     return [*tables, _object({"kind": {"const": "row"}, "of": of, **moved}, ("kind", "of"))]
 
 
-def _kind(name: str, form: Form, more: Json) -> Json:
+def _kind(name: str, form: Form, more: Shape) -> Shape:
     keys = {"kind": {"const": name}, **_values(form.keys, form.make), **more}
     return _object(keys | _values(form.treatments, Sampled), ("kind", *form.required))
 
@@ -104,20 +104,20 @@ def _kind(name: str, form: Form, more: Json) -> Json:
 # -- parts of a schema ---------------------------------------------------------------------------
 
 
-def _object(properties: Json, required: tuple[str, ...] = ()) -> Json:
+def _object(properties: Shape, required: tuple[str, ...] = ()) -> Shape:
     more = {"required": [*required]} if required else {}
     return {"type": "object", "properties": properties, "additionalProperties": False, **more}
 
 
-def _all_of(names: Iterable[str], properties: Json | None = None) -> Json:
+def _all_of(names: Iterable[str], properties: Shape | None = None) -> Shape:
     return {"required": [*names]} | ({"properties": properties} if properties else {})
 
 
-def _any_of(names: Iterable[str]) -> Json:
+def _any_of(names: Iterable[str]) -> Shape:
     return {"anyOf": [_all_of((name,)) for name in names]}
 
 
-def _values(keys: Keys, described: Any) -> Json:
+def _values(keys: Keys, described: Any) -> Shape:
     """What each key takes, and what the docstring of the parameter or the method says of it."""
     text = inspect.getdoc(described) or ""
     section = re.search(r"Parameters\n-+\n(.*?)(\n\n\w+\n--|\Z)", text, re.DOTALL)
@@ -129,4 +129,4 @@ def _values(keys: Keys, described: Any) -> Json:
         method = inspect.getdoc(getattr(described, name, None)) or ""
         told |= {name: method.split("\n")[0]} if method else {}
     notes = {name: {"description": told[name]} for name in keys if name in told}
-    return {name: kind.shape | notes.get(name, {}) for name, kind in keys.items()}
+    return {name: shape | notes.get(name, {}) for name, shape in keys.items()}

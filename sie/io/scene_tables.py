@@ -33,7 +33,7 @@ from sie.profiles.shapes import Wedge
 from .beside_scene import Crack, Fatigue, Units
 from .profile_tables import Files, profile_of
 from .scene_keys import TABLES, TOP, naming, remedy, require, values_of
-from .toml_values import TEXT, TEXTS
+from .scene_values import TEXT, TEXTS, value_of
 
 Tables = dict[str, Any]
 
@@ -84,9 +84,9 @@ def beside_problem(top: Tables) -> dict[str, Any]:
     """What stands beside the contact problem: title, units, what is wanted, fatigue, crack."""
     crack = values_of("crack", top)
     return {
-        "title": TEXT.read("title", top.get("title", "")),
+        "title": value_of("title", top.get("title", ""), TEXT),
         "units": Units(**values_of("units", top)),
-        "want": wants("want", TEXTS.read("want", top.get("want", []))),
+        "want": wants("want", value_of("want", top.get("want", []), TEXTS)),
         "fatigue": Fatigue(**values_of("fatigue", top)),
         "crack": Crack(**crack) if crack else None,
     }

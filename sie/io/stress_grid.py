@@ -7,9 +7,7 @@ depth, 0 on the surface. What is infinite, at a sharp edge, stays inf.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,7 +20,6 @@ if TYPE_CHECKING:
     from sie.stress.half_plane import Stress
 
     from .scene_file import SceneFile
-    from .solution_names import Answer
 
 Array = NDArray[np.float64]
 
@@ -31,39 +28,30 @@ COMPONENTS = ("xx", "yy", "xy", "zz", "j2", "mises")
 BESIDE, DEPTH = 1.0, 2.0
 
 
-@dataclass(frozen=True, eq=False)
-class Grid:
-    """The stress of a solution at nx × ny points around the contact, in arrays (ny, nx)."""
+class Grid(NamedTuple):
+    """Positions (nx,), depths (ny,), and the stress there in arrays (ny, nx)."""
 
-    solution: Answer
-    nx: int = GRID[0]
-    ny: int = GRID[1]
+    x: Array
+    y: Array
+    stress: Stress
 
-    @cached_property
-    def x(self) -> Array:
-        """Positions along the surface, (nx,)."""
-        (x1, x2), r = self.solution.edges, self.solution.half_width
-        return np.linspace(x1 - BESIDE * r, x2 + BESIDE * r, self.nx)
 
-    @cached_property
-    def y(self) -> Array:
-        """Depths, (ny,)."""
-        return np.linspace(0.0, DEPTH * self.solution.half_width, self.ny)
+def grid(solution: Any, nx: int = GRID[0], ny: int = GRID[1]) -> Grid:
+    """The stress of a solution around the contact."""
+    (x1, x2), r = solution.edges, solution.half_width
+    x, y = np.linspace(x1 - BESIDE * r, x2 + BESIDE * r, nx), np.linspace(0.0, DEPTH * r, ny)
+    return Grid(x, y, solution.stress(x, y[:, None]))
 
-    @cached_property
-    def stress(self) -> Stress:
-        """The stress at all points."""
-        return self.solution.stress(self.x, self.y[:, None])
 
-    def csv(self, file: SceneFile) -> str:
-        """The grid as a table, with lines of comment on the scene of the file and its units."""
-        units, (x1, x2) = file.units, self.solution.edges
-        head = (
-            f"{file.title or 'plane contact'} (sie {__version__})",
-            repr(self.solution.scene),
-            f"lengths in {units.length}, stresses in {units.stress}, j2 in its square",
-            f"contact from x1 = {x1!r} to x2 = {x2!r}",
-        )
-        x, y = np.meshgrid(self.x, self.y)
-        columns = {"x": x, "y": y} | {name: getattr(self.stress, name) for name in COMPONENTS}
-        return table_of_columns(head, {name: v.ravel() for name, v in columns.items()})
+def grid_csv(solution: Any, file: SceneFile, nx: int, ny: int) -> str:
+    """The grid as a table, with lines of comment on the scene of the file and its units."""
+    units, (x1, x2), found = file.units, solution.edges, grid(solution, nx, ny)
+    head = (
+        f"{file.title or 'plane contact'} (sie {__version__})",
+        repr(solution.scene),
+        f"lengths in {units.length}, stresses in {units.stress}, j2 in its square",
+        f"contact from x1 = {x1!r} to x2 = {x2!r}",
+    )
+    x, y = np.meshgrid(found.x, found.y)
+    columns = {"x": x, "y": y} | {name: getattr(found.stress, name) for name in COMPONENTS}
+    return table_of_columns(head, {name: v.ravel() for name, v in columns.items()})

@@ -18,7 +18,6 @@ from numpy.typing import NDArray
 from sie.io.beside_scene import UNITS, Units
 from sie.io.mesh_comparison import EXACT, Comparison
 from sie.io.sample_points import abscissae, ceiling
-from sie.io.solution_names import Answer
 
 from . import style
 
@@ -42,9 +41,7 @@ TWO_COLUMNS = 7.0  # inches
 COLOURED = 0.99  # of the points are within the scale of colours
 
 
-def overlay(
-    solution: Answer, comparison: Comparison, units: Units = UNITS, title: str = ""
-) -> Figure:
+def overlay(solution: Any, comparison: Comparison, units: Units = UNITS, title: str = "") -> Figure:
     """Two panels for each quantity near the contact. `units` are labels."""
     names = list(comparison.differences)
     columns = min(len(names), 2)
@@ -67,7 +64,7 @@ def overlay(
 def _draw(
     figure: Figure,
     pair: tuple[Axes, Axes],
-    solution: Answer,
+    solution: Any,
     compared: tuple[Comparison, str],
     units: Units,
 ) -> None:
@@ -105,7 +102,7 @@ class _Both(NamedTuple):
     largest: float
 
 
-def _both(solution: Answer, comparison: Comparison, name: str) -> _Both:
+def _both(solution: Any, comparison: Comparison, name: str) -> _Both:
     x, y, values = comparison.mesh.fields[name]
     (x1, x2), r = solution.edges, solution.half_width
     beside = BESIDE_IN_BODY if comparison.mesh.scattered(name) else BESIDE
@@ -123,7 +120,7 @@ def _both(solution: Answer, comparison: Comparison, name: str) -> _Both:
 
 def _draw_curves(
     panels: tuple[Axes, Axes],
-    solution: Answer,
+    solution: Any,
     name: str,
     both: _Both,
     scales: tuple[float, float],

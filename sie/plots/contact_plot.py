@@ -31,7 +31,6 @@ from sie.errors import ContactError
 from sie.io.answers import slip_of
 from sie.io.beside_scene import UNITS, Units
 from sie.io.sample_points import ABOVE_ORDINARY, abscissae, ceiling, full, peak, reach, summits
-from sie.io.solution_names import Answer
 from sie.problem.load_path import Path
 
 from . import style
@@ -53,7 +52,7 @@ GROUND = 0.28  # thickness of the half-plane in the lower panel, relative to the
 
 
 def picture(
-    solution: Answer, units: Units = UNITS, title: str = "", width: float = style.WIDTH
+    solution: Any, units: Units = UNITS, title: str = "", width: float = style.WIDTH
 ) -> style.Picture:
     """A Matplotlib figure of the pressure and the gap, and of shear and slip if there are any.
 
@@ -87,7 +86,7 @@ def picture(
     return figure
 
 
-def panel(solution: Answer, what: str, axes: Axes, units: Units = UNITS) -> None:
+def panel(solution: Any, what: str, axes: Axes, units: Units = UNITS) -> None:
     """One panel of the picture on given axes: pressure, gap, shear or slip."""
     view = _View(solution, units)
     PANELS[what](axes, view)
@@ -114,7 +113,7 @@ class _View:
     units       their names
     """
 
-    solution: Answer
+    solution: Any
     units: Units
 
     @cached_property
@@ -224,7 +223,6 @@ def _draw_gap(axes: Axes, view: _View) -> None:
     axes.set_yticks(style.ticks(top))
     style.named(axes, y=f"gap ({length})")
     style.legend(axes, columns=2, length=2.4)
-    _name_bodies(axes, view)
 
 
 def _draw_shear(axes: Axes, view: _View) -> None:
@@ -328,20 +326,6 @@ def _label_edges(axes: Axes, view: _View) -> None:
     for name, edge in zip(("x_1", "x_2"), view.solution.edges, strict=True):
         text = f"${name}$ = {style.quantity(edge, view.solution.half_width, view.units.length)}"
         style.word(axes, edge * view.factor, 1.02, text, va="bottom", transform=frame)
-
-
-def _name_bodies(axes: Axes, view: _View) -> None:
-    """The indenter's name stands where the unloaded surface leaves most room."""
-    bottom, top = axes.get_ylim()
-    centre = view.solution.centre
-    places = centre + view.solution.half_width * np.array([0.0, -0.6, 0.6])
-    freest = places[int(np.argmin(np.interp(places, view.x, view.unloaded)))]
-    for text, x, y, ground in (
-        ("half-plane", centre, 0.5 * bottom, HALF_PLANE),
-        ("indenter", freest, 0.72 * top, INDENTER),
-    ):
-        given = {"style": "italic", "bbox": style.opaque(ground), "zorder": 5}
-        style.word(axes, x * view.factor, y, text, color=style.INK, **given)
 
 
 # -- the loop of a path ----------------------------------------------------------------------------

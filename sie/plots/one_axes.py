@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 
 from sie.arguments import suggestion
 from sie.io.beside_scene import Units
-from sie.io.solution_names import Answer
 from sie.sweeps.result import labels
 
 from . import contact_plot, stress_plot, style
@@ -21,7 +20,7 @@ Array = NDArray[np.float64]
 HEIGHT = 2.2  # inches
 
 
-def of_solution(solution: Answer, axes: Axes | None, what: str, units: Any) -> Axes:
+def of_solution(solution: Any, axes: Axes | None, what: str, units: Any) -> Axes:
     """A panel of a solution. ValueError for what it has not, before anything is drawn."""
     kinds = (*contact_plot.PANELS, "stress")
     if what not in kinds:

@@ -17,8 +17,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from sie.io.beside_scene import UNITS, Units
-from sie.io.solution_names import Answer
-from sie.io.stress_grid import Grid
+from sie.io.stress_grid import BESIDE, DEPTH, grid
 
 from . import style
 
@@ -35,11 +34,10 @@ COLOURS, PALEST = "YlGnBu", 0.08
 
 
 def contours(
-    solution: Answer, units: Units = UNITS, title: str = "", width: float = style.WIDTH
+    solution: Any, units: Units = UNITS, title: str = "", width: float = style.WIDTH
 ) -> Figure:
     """A Matplotlib figure of √J2 under the contact; save it with figure.savefig("stress.pdf")."""
-    grid = Grid(solution, NX, NY)
-    shape = float((1.0 + ABOVE) * grid.y[-1] / (grid.x[-1] - grid.x[0]))
+    shape = (1.0 + ABOVE) * 0.5 * DEPTH / (1.0 + BESIDE)  # of a contact of any width
     height = PANEL * width * shape + LABELS + LINE * len(style.title_lines(title, width))
     figure = style.Picture(height, width)
     draw(figure.subplots(), solution, units)
@@ -47,17 +45,17 @@ def contours(
     return figure
 
 
-def draw(axes: Axes, solution: Answer, units: Units) -> None:
+def draw(axes: Axes, solution: Any, units: Units) -> None:
     """The contours on given axes, with a scale of colours beside them."""
-    grid, weakest = Grid(solution, NX, NY), solution.elastic_limit()
-    root = np.sqrt(grid.stress.j2)
+    found, weakest = grid(solution, NX, NY), solution.elastic_limit()
+    root = np.sqrt(found.stress.j2)
     top = (
         weakest.stress
         if math.isfinite(weakest.stress)
         else float(np.quantile(root[np.isfinite(root)], 0.999))
     )
     factor, length = style.scaled(solution.half_width, units.length)
-    x, y, shares = grid.x * factor, grid.y * factor, np.minimum(root, top) / top
+    x, y, shares = found.x * factor, found.y * factor, np.minimum(root, top) / top
     levels = _levels(shares)
     colours = matplotlib.colormaps[COLOURS](np.linspace(PALEST, 1.0, len(levels) - 1))
     filled = axes.contourf(x, y, shares, levels=levels, colors=colours)
@@ -93,7 +91,7 @@ def _caption(ratio: float) -> str:
     )
 
 
-def _mark(axes: Any, solution: Answer, factor: float, depth: float) -> None:
+def _mark(axes: Any, solution: Any, factor: float, depth: float) -> None:
     """The surface, and above it the patches of contact and where they stick."""
     level = -0.4 * ABOVE * depth
     axes.axhline(0.0, color=style.INK, linewidth=0.6)

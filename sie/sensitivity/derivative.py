@@ -22,8 +22,6 @@ from .shear_rate import ShearRate, Zones, shear_rate
 
 Array = NDArray[np.float64]
 NODES = 14  # of the slope beside an edge
-BESIDE = 1e-6  # half-widths about a summit of p, where its place is found by p'
-ZOOMS, ZOOM_PLACES = 4, 24
 # relative: peaks closer than that are one of several, and so are their derivatives
 SAME_PEAK = 1e-7
 
@@ -211,7 +209,7 @@ class StressDerivative:
         return np.asarray(1.5 * self.j2 / self._stress.mises)
 
 
-def peaks(solution: Any) -> list[float]:
+def peaks(solution: Any) -> tuple[float, ...]:
     """The places of the largest pressure, to rounding. ContactError where it is infinite."""
     from sie.io.sample_points import peak  # noqa: PLC0415 -- where a peak is asked for
 
@@ -220,20 +218,7 @@ def peaks(solution: Any) -> list[float]:
         raise ContactError(
             "the largest pressure is infinite, under a corner of the profile: round the corner"
         )
-    return [_summit(solution.pressure, x, solution.half_width) for x in places]
-
-
-def _summit(p: Density, x: float, r: float) -> float:
-    """The zero of p' next to x, which values of p tell to the root of rounding only."""
-    lo, hi = x - BESIDE * r, x + BESIDE * r
-    for _ in range(ZOOMS):
-        near = np.linspace(lo, hi, ZOOM_PLACES)
-        rises = p.cauchy_derivative(near).imag < 0.0  # F' = hilbert' - i p'
-        if rises[-1] or not rises[0]:
-            return x
-        k = int(np.flatnonzero(rises)[-1])
-        lo, hi = float(near[k]), float(near[k + 1])
-    return 0.5 * (lo + hi)
+    return places
 
 
 def _common(function: Callable[[Any], Any], places: Any) -> float:

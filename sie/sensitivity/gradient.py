@@ -22,7 +22,7 @@ from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from sie import arguments
 from sie.contact.edge_integrals import NOTHING
@@ -133,37 +133,6 @@ class Uncertainty:
             The root of the sum of the squares of `shares`.
         """
         return math.hypot(*self.shares(quantity).values())
-
-    def pressure(self, x: ArrayLike) -> Array:
-        """The standard deviation of the pressure at x, infinite at an edge that moves.
-
-        Parameters
-        ----------
-        x : array_like of float
-            Positions, lengths.
-
-        Returns
-        -------
-        ndarray of float
-            Stresses, of the shape of x.
-        """
-        return self._of_traction("pressure", x)
-
-    def shear(self, x: ArrayLike) -> Array:
-        """The standard deviation of the shear at x, as `pressure` gives that of the pressure."""
-        return self._of_traction("shear", x)
-
-    def _of_traction(self, which: str, x: ArrayLike) -> Array:
-        if HEIGHTS in self._deviations:
-            raise ValueError(
-                f"the noise of all heights has a deviation of single quantities: ask for "
-                f'of("peak_pressure"), or leave {HEIGHTS} out'
-            )
-        each = [
-            self._deviations[name] * getattr(derivative, which)(x)
-            for name, derivative in self._derivatives.items()
-        ]
-        return np.asarray(np.sqrt(np.sum(np.square(each), axis=0)))
 
 
 # -- all heights of a trace ------------------------------------------------------------------------

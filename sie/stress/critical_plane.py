@@ -71,18 +71,18 @@ class Planes(NamedTuple):
 class Parameter:
     """A fatigue parameter A + k σ_n,max, or A max(c + k σ_n,max, 0).
 
-    A is the amplitude of the shear stress, or of the normal strain times Young's modulus.
+    A is the amplitude of the shear stress or strain, or of the normal strain.
 
     weight      k
     offset      c; None for the sum
-    strain      whether A is of the normal strain
-    poisson     Poisson's ratio, of the strain
+    stiffness   by which the stress of the amplitude is divided
+    poisson     Poisson's ratio, where A is of the normal strain
     """
 
     weight: float
     offset: float | None = None
-    strain: bool = False
-    poisson: float = 0.0
+    stiffness: float = 1.0
+    poisson: float | None = None
 
     def of(self, planes: Planes) -> Array:
         """The value on planes."""
@@ -96,15 +96,15 @@ class Parameter:
         turned = h.D * turn
         across = h.s - turned.real - h.zz
         normal = h.zz + cos * cos * across
-        if self.strain:
+        if self.poisson is not None:
             strain = (1.0 + self.poisson) * normal - self.poisson * (2.0 * h.s + h.zz)
-            return Planes(0.5 * np.ptp(strain, axis=0), normal.max(axis=0))
+            return Planes(0.5 / self.stiffness * np.ptp(strain, axis=0), normal.max(axis=0))
         up, along = cos * sin * across, cos * turned.imag
         chord = np.zeros(up.shape[1:])
         for k in range(1, len(up)):
             squares = (up[k:] - up[:-k]) ** 2 + (along[k:] - along[:-k]) ** 2
             np.maximum(chord, squares.max(axis=0), out=chord)
-        return Planes(0.5 * np.sqrt(chord), normal.max(axis=0))
+        return Planes(0.5 / self.stiffness * np.sqrt(chord), normal.max(axis=0))
 
 
 class Worst(NamedTuple):

@@ -18,9 +18,9 @@ Multiaxial Fatigue (2000), chs. 5 and 6 (half the longest chord as amplitude of 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, fields
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -30,7 +30,7 @@ from sie.errors import ContactError
 from sie.progress_bar import reported, step_done
 
 from .critical_plane import Parameter, StressHistory, on_grid, worst_planes
-from .surface_search import columns, largest
+from .surface_search import by_value, columns, largest
 
 Array = NDArray[np.float64]
 
@@ -70,84 +70,53 @@ class CriticalPlane:
     normal_stress: Array
 
 
-class Criterion(NamedTuple):
-    """A fatigue parameter before the unit of stress is chosen.
-
-    parameter   the Parameter for stresses in a unit
-    stiffness   its amplitude is a stress divided by this
-    """
-
-    parameter: Callable[[float], Parameter]
-    stiffness: float = 1.0
-
-
-def smith_watson_topper(states: Sequence[Any]) -> Criterion:
+def smith_watson_topper(states: Sequence[Any]) -> Parameter:
     """The parameter of Smith, Watson and Topper. ValueError without the body's constants."""
     body = states[0].tractions.known_body
-    return Criterion(lambda unit: Parameter(1.0, 0.0, True, body.poisson), body.young)
+    return Parameter(1.0, 0.0, body.young, body.poisson)
 
 
-def findley(k: float) -> Criterion:
+def findley(k: float) -> Parameter:
     """Findley's parameter."""
-    k = arguments.not_negative("k", k)
-    return Criterion(lambda unit: Parameter(k))
+    return Parameter(arguments.not_negative("k", k))
 
 
-def fatemi_socie(states: Sequence[Any], k: float, yield_stress: float) -> Criterion:
+def fatemi_socie(states: Sequence[Any], k: float, yield_stress: float) -> Parameter:
     """The parameter of Fatemi and Socie. ValueError without the body's constants."""
-    k, yield_stress = (
-        arguments.not_negative("k", k),
-        arguments.positive("yield_stress", yield_stress),
-    )
-    modulus = states[0].tractions.known_body.shear_modulus
-    return Criterion(lambda unit: Parameter(k * (unit / yield_stress), 1.0), modulus)
+    weight = arguments.not_negative("k", k) / arguments.positive("yield_stress", yield_stress)
+    return Parameter(weight, 1.0, states[0].tractions.known_body.shear_modulus)
 
 
 @reported("critical planes, depth")
 def at_points(
-    states: Sequence[Any], criterion: Criterion, x: ArrayLike | None, y: ArrayLike
+    states: Sequence[Any], parameter: Parameter, x: ArrayLike | None, y: ArrayLike
 ) -> CriticalPlane:
     """The critical planes at points; without x, at the worst place of each depth."""
     if x is None:
         y = arguments.reals("y", y)
         x = np.reshape(
-            [_worst_x(states, criterion, depth) for depth in y.ravel().tolist()], y.shape
+            [_worst_x(states, parameter, depth) for depth in y.ravel().tolist()], y.shape
         )
     x, y = arguments.of_one_shape(arguments.reals("x", x), arguments.reals("y", y))
     if not x.size:
         return CriticalPlane(*(np.zeros(x.shape) for _ in fields(CriticalPlane)))
-    h, unit = _in_unit(_history(states, x.ravel(), y.ravel()))
-    parameter = criterion.parameter(unit)
-    worst = worst_planes(h, parameter)
-    planes = parameter.planes(h, worst.phi, worst.psi)
-    amplitude, normal = planes.amplitude * (unit / criterion.stiffness), planes.normal * unit
-    # that of Smith, Watson and Topper is a product with the normal stress alone
-    value = worst.value * (unit / criterion.stiffness) * (unit if parameter.offset == 0.0 else 1.0)
-    angle = np.mod(0.5 * worst.phi, np.pi)
-    found = (value, x, y, angle, worst.psi, amplitude, normal)
+    h = _history(states, x.ravel(), y.ravel())
+    value, phi, psi = worst_planes(h, parameter)
+    found = (value, x, y, np.mod(0.5 * phi, np.pi), psi, *parameter.planes(h, phi, psi))
     return CriticalPlane(*(np.reshape(field, x.shape)[()] for field in found))
 
 
-def _worst_x(states: Sequence[Any], criterion: Criterion, y: float) -> float:
+def _worst_x(states: Sequence[Any], parameter: Parameter, y: float) -> float:
     """The position at a depth where the parameter is largest."""
     step_done()
     x = columns([state.tractions for state in states], y)
-    h, unit = _in_unit(_history(states, x, y))
-    parameter = criterion.parameter(unit)
-
-    def best_of(rows: Array) -> tuple[NDArray[np.intp], Array]:
-        count, size = rows.shape
-        near = _history(states, rows.ravel(), y)
-        scaled = StressHistory(near.s / unit, near.D / unit, near.zz / unit)
-        values = worst_planes(scaled, parameter).value.reshape(count, size)
-        k = values.argmax(axis=1)
-        return k, values[np.arange(count), k]
-
+    h = _history(states, x, y)
     values = on_grid(h, parameter)
     best = values.max()
     high = np.flatnonzero(values >= best - TOO_SMALL * abs(best))
     values[high] = worst_planes(h.at(high), parameter).value
-    return largest(x, values, best_of)[0]
+    value = by_value(lambda x: worst_planes(_history(states, x, y), parameter).value)
+    return largest(x, values, value)[0]
 
 
 def _history(states: Sequence[Any], x: Array, y: float | Array) -> StressHistory:
@@ -161,9 +130,3 @@ def _history(states: Sequence[Any], x: Array, y: float | Array) -> StressHistory
             "ask for the critical plane at a depth, y > 0"
         )
     return StressHistory(0.5 * (xx + yy), 0.5 * (yy - xx) + 1j * xy, zz)
-
-
-def _in_unit(h: StressHistory) -> tuple[StressHistory, float]:
-    """The history in units of its largest stress, so that no square leaves the doubles."""
-    unit = max(float(np.abs(part).max(initial=0.0)) for part in (h.s, h.D, h.zz)) or 1.0
-    return StressHistory(h.s / unit, h.D / unit, h.zz / unit), unit

@@ -13,7 +13,7 @@ from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -24,30 +24,11 @@ from sie.errors import ContactError
 
 from . import fatigue
 from .fatigue import CriticalPlane
-from .half_plane import Stress, Tractions
 
 if TYPE_CHECKING:
     from sie.cracks.stress_intensity import StressIntensity
 
 Array = NDArray[np.float64]
-
-
-class State(Protocol):
-    """The attributes of a solution that a cycle uses."""
-
-    def stress(self, x: ArrayLike, y: ArrayLike) -> Stress:
-        """The stress in the body."""
-
-    def slip(self, x: ArrayLike) -> Array:
-        """The slip g(x), a length."""
-
-    @property
-    def shear(self) -> Any:
-        """The shear traction q."""
-
-    @property
-    def tractions(self) -> Tractions:
-        """The tractions, the bulk stress and the body."""
 
 
 @dataclass(frozen=True)
@@ -73,11 +54,6 @@ class Range:
     def amplitude(self) -> Array:
         """Half of the range."""
         return 0.5 * self.range
-
-    @property
-    def mean(self) -> Array:
-        """The mean of the two extremes."""
-        return 0.5 * (self.highest + self.lowest)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -113,7 +89,7 @@ class Cycle:
     True
     """
 
-    states: Sequence[State]
+    states: Sequence[Any]
 
     def __post_init__(self) -> None:
         remedy = "the solutions at two or more steps of the load"
@@ -169,12 +145,7 @@ class Cycle:
             where it is known, energy_lost. A DataFrame where pandas is installed. Of several stick
             zones the outermost ends are given; in full sliding there are none.
         """
-        rows = [_row(state) for state in self.states]
-        try:
-            import pandas  # type: ignore[import, unused-ignore]  # noqa: PLC0415
-        except ImportError:
-            return rows
-        return pandas.DataFrame(rows)
+        return table_of_rows([_row(state) for state in self.states])
 
     def range(self, x: ArrayLike, y: ArrayLike) -> dict[str, Range]:
         """Lowest and highest stress components at points over the cycle.
@@ -193,33 +164,6 @@ class Cycle:
         names = ("xx", "yy", "xy", *["zz"] * all(s.knows_zz for s in stresses))
         values = ((name, np.stack([getattr(s, name) for s in stresses])) for name in names)
         return {name: Range(v.min(axis=0), v.max(axis=0)) for name, v in values}
-
-    def shear_range(self, x: ArrayLike, y: ArrayLike) -> tuple[Array, Array]:
-        """The largest range of shear stress over all planes through the z axis, at points.
-
-        Parameters
-        ----------
-        x, y : array_like of float
-            Positions and depths, as of `history`.
-
-        Returns
-        -------
-        tuple of ndarray of float
-            The range, stress, and the angle of the normal of its plane from x, radians.
-
-        Notes
-        -----
-        On the plane with its normal at the angle θ the shear is Im(D e^(2iθ)), D = (σ_yy - σ_xx)/2
-        + i σ_xy. Over the cycle it ranges over the width of the polygon of D in a direction, and a
-        polygon is widest between two of its corners, |ΔD|.
-        """
-        stresses = [state.stress(x, y) for state in self.states]
-        D = np.stack([0.5 * (s.yy - s.xx) + 1j * s.xy for s in stresses])
-        difference = D[:, None] - D[None, :]
-        flat = difference.reshape(self.size**2, *D.shape[1:])
-        k = np.abs(flat).argmax(axis=0)
-        widest = np.take_along_axis(flat, k[None], axis=0)[0]
-        return np.abs(widest), np.mod(0.5 * (0.5 * np.pi - np.angle(widest)), 0.5 * np.pi)
 
     def stress_intensity(
         self, at: float, depth: ArrayLike, face_friction: float = 0.0
@@ -421,6 +365,15 @@ class Cycle:
         """
         criterion = fatigue.fatemi_socie(self.states, k, yield_stress)
         return fatigue.at_points(self.states, criterion, x, y)
+
+
+def table_of_rows(rows: list[dict[str, float]]) -> Any:
+    """A DataFrame of the rows where pandas is installed, otherwise these."""
+    try:
+        import pandas  # type: ignore[import, unused-ignore]  # noqa: PLC0415
+    except ImportError:
+        return rows
+    return pandas.DataFrame(rows)
 
 
 def _product(a: Array, b: Array) -> Array:

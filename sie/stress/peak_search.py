@@ -31,7 +31,6 @@ from .surface_peaks import (
     WORTH,
     Maximum,
     Measure,
-    beneath_infinite_pressure,
     on_surface,
     slope,
     surface_values,
@@ -85,8 +84,6 @@ INWARDS = 0.3 ** np.arange(1.0, 14.0)
 # Maxima whose values are this close are tied, and at places this close, in half-widths, the same.
 TIED = 1e-10
 SAME_PLACE = 1e-7
-# A tied place nearer to one on the surface, in half-widths, is the same.
-RISING = 1e-4
 
 
 class Local(NamedTuple):
@@ -111,23 +108,14 @@ def largest(tractions: Tractions, measure: Measure) -> tuple[Maximum, ...]:
     """
     mesh = mesh_of(tractions)
     surface = surface_values(tractions, mesh.surface)
-    found = [
-        *on_surface(tractions, measure, mesh, surface),
-        *beneath_infinite_pressure(tractions, measure),
-    ]
+    found = on_surface(tractions, measure, mesh, surface)
     found += inside(tractions, measure, mesh, surface[:, FAR_COLUMNS:-FAR_COLUMNS], found)
     best = max(m.value for m in found)
     r = 0.5 * float(np.diff(tractions.pressure.interval)[0])
     tied = [m for m in found if m.value == best or m.value >= best * (1.0 - TIED)]
     ties: list[Maximum] = []
     for m in sorted(tied, key=lambda m: (m.y > 0.0, -m.value)):
-        # The largest value is a limit towards a jump of h': points with nearly that value on the
-        # way are not another place
-        apart = (RISING if m.y else SAME_PLACE) * r
-        if all(
-            abs(m.x - t.x) + abs(m.y - t.y) > (apart if t.y == 0.0 else SAME_PLACE * r)
-            for t in ties
-        ):
+        if all(abs(m.x - t.x) + abs(m.y - t.y) > SAME_PLACE * r for t in ties):
             ties.append(Maximum(best, m.x, m.y))
     return tuple(sorted(ties, key=lambda m: m.x))
 
@@ -148,15 +136,11 @@ def inside(
     rows = _rows(tractions, measure, mesh, above, best)
     best = max(best, *(value.max() for _, _, value in rows))
     floor = WORTH * best
-    scanned = _starts(rows, best)
-    starts = np.concatenate(
-        (scanned, _beneath(tractions, measure, mesh, [m.x for m in known if m.value >= floor]))
-    )
+    beneath = [m.x for m in known if m.value >= floor]
+    starts = np.concatenate((_starts(rows, best), _beneath(tractions, measure, mesh, beneath)))
     if not starts.size:
         return []
-    # The best point of the scan is kept if all searches from it leave the body: under a jump of h'
-    # the largest value is not reached anywhere
-    z = np.concatenate((scanned[:1], _climbed(tractions, measure, mesh, starts, best)))
+    z = _climbed(tractions, measure, mesh, starts, best)
     values = measure.value(values_inside(tractions, z))
     return [
         Maximum(*row) for row in zip(values.tolist(), z.real.tolist(), z.imag.tolist(), strict=True)

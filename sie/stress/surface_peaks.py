@@ -25,8 +25,6 @@ Complex = NDArray[np.complex128]
 WORTH = 0.85
 # The part of a cell that is left out at a mark, where the slope may be infinite.
 AT_MARK = 1e-9
-# Half-widths beneath a place where p is infinite at which all other terms vanish.
-BENEATH = 1e-100
 
 
 class Measure(NamedTuple):
@@ -126,32 +124,3 @@ def values_inside(tractions: Tractions, z: Complex) -> Array:
     D = Fq - z.imag * dPhi
     half = 0.5 * tractions.bulk_stress
     return np.stack((Phi.imag + half, D.real - half, D.imag))
-
-
-def beneath_infinite_pressure(tractions: Tractions, measure: Measure) -> list[Maximum]:
-    """The limit of a measure of D alone (an incompressible body) where p is infinite.
-
-    D on the surface itself does not depend on p.
-
-    At a sharp edge D grows without limit. At a jump of h' Fp' ~ C/(z - x), and D tends to Fq - C
-    sin θ e^(-iθ) in the direction θ, on a circle of diameter |C| through Fq: the largest |D| is |Fq
-    + iC/2| + |C|/2.
-    """
-    x = tractions.marks
-    x = x[np.isinf(tractions.pressure(x))]
-    if not x.size:
-        return []
-    on = surface_values(tractions, x)
-    unseen = np.isfinite(measure.value(on))
-    if not unseen.any():
-        return []
-    x, on = x[unseen], on[:, unseen]
-    Fq = on[1] + 1j * on[2]
-    x1, x2 = tractions.pressure.interval
-    beneath = values_inside(
-        tractions, np.asarray(x + 1j * (BENEATH * 0.5 * (x2 - x1)), dtype=np.complex128)
-    )
-    C = -1j * (beneath[1] + 1j * beneath[2] - Fq)
-    largest_D = np.where((x == x1) | (x == x2), np.inf, np.abs(Fq + 0.5j * C) + 0.5 * np.abs(C))
-    value = measure.value(np.stack((on[0], largest_D, np.zeros(len(x)))))
-    return [Maximum(float(v), float(t), 0.0) for v, t in zip(value, x, strict=True)]

@@ -19,6 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie import arguments
+from sie.errors import ContactError
 
 from .half_plane import Stress, Tractions
 from .peak_search import largest
@@ -97,8 +98,18 @@ def refuse_unknown_criterion(criterion: object) -> None:
 def elastic_limit(
     tractions: Tractions, normal_load: float, criterion: Criterion = "mises"
 ) -> YieldPoint:
-    """The yield point of a body under these tractions. ValueError without Poisson's ratio."""
-    kappa = tractions.out_of_plane
+    """The yield point of a body under these tractions.
+
+    ValueError without Poisson's ratio, ContactError for an incompressible body under a corner.
+    """
+    kappa, marks = tractions.out_of_plane, tractions.marks
+    infinite = marks[np.isinf(tractions.pressure(marks))]
+    if kappa == 0.0 and infinite.size:
+        raise ContactError(
+            f"the pressure is infinite at x = {infinite[0]:.6g}, where the stress that an "
+            "incompressible body (poisson = 0.5) yields by depends on the direction: round the "
+            "corner, or give poisson = 0.499"
+        )
     found: list[tuple[float, tuple[Maximum, ...]]] = []
     if criterion == "mises":
         maxima = largest(tractions, _quadratic(kappa / np.sqrt(3.0)))

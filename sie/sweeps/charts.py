@@ -17,10 +17,8 @@ from sie.problem.scene import Scene
 from sie.profiles.shapes import Parabola, RoundedFlat
 from sie.progress_bar import counted
 from sie.solution import Solution, solve
-from sie.stress.half_plane import Stress, Tractions
-from sie.stress.yield_limit import YieldPoint, peak_tension
-from sie.traction.base import Density
-from sie.traction.combination import superposed
+from sie.stress.half_plane import Stress
+from sie.stress.yield_limit import YieldPoint
 
 Array = NDArray[np.float64]
 
@@ -94,28 +92,19 @@ def surface_tension(ratio: float, stick: ArrayLike) -> Array:
     F_c(b)].
     """
     whole = punch(ratio)
-    scale = whole.normal_load / np.pi
     values = np.asarray(stick, dtype=float)
     if ((values < 0.0) | (values > 1.0)).any():
         raise ValueError(
             "stick holds values outside [0, 1]: give c/b, 0 in full sliding and 1 in full stick"
         )
-    out = np.array(
-        [
-            peak_tension(Tractions(whole.pressure, _slipping(whole, ratio, c))).value
-            for c in values.ravel().tolist()
-        ]
-    )
-    return (out / scale).reshape(values.shape)
+    P = whole.normal_load
 
+    def tension(c: float) -> float:
+        Q = P if c <= ratio else P - whole.with_(half_width=c).normal_load
+        return whole.with_(friction=1.0, tangential_load=Q).peak_tension().value
 
-def _slipping(whole: Solution, ratio: float, c: float) -> Density:
-    """q/f with a stick zone of half-width c."""
-    if c <= ratio:
-        return whole.pressure
-    if c == 1.0:
-        return superposed()
-    return superposed((1.0, whole.pressure), (-1.0, whole.with_(half_width=c).pressure))
+    out: Array = np.array([tension(c) for c in values.ravel().tolist()]) / (P / np.pi)
+    return out.reshape(values.shape)
 
 
 def _sliding(solution: Solution, friction: float) -> Solution:

@@ -311,7 +311,6 @@ QUERIES = {
     "slip range": CYCLE.slip_range,
     "friction work": CYCLE.friction_work,
     "a range": lambda x: CYCLE.range(x, 0.5),
-    "shear range": lambda x: CYCLE.shear_range(0.5, x),
 }
 
 

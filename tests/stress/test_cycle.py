@@ -53,22 +53,7 @@ def test_the_range_is_between_the_extremes(cycle):
         assert (found[name].lowest == values.min(axis=0)).all() and (
             found[name].range == np.ptp(values, axis=0)
         ).all()
-        assert found[name].mean + found[name].amplitude == pytest.approx(found[name].highest)
-
-
-def test_no_plane_has_a_wider_range_of_shear_than_the_critical_one(cycle):
-    widest, angle = cycle.shear_range(X, Y)
-    tensors = cycle.history(X, Y)[..., :2, :2]
-
-    def on_plane(theta):
-        n, t = np.array([np.cos(theta), np.sin(theta)]), np.array([-np.sin(theta), np.cos(theta)])
-        return np.einsum("i...,...ij,j...->...", n, tensors, t)
-
-    for theta in np.linspace(0.0, np.pi, 60):
-        assert (
-            np.ptp(on_plane(np.full(widest.shape, theta)), axis=0) <= widest * (1 + 1e-12) + 1e-15
-        ).all()
-    assert np.ptp(on_plane(angle), axis=0) == pytest.approx(widest, rel=1e-12)
+        assert (found[name].amplitude == 0.5 * found[name].range).all()
 
 
 def test_ruizs_parameters_are_products_of_amplitude_traction_and_tension(cycle):
@@ -114,7 +99,6 @@ def test_in_plane_ranges_need_no_poisson_ratio():
     assert (
         cycle.range(X, Y)["xx"].highest == np.maximum(*(s.stress(X, Y).xx for s in states))
     ).all()
-    assert cycle.shear_range(X, Y)[0].shape == (3, 7)
 
 
 PATH = sie.Path([(0.3, 0.1), (0.3, -0.1), (0.3, 0.06), (0.3, -0.02), (0.3, 0.1)])

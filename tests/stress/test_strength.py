@@ -193,13 +193,17 @@ def test_no_unit_of_length_or_stress_changes_the_elastic_limit(length, modulus, 
 RUBBER = sie.Elastic(young=3.0, poisson=0.5)
 
 
-@pytest.mark.parametrize("criterion", ["mises", "tresca"])
-def test_an_incompressible_body_under_a_wedge_yields_beneath_the_apex(criterion):
-    """There the shear stress tends to E*A/π (Johnson 1985, § 5.2): P/k = P π/(E*A)."""
+def test_an_incompressible_body_under_a_corner_has_no_limit_and_one_of_0499_yields_at_once():
     scene = sie.Scene(profile=sie.Wedge(0.1), body=RUBBER, normal_load=0.2)
-    found = sie.solve(scene).elastic_limit(criterion)
-    assert found.load == pytest.approx(0.2 * np.pi / (0.1 * scene.Estar), rel=1e-13)
-    assert found.places == ((0.0, 0.0),) and found.j2 == pytest.approx(found.stress**2)
+    with pytest.raises(sie.ContactError, match=r"round the corner, or give poisson = 0\.499"):
+        sie.solve(scene).elastic_limit()
+    body = sie.Elastic(3.0, 0.499)
+    assert (
+        sie.solve(sie.Scene(profile=sie.Wedge(0.1), body=body, normal_load=0.2))
+        .elastic_limit()
+        .load
+        == 0.0
+    )
 
 
 def around(solution, x, criterion="mises"):
@@ -208,24 +212,6 @@ def around(solution, x, criterion="mises"):
     angle = np.linspace(1e-2, np.pi - 1e-2, 91)
     stress = solution.stress(x + radius * np.cos(angle), radius * np.sin(angle))
     return float((np.sqrt(stress.j2) if criterion == "mises" else stress.max_shear).max())
-
-
-LOPSIDED_CORNERS = {
-    "flank and radius": ((-0.785, 0.152), ((-0.505, 0.371), (0.0,), (-0.6, 3.94)), 0.0375),
-    "a short flank": ((0.0, 0.01), ((-0.3, 1.0), (0.2, 0.0), (0.16, 4.0)), 0.02),
-    "a steep flank": ((0.0,), ((-0.1, 0.1), (0.6, 6.0)), 0.05),
-}
-
-
-@pytest.mark.parametrize("criterion", ["mises", "tresca"])
-@pytest.mark.parametrize("case", LOPSIDED_CORNERS)
-def test_beside_the_corner_of_an_incompressible_body_no_depth_is_worse(case, criterion):
-    """The largest stress may lie 1e-6 half-widths from a jump of h'."""
-    breaks, pieces, load = LOPSIDED_CORNERS[case]
-    solution = solved(sie.Piecewise(breaks, pieces), poisson=0.5, normal_load=load)
-    found = solution.elastic_limit(criterion)
-    for x in solution.scene.profile.breaks:
-        assert around(solution, x, criterion) <= found.stress * (1 + 1e-12)
 
 
 @pytest.mark.slow
