@@ -31,7 +31,7 @@ LINES = {
     "paths": 1200,
     "plots": 940,
     "problem": 890,
-    "profiles": 5150,
+    "profiles": 5180,
     "sensitivity": 1240,
     "stress": 2200,
     "sweeps": 700,

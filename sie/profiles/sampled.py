@@ -145,15 +145,15 @@ class Sampled(SplineProfile):
         Parameters
         ----------
         path : str or Path
-            Text in columns.
+            Text in columns, or (with the extra `traces`) a format that SurfaceTopography reads.
         columns : pair of int or str, default (0, 1)
-            The columns of x and h, by number from 0 or by name in the header.
+            The columns of x and h, by number from 0 or by name in the header. For text only.
         scale : float or pair of float, optional
             One factor for x and h, or one for each, in place of units: 1e-3 makes mm of µm. A
             negative factor for h turns the heights of a surface over.
         skip : int, default 0
             Lines at the top that are no part of the table. Comments (#, %) and headers are passed
-            over without it.
+            over without it. For text only.
         units : str or pair of str, optional
             The unit of the columns of the file, or of x and of h, like "um" or ("mm", "um"). Those
             that the head of the file states are used without it.

@@ -1,9 +1,10 @@
-"""Traces in files: columns of numbers as text.
+"""Traces in files: columns of numbers as text, or a profilometer's format.
 
 Text is read with a comma, semicolon, tab or blanks between the columns; with a decimal comma where
 commas do not separate columns; with comments after # or %, and with header lines before the first
 number. After that a cell without a number is a missing value, which is reported with its line
 number.
+Other formats are read by SurfaceTopography (the extra `traces`).
 """
 
 from __future__ import annotations
@@ -15,14 +16,14 @@ from dataclasses import dataclass
 from numbers import Integral
 from os import PathLike
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from sie import arguments, files
 
-from .trace_units import units_of_head
+from .trace_units import unit_named, units_of_head
 
 Array = NDArray[np.float64]
 Column = int | str
@@ -37,7 +38,7 @@ class Limit(NamedTuple):
 
 # A trace within this limit is read within a second, a mesh result within ten.
 TRACE, MESH = Limit(4 * 10**6, 10**5), Limit(64 * 10**6, 5 * 10**5)
-# Suffixes of text; what has another is the format of some instrument.
+# Suffixes of text; files with any other suffix are left to SurfaceTopography.
 TEXT = ("", ".csv", ".txt", ".dat", ".tsv", ".asc", ".prn", ".prf", ".xy")
 MISSING = {
     "", "nan", "na", "n/a", "null", "none", "-", "--", "---", "*", "*****",
@@ -64,12 +65,10 @@ def read_trace(
         raise ValueError(f"columns = {columns!r} is not a pair: give the columns of x and of h")
     if isinstance(skip, bool) or not isinstance(skip, Integral) or skip < 0:
         raise ValueError(f"skip = {skip!r} is not a number of lines: give 0 or more")
+    data = files.content(path, TRACE.size)
     if path.suffix.lower() not in TEXT:
-        raise ValueError(
-            f"{path.name} is no text file by its suffix: export the trace as text, or give "
-            "Sampled(x, h) what a reader of that format finds"
-        )
-    table = _table(path.name, files.content(path, TRACE.size), int(skip), TRACE)
+        return _line_scan(path)
+    table = _table(path.name, data, int(skip), TRACE)
     x, h = table.columns(pair, keep_missing)
     return x, h, table.units(pair)
 
@@ -159,6 +158,36 @@ class Table:
         return int(column)
 
 
+def _line_scan(path: Path) -> tuple[Array, Array, tuple[str, str]]:
+    """A line scan as SurfaceTopography reads it, heights in the unit of the lengths, and that."""
+    try:
+        import SurfaceTopography  # noqa: PLC0415 -- an extra
+    except ImportError:
+        raise ValueError(
+            f"{path.name} is no text file by its suffix: SurfaceTopography may read it, "
+            'pip install "plane-contact[traces]"; '
+            f"text has one of the suffixes {', '.join(filter(None, TEXT))}"
+        ) from None
+    try:
+        topography: Any = SurfaceTopography.read_topography(str(path))
+    except OSError:
+        raise
+    except Exception as problem:  # whatever its many readers raise
+        why = type(problem).__name__  # its words are those of all its readers, a line each
+        raise ValueError(
+            f"{path.name} is not read by SurfaceTopography ({why}): export the trace as text"
+        ) from None
+    if topography.dim != 1:
+        raise ValueError(
+            f"{path.name} holds a map, {topography.nb_grid_pts} points: "
+            "give a line scan, or one line of it as Sampled(x, h)"
+        )
+    x, h = topography.positions_and_heights()
+    heights: Array = np.ma.filled(np.ma.asarray(h, dtype=float), np.nan)
+    unit = unit_named(str(getattr(topography, "unit", None) or ""))
+    return np.asarray(x, dtype=float).ravel(), heights.ravel(), (unit, unit)
+
+
 def _table(file: str, data: bytes, skip: int, limit: Limit) -> Table:
     whole = _text(file, data, limit.lines).splitlines()
     lines = whole[skip:]
@@ -216,7 +245,9 @@ def _text(file: str, data: bytes, most_lines: int) -> str:
             continue
         if "\0" not in text:
             return text
-    raise ValueError(f"{file} is not a text file: export the trace as text")
+    raise ValueError(
+        f"{file} is not a text file: export the trace as text, or give it the suffix of its format"
+    )
 
 
 def _separator(lines: list[str]) -> str:

@@ -1,5 +1,7 @@
 """Traces: what a file holds is what is solved; splines are SciPy's; noise is smoothed."""
 
+import sys
+
 import numpy as np
 import pytest
 from scipy.interpolate import CubicSpline, make_smoothing_spline
@@ -177,11 +179,26 @@ def test_lines_that_lack_a_value_are_left_out_if_that_is_asked(trace):
     ]
 
 
-def test_a_file_of_an_instrument_is_refused(tmp_path):
+class Scan:
+    dim = 1
+
+    @staticmethod
+    def read_topography(path):
+        return Scan()
+
+    def positions_and_heights(self):
+        return np.arange(5.0), np.ma.masked_array([4.0, 1.0, 0.0, 1.0, 4.0], mask=[0] * 5)
+
+
+def test_other_formats_are_surface_topography_s(tmp_path, monkeypatch):
     file = tmp_path / "trace.opd"
     file.write_bytes(b"\0\1")
-    with pytest.raises(ValueError, match=r"export the trace as text, or give Sampled\(x, h\)"):
+    monkeypatch.setitem(sys.modules, "SurfaceTopography", None)
+    with pytest.raises(ValueError, match=r"plane-contact\[traces\]"):
         sie.Sampled.read(file)
+    monkeypatch.setitem(sys.modules, "SurfaceTopography", Scan)
+    read = sie.Sampled.read(file, scale=(1e-3, 1.0))
+    assert read.points == pytest.approx(1e-3 * np.arange(5.0))
 
 
 def test_levelling_takes_out_the_line_and_nothing_else():
