@@ -16,7 +16,7 @@ import numpy as np
 from sie.contact.convexity import may_have_merged, rises, rises_beside, turns_away
 from sie.contact.known_contact import Normal
 from sie.contact.normal import by_pieces, not_one_patch, of_one_patch, one_series
-from sie.contact.pressure import pressure
+from sie.contact.pressure import OnePatch
 from sie.contact.window import window_of
 from sie.errors import ContactError
 from sie.problem.request import ECONOMY
@@ -188,9 +188,17 @@ class Frictionless:
         return self._of_one_series or by_pieces(self.scene, self.tol, self.economy)
 
     @cached_property
+    def touching(self) -> OnePatch | SeveralPatches | FullContact:
+        """The contact with its pressure and gap."""
+        found = self.normal
+        if isinstance(found, Normal):
+            return OnePatch(found, self.scene, self.tol, self.economy)
+        return found
+
+    @property
     def density(self) -> SlopeDensity:
         """The pressure of the contact in one patch."""
-        return pressure(cast(Normal, self.normal), self.scene, self.tol, self.economy)
+        return cast("SlopeDensity", self.touching.pressure)
 
     @property
     def _slope(self) -> Slope:

@@ -6,15 +6,14 @@ ones in partial slip, have both from one problem.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import fields, replace
-from functools import cached_property, partial
+from functools import cached_property
 from typing import TYPE_CHECKING, Any, cast
 
 from sie.contact.known_contact import Edges, Normal
-from sie.contact.normal import contact_under
-from sie.contact.pressure import pressure
+from sie.contact.normal import normal_contact
+from sie.contact.pressure import OnePatch, pressure
 from sie.errors import InequalityError
 from sie.problem.coverage import held_moment, sheared
 from sie.problem.scene import Scene
@@ -30,10 +29,8 @@ if TYPE_CHECKING:  # what a stage needs is imported when it is computed
     from sie.friction.coupled.pressed import Pressed
     from sie.friction.coupled.traction import OnPieces
     from sie.friction.full_stick import Component
-    from sie.friction.slip_state import Slip, Step
-    from sie.numerics.interval import Interval
+    from sie.friction.slip_state import Slip, Touching
     from sie.patches.answer import SeveralPatches
-    from sie.patches.friction import PatchesUnder
     from sie.patches.full import FullContact
     from sie.patches.result import PatchCertificate
     from sie.traction.base import Density
@@ -46,10 +43,11 @@ NORMAL = frozenset(
 )
 TANGENTIAL = ("friction", "tangential_load", "sliding", "bulk_stress")
 SHEAR = NORMAL | {*TANGENTIAL, "dundurs", "coupling"}
+OF_NORMAL = ("rises", "unverified", "touching", "normal", "in_patches", "pressure")
 OF_SHEAR = ("bonded", "coupled", "tangential", "dissipated", "certificate", "coupling_notes")
 PRESSED = (NORMAL - {"coupled"}) | {"friction", "dundurs", "coupling"}
 STAGES = {
-    **dict.fromkeys(("rises", "unverified", "density", "normal", "in_patches", "pressure"), NORMAL),
+    **dict.fromkeys(OF_NORMAL, NORMAL),
     **dict.fromkeys(OF_SHEAR, SHEAR),
     **dict.fromkeys(("pressed", "locked_in"), PRESSED),
 }
@@ -195,72 +193,35 @@ class Sheared(Frictionless):
     @cached_property
     def tangential(self) -> Slip:
         """Zones of stick and slip, and the shear."""
+        _ = self.pressure  # a part of the shear
         return self.first_loading(self._loads, self.patches_under)
 
     def first_loading(
         self,
         loads: tuple[float, float],
-        under: PatchesUnder,
-        near: Interval | None = None,
+        in_patches: Callable[[float, float], Touching],
         *,
         one_sign: bool = False,
     ) -> Slip:
         """The state after Q and τ on this contact without shear.
 
-        `under` is the contact in several patches as a function of load and tilt, `near` as in
-        `load_step`; with `one_sign` slip is positive at both edges, whatever Q and τ. ContactError
-        if Q exceeds f P, or no zones of stick and slip meet all conditions.
+        `in_patches` is the contact in several patches as a function of load and tilt; with
+        `one_sign` slip is positive at both edges, whatever Q and τ. ContactError if Q exceeds f P,
+        or no zones of stick and slip meet all conditions.
         """
-        if self._several is None:
-            from sie.friction.partial_slip import slip
-
-            step = self.load_step(*loads, near)
-            if self.convex or self._sticks_in_one_patch(step):
-                return slip(step, one_sign)
-        from sie.patches.friction import PatchSlip
-
-        state = PatchSlip(self.scene, self.in_patches, loads, under)
-        _ = state.corrective
-        return state
-
-    def _sticks_in_one_patch(self, step: Step) -> bool:
-        """Whether the stick zone of slip in one direction is one patch; there may be none."""
-        from sie.friction.partial_slip import corrective_loads
-
-        f, Q = self.scene.friction, step.Q
-        slides = not 0.0 < abs(Q) < f * step.normal_load
-        if slides or math.pi * step.pressure.contact.r * abs(step.tau) > abs(Q):
-            return True
-        loads = corrective_loads(step, math.copysign(1.0, Q))
-        return isinstance(self._contact_under(*loads).normal, Normal)
-
-    def _contact_under(self, load: float, tilt: float) -> Frictionless:
-        """The contact of the profile under another load and tilt, kept."""
-        if (load, tilt) not in self._others:
-            plain = self._without_shear(load, tilt)
-            self._others[load, tilt] = Frictionless(plain, self.tol, self.economy)
-        return self._others[load, tilt]
-
-    @cached_property
-    def _others(self) -> dict[tuple[float, float], Frictionless]:
-        return {}
-
-    def load_step(self, Q: float, tau: float, near: Interval | None = None) -> Step:
-        """The load Q and the strain τ on this contact of one patch.
-
-        `near` is a stick zone that may be close to the one sought. It saves work, and does not
-        change the answer.
-        """
+        from sie.friction.partial_slip import slip
         from sie.friction.slip_state import Step
 
-        scene, tol, economy, normal = self.scene, self.tol, self.economy, self.as_one_patch
-        under: Callable[[float, float], Normal] = partial(
-            contact_under, scene=scene, tol=tol, economy=economy, near=near, seen=normal.seen
-        )
+        under = self._under if self._several is None else in_patches
+        return slip(Step(self.scene, self.touching, *loads, self.economy, under), one_sign)
+
+    def _under(self, load: float, tilt: float) -> Touching:
+        """The contact of the profile under another load and tilt."""
+        plain = self._without_shear(load, tilt)
         if not self.convex:
-            under = lambda load, tilt: self._contact_under(load, tilt).as_one_patch  # noqa: E731
-        on = partial(pressure, scene=scene, tol=tol, economy=economy)
-        return Step(scene, normal, self.slope_density, Q, tau, tol, economy, under, on)
+            return Frictionless(plain, self.tol, self.economy).touching
+        normal = normal_contact(plain, self.tol, self.economy, self.as_one_patch.seen)
+        return OnePatch(normal, self.scene, self.tol, self.economy)
 
     @cached_property
     def dissipated(self) -> float:

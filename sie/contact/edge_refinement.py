@@ -115,19 +115,15 @@ class Polish:
             contact = moved
         return contact, k, False
 
-    def symmetric(
-        self, contact: Interval, target: float, z: float, most: int, reach: float = math.inf
-    ) -> tuple[Interval, bool]:
-        """The symmetric contact that carries target = P/G, and whether it settled: one unknown.
-
-        It ends after `most` steps, or at one that is longer than `reach` r.
+    def symmetric(self, contact: Interval, target: float, z: float) -> Interval:
+        """The symmetric contact that carries target = P/G: one unknown.
 
         With r JR changing by no more than VARIES times itself over the distance to the next break
         or to z, what a step leaves is known. Of functions JR is less exact.
         """
         exact = not self.slope.functions
         bracket = Bracket((z, 0.0), (self.slope.domain[1], 0.0))
-        for _ in range(most):
+        for _ in range(MAX_POLISHING):
             k, r = self.evaluate(contact), contact.r
             over, rise = r * k.I1 - target, r * k.JR
             if not rise > 0.0:
@@ -137,12 +133,10 @@ class Polish:
             room = min(abs(self.nearest(contact, RIGHT)[1]), (contact.x2 - z) + contact.tail2)
             if abs(out) > CLOSE * room:
                 out = self.outwards(contact, RIGHT, over, rise)
-            if abs(out) > reach * r:
-                break
             wanted = contact.moved(-out, out)
             left = VARIES * missed * abs(out)
             if missed <= 1.0 or (exact and 2.0 * abs(out) <= room and left <= room):
-                return wanted, True
+                return wanted
             bracket.cut((contact.x2, contact.tail2), above=over < 0.0)
             place = bracket.place((wanted.x2, wanted.tail2), missed)
             if place != (wanted.x2, wanted.tail2):
@@ -151,7 +145,7 @@ class Polish:
             if wanted == contact:
                 break
             contact = wanted
-        return contact, False
+        return contact
 
     def centred(self, contact: Interval, low: float, high: float) -> tuple[Interval, EdgeIntegrals]:
         """The contact of the same half-width whose centre balances the slope: I0 = 0.

@@ -39,7 +39,7 @@ from sie.numerics.root_finding import ROUGH, logarithmic_root
 from sie.profiles.lowest_points import lowest_points
 
 from .edge_integrals import EdgeIntegrals, edge_integrals
-from .edge_refinement import MAX_POLISHING, Polish
+from .edge_refinement import Polish
 from .first_guess import first_guess, of_linear_rise
 from .known_contact import Edges
 
@@ -47,9 +47,6 @@ if TYPE_CHECKING:
     from sie.profiles.slope import Slope
 
 MISSED = 1e-6  # of the load: a search that ends with more has not found a contact
-# Newton from a neighbouring contact is given up unless its first step is below this fraction of the
-# distance, and so many steps settle it.
-NEAR, NEAR_STEPS = 0.25, 5
 HUGE = 1e300
 UNEVEN = 1e-30  # the left side is not sought nearer than this fraction of the right one
 
@@ -189,20 +186,7 @@ class Search:
         target = load / self.half_modulus
         guess = of_linear_rise(self.slope, axis, z, target) or first_guess(self.slope, z, target)
         distance = logarithmic_root(excess, target, guess, hi - z, self.too_much(load))
-        return Found(self.polish.symmetric(at(distance), target, z, MAX_POLISHING)[0])
-
-    def symmetric_near(self, load: float, contact: Interval) -> Interval | None:
-        """The same by Newton alone, from the contact under a load that is not much different.
-
-        None if that does not settle at once. A path of 200 points under a constant normal load
-        takes 1.25 times as long without it for 40 straight pieces.
-        """
-        z = self.touch()[1]
-        reach = NEAR * ((contact.x2 - z) + contact.tail2) / contact.r
-        contact, settled = self.polish.symmetric(
-            contact, load / self.half_modulus, z, NEAR_STEPS, reach
-        )
-        return contact if settled else None
+        return Found(self.polish.symmetric(at(distance), target, z))
 
     @property
     def polish(self) -> Polish:

@@ -15,7 +15,7 @@ import numpy as np
 
 from sie import arguments
 from sie.errors import LoadError
-from sie.numerics.interval import Interval, interval_about
+from sie.numerics.interval import interval_about
 from sie.problem.request import ECONOMY
 from sie.problem.scene import Scene
 from sie.profiles.base import Profile
@@ -24,7 +24,7 @@ from sie.profiles.pieces import without_functions
 from sie.profiles.resolution import accuracy_for, refined
 from sie.profiles.slope import Slope
 
-from .edges import NEAR, Found, Search
+from .edges import Found, Search
 from .known_contact import NEARER, Edges, Normal, refuse_unresolved, with_breaks
 from .smooth_slope import smooth_contact
 from .tilt_of_moment import refuse_outside, tilt_of_moment
@@ -32,6 +32,7 @@ from .window import FITTED, MOST_GROWN, Window, window_of
 
 # Tests of a function between the points that resolved it, each with the breaks that the last added.
 LOOKS = 4
+NEAR = 0.25  # of P times the half-width: a contact under so nearly the moment is a first guess
 
 
 def normal_contact(
@@ -267,34 +268,6 @@ def _unseen(found: Normal, resolved: Slope, scene: Scene, tol: float) -> tuple[f
     of_edges = without_functions(resolved.tilted(found.edges.tilt))
     of_pressure = without_functions(refined(slope, contact.x1, contact.x2, accuracy))
     return between_points(slope, (of_edges, of_pressure), contact, accuracy)
-
-
-def contact_under(
-    load: float,
-    tilt: float,
-    scene: Scene,
-    tol: float,
-    economy: Collection[str] = ECONOMY,
-    *,
-    near: Interval | None = None,
-    seen: tuple[float, ...] | None = None,
-) -> Normal:
-    """The contact of a scene's profile under another load, at another tilt.
-
-    `near` is that under a load that may be almost the same.
-    """
-    profile = scene.profile
-    upright = profile.axis is not None and tilt == 0.0 and "symmetry" in economy
-    if near is not None and upright and not profile.pieces.functions:
-        search = Search(
-            profile.pieces, 0.5 * scene.Estar, profile.axis, "zero panels" not in economy
-        )
-        contact = search.symmetric_near(load, near)
-        if contact is not None:
-            return Normal(search.finished(Found(contact), load, 0.0), True)
-    return normal_contact(
-        Scene(profile=profile, modulus=scene.Estar, normal_load=load, tilt=tilt), tol, economy, seen
-    )
 
 
 def _searched(scene: Scene, slope: Slope, economy: Collection[str], start: float = 0.0) -> Normal:

@@ -1,4 +1,4 @@
-"""The pressure on a known contact, from the slope of the profile there.
+"""The pressure on a known contact, from the slope of the profile there; the contact as a whole.
 
 A polynomial, or a function that one Chebyshev series resolved in the search for the edges, takes
 that series and its exact transform, any other slope exact integrals over its pieces.
@@ -7,7 +7,9 @@ that series and its exact transform, any other slope exact integrals over its pi
 from __future__ import annotations
 
 from bisect import bisect_left, bisect_right
-from collections.abc import Collection
+from collections.abc import Callable, Collection
+from dataclasses import dataclass
+from functools import cached_property, partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,7 +24,8 @@ from sie.traction.on_panels import PanelDensity
 from sie.traction.panels import Panels
 from sie.traction.piece_quadrature import Geometry, SlidingGeometry
 
-from .known_contact import Normal
+from .gap import gap
+from .known_contact import Edges, Normal
 
 Array = NDArray[np.float64]
 
@@ -69,3 +72,41 @@ def slope_series(slope: Slope, contact: Interval) -> Array | None:
         return None
     k = Geometry(slope, contact, keep_zero=True)
     return k.chebyshev_slope(max(int(slope.degrees[k.k[0]]) + 1, 2))[0] if len(k.k) == 1 else None
+
+
+@dataclass(frozen=True, eq=False)
+class OnePatch:
+    """The contact `normal` of a scene's profile."""
+
+    normal: Normal
+    scene: Scene
+    tol: float
+    economy: Collection[str]
+
+    @property
+    def edges(self) -> Edges:
+        return self.normal.edges
+
+    @property
+    def patches(self) -> tuple[tuple[float, float], ...]:
+        return (self.edges.contact[:2],)
+
+    @cached_property
+    def pressure(self) -> SlopeDensity:
+        return pressure(self.normal, self.scene, self.tol, self.economy)
+
+    @property
+    def slope(self) -> Slope:
+        return self.normal.slope(self.scene.profile)
+
+    def gap(self, x: Array) -> Array:
+        return gap(x, self.pressure, self.slope)
+
+    def moved(
+        self, contact: Interval, origin: tuple[float, float]
+    ) -> tuple[SlopeDensity, Slope, Callable[[Array], Array]]:
+        """Pressure, slope and gap by distances from an origin, from which the contact is given."""
+        x, tail = origin
+        density = self.pressure.moved(contact, -x, -tail)
+        slope = self.slope.shifted(-x).shifted(-tail)
+        return density, slope, partial(gap, density=density, slope=slope)

@@ -104,9 +104,12 @@ class Rate(Potential):
         return np.asarray(found)
 
     def density(self, places: Rule) -> Array:
-        """The density at places in one zone."""
-        middle = 0.5 * float(places.lo.min() + places.hi.max())
-        return self.in_stick(int(np.searchsorted(self.stick[:, 0], middle)) - 1, places)
+        """The density at places in the zones."""
+        found = np.zeros(len(places.lo))
+        zones = np.searchsorted(self.stick[:, 0], 0.5 * (places.lo + places.hi), "right") - 1
+        for k in np.unique(zones):
+            found[zones == k] = self.in_stick(int(k), places.among(zones == k))
+        return found
 
     @property
     def moment(self) -> float:

@@ -1,11 +1,11 @@
-"""A step of the tangential load, and what every state of stick and slip answers."""
+"""The contact to which a tangential load is applied, and what every state of slip answers."""
 
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Collection
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,43 +13,48 @@ from numpy.typing import NDArray
 from sie.traction.combination import ZERO
 
 if TYPE_CHECKING:
-    from sie.contact.known_contact import Normal
+    from sie.contact.known_contact import Edges
     from sie.numerics.interval import Interval
     from sie.problem.scene import Scene
-    from sie.profiles.slope import Slope
     from sie.traction.base import Density
-    from sie.traction.of_slope import SlopeDensity
 
 Array = NDArray[np.float64]
 
 
+class Touching(Protocol):
+    """A contact without shear, in one patch or in several."""
+
+    @property
+    def edges(self) -> Edges: ...
+    @property
+    def patches(self) -> tuple[tuple[float, float], ...]: ...
+    @property
+    def pressure(self) -> Any: ...
+    def gap(self, x: Array) -> Array: ...
+
+
 @dataclass(frozen=True)
 class Step:
-    """A contact's pressure and slope, and the loads Q and τ that are applied to it at constant P.
+    """The loads Q and τ that are applied to a contact at constant P.
 
-    Friction needs the normal problem only as two functions, whoever solves it:
-
-    contact_under    the contact of the same profile under a load and a tilt
-    pressure_on      the pressure on such a contact
+    full     the contact
+    under    that of the same profile under a load and a tilt, whoever solves it
     """
 
     scene: Scene
-    normal: Normal
-    pressure: SlopeDensity
+    full: Touching
     Q: float
     tau: float
-    tol: float
     economy: Collection[str]
-    contact_under: Callable[[float, float], Normal]
-    pressure_on: Callable[[Normal], SlopeDensity]
+    under: Callable[[float, float], Touching]
 
     @property
-    def slope(self) -> Slope:
-        return self.normal.slope(self.scene.profile)
+    def contact(self) -> Interval:
+        return self.full.edges.contact
 
     @property
     def normal_load(self) -> float:
-        return self.normal.edges.normal_load
+        return self.full.edges.normal_load
 
 
 class Slip(ABC):
@@ -140,11 +145,12 @@ class NoSlip(Slip):
 
     contact: Interval
     friction: float
+    patches: tuple[tuple[float, float], ...]
     kind = "stick"
 
     @property
     def stick(self) -> tuple[tuple[float, float], ...]:  # type: ignore[override]
-        return ((self.contact.x1, self.contact.x2),) if self.friction else ()
+        return self.patches if self.friction else ()
 
     @property
     def shear(self) -> Density:

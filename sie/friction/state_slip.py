@@ -101,7 +101,7 @@ class TwoSignedSlip(StateSlip):
 
     @property
     def contact(self) -> Interval:  # type: ignore[override]
-        return self.step.pressure.contact
+        return self.step.contact
 
     @property
     def friction(self) -> float:  # type: ignore[override]
@@ -141,9 +141,9 @@ def two_signed(step: Step) -> TwoSignedSlip:
 
     Raises ContactError at sharp edges, and where no zones are found.
     """
-    patches = (step.pressure.interval,)
-    limit = limit_on(step.scene, patches, step.pressure, MARKED)
-    infinite = limit.marks[np.isinf(step.pressure(limit.marks))]
+    patches, pressure = step.full.patches, step.full.pressure
+    limit = limit_on(step.scene, patches, pressure, MARKED)
+    infinite = limit.marks[np.isinf(pressure(limit.marks))]
     _refuse_slip_at(infinite, patches[0], patches[0])
     before = State.untouched(Contact(patches, limit, 0.0, 0.0))
     after = Contact(patches, limit, step.Q, step.tau)

@@ -8,7 +8,6 @@ step that no layers answer is followed part by part (`friction.course`).
 from __future__ import annotations
 
 import math
-from bisect import bisect_left, insort
 from collections.abc import Collection
 from dataclasses import replace
 from functools import cached_property
@@ -19,9 +18,8 @@ from sie.errors import ContactError, LoadError
 from sie.friction.course import course
 from sie.friction.load_steps import TurningPoint
 from sie.friction.loading import Loads, LoadStep
-from sie.friction.partial_slip import OneSignedSlip
+from sie.friction.partial_slip import refuse_stretch
 from sie.numerics.interval import EPS, Interval
-from sie.patches.friction import refuse_stretch
 from sie.patches.full import FullContact
 from sie.problem.load_path import Path, unsheared
 
@@ -55,7 +53,6 @@ class PathContacts:
         self._first = path.first_contact
         self._plain: dict[Under, Sheared] = {}
         self._first_loadings: dict[tuple[Under, complex], Slip] = {}
-        self._known: dict[Under, _KnownZones] = {}
         self._in_patches: dict[tuple[float, float], SeveralPatches | FullContact] = {}
 
     def solution(self, scene: Scene) -> Sheared:
@@ -133,24 +130,14 @@ class PathContacts:
         """
         key = (normal, depth)
         if key not in self._first_loadings:
-            if normal not in self._known:
-                self._known[normal] = _KnownZones()
-            near = self._known[normal]
-            guess = None if depth.imag else near.guess(depth.real)
-            found = self._loaded(self.plain(*normal), depth, turned, guess)
-            if isinstance(found, OneSignedSlip) and not depth.imag:
-                near.add(depth.real, found.found.edges.contact)
+            plain = self.plain(*normal)
+            f, P, Q = self.scene.friction, plain.normal_load, depth.real
+            if abs(Q) >= f * P * (1.0 - 4.0 * EPS):
+                Q = math.copysign(f * P, Q)
+            tau = depth.imag / self.arm if depth.imag else 0.0
+            found = plain.first_loading((Q, tau), self.under, one_sign=not turned)
             self._first_loadings[key] = found
         return self._first_loadings[key]
-
-    def _loaded(
-        self, plain: Sheared, depth: complex, turned: bool, near: Interval | None = None
-    ) -> Slip:
-        f, P, Q = self.scene.friction, plain.normal_load, depth.real
-        if abs(Q) >= f * P * (1.0 - 4.0 * EPS):
-            Q = math.copysign(f * P, Q)
-        tau = depth.imag / self.arm if depth.imag else 0.0
-        return plain.first_loading((Q, tau), self.under, near, one_sign=not turned)
 
     def under(self, load: float, tilt: float) -> SeveralPatches | FullContact:
         """The contact in several patches under a load at a tilt."""
@@ -214,30 +201,3 @@ class PathContacts:
                 f"all loads change by less than {limit:g} of f P, which rounding hides: drop "
                 "this point of the path" + ("" if same else ", or keep P and the tilt in it")
             )
-
-
-class _KnownZones:
-    """Stick zones under one P, by depth: a cubic through the nearest four estimates the next."""
-
-    def __init__(self) -> None:
-        self._depths: list[float] = []
-        self._zones: dict[float, Interval] = {}
-
-    def add(self, depth: float, zone: Interval) -> None:
-        if depth not in self._zones:
-            insort(self._depths, depth)
-            self._zones[depth] = zone
-
-    def guess(self, depth: float) -> Interval | None:
-        first = max(min(bisect_left(self._depths, depth) - 2, len(self._depths) - 4), 0)
-        near = self._depths[first : first + 4]
-        if not near:
-            return None
-        base, moved = self._zones[near[0]], [0.0, 0.0]
-        for d in near:
-            zone = self._zones[d]
-            weight = math.prod((depth - other) / (d - other) for other in near if other != d)
-            moved[0] += weight * (zone.x1 - base.x1 + (zone.tail1 - base.tail1))
-            moved[1] += weight * (zone.x2 - base.x2 + (zone.tail2 - base.tail2))
-        found = base.moved(*moved)
-        return found if found.x1 < found.x2 else None

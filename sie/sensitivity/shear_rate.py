@@ -13,9 +13,9 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Any, NamedTuple
 
+from sie.contact.pressure import OnePatch
 from sie.errors import ContactError
 from sie.friction.partial_slip import OneSignedSlip
-from sie.patches.friction import PatchSlip
 from sie.traction.base import Density
 from sie.traction.combination import superposed
 
@@ -57,17 +57,13 @@ def shear_rate(solution: Any, change: Change, contact: ContactRate) -> ShearRate
     if scene.slides:
         raise _begins("|Q| = f P")
     state: Any = solution.tangential
-    found: Any
-    density: Any
-    if isinstance(state, OneSignedSlip):
-        found, density = state.found, state.corrective
-    elif isinstance(state, PatchSlip):
-        found, density = state.corrective, state.corrective.pressure
-    else:
+    if not isinstance(state, OneSignedSlip):
         raise ContactError(
             "the bulk stress makes the two edges slip in opposite directions, where derivatives of "
             "the shear are not known: lower the bulk stress, or raise the tangential load"
         )
+    reduced, density = state.reduced, state.corrective
+    found = reduced.normal if isinstance(reduced, OnePatch) else reduced
     along, Q, gained = state.sign * f, solution.tangential_load, change.friction / f
     twice = 2.0 / (along * scene.Estar)
     under = replace(

@@ -98,7 +98,7 @@ def test_full_sliding_is_f_times_the_pressure_without_a_second_solve(profile, si
     def refused(*_args, **_options):
         pytest.fail("a second contact was solved")
 
-    monkeypatch.setattr(sie.answers.sheared, "contact_under", refused)
+    monkeypatch.setattr(sie.answers.sheared, "normal_contact", refused)
     x = np.linspace(-0.9, 0.9, 7) * solution.half_width
     assert (solution.shear(x) == sign * F * solution.pressure(x)).all()
     assert solution.stick == ()
