@@ -175,8 +175,7 @@ def _of_one_problem(scene: Scene, names: tuple[str, ...], stages: set[str]) -> I
     elif scene.tangential_load or scene.tau:
         first = [
             ("coupling", f"{coupled}; first under P alone", "pressed"),
-            ("slip gradient", "that of P alone, kept in stick", "locked_in"),
-            ("zones", "edges of contact and of stick zones together, by Newton", "coupled"),
+            ("zones", "of the slip gradient that P left, edges together, by Newton", "coupled"),
         ]
         energy = [_if_asked("energy", "energy" in names, "the power of friction, over states")]
     else:

@@ -25,8 +25,7 @@ from .frictionless import Frictionless
 if TYPE_CHECKING:  # what a stage needs is imported when it is computed
     from sie.cauchy.density import JacobiDensity
     from sie.certificate.result import Certificate, ShearCertificate
-    from sie.friction.coupled.answer import LoadedContact
-    from sie.friction.coupled.pressed import Pressed
+    from sie.friction.coupled.answer import CoupledContact
     from sie.friction.coupled.traction import OnPieces
     from sie.friction.full_stick import Component
     from sie.friction.slip_state import Slip, Touching
@@ -49,7 +48,7 @@ PRESSED = (NORMAL - {"coupled"}) | {"friction", "dundurs", "coupling"}
 STAGES = {
     **dict.fromkeys(OF_NORMAL, NORMAL),
     **dict.fromkeys(OF_SHEAR, SHEAR),
-    **dict.fromkeys(("pressed", "locked_in"), PRESSED),
+    "pressed": PRESSED,
 }
 
 BALANCED = 1e-9  # of P times the half-width: a moment that needs no tilt
@@ -96,23 +95,23 @@ class Sheared(Frictionless):
         return full_stick_contact(self.scene, self.tol)
 
     @cached_property
-    def coupled(self) -> tuple[Edges, Pressed | LoadedContact]:
+    def coupled(self) -> tuple[Edges, CoupledContact]:
         """The edges and the state of dissimilar bodies in partial slip."""
         scene = self.scene
         if not (scene.tangential_load or scene.tau):
             return self.pressed
-        state = self.locked_in.under(scene.tangential_load, scene.tau)
+        state = self.pressed[1].under(scene.tangential_load, scene.tau)
         return replace(state.edges, tilt=scene.tilt), state
 
-    def go_on_from(self, before: Pressed | LoadedContact | None) -> None:
+    def go_on_from(self, before: CoupledContact | None) -> None:
         """Goes on from another state under the same P, and not from that under P alone."""
-        if before is not None and hasattr(before, "under"):
+        if before is not None:
             state = before.under(self.scene.tangential_load, self.scene.tau)
             self.__dict__["coupled"] = replace(state.edges, tilt=self.scene.tilt), state
 
     @cached_property
-    def pressed(self) -> tuple[Edges, Pressed]:
-        """The same under the normal load alone."""
+    def pressed(self) -> tuple[Edges, CoupledContact]:
+        """The same under the normal load alone, from which Q and bulk stress lead to others."""
         from sie.friction.coupled.normal import coupled_contact
 
         scene = self._upright
@@ -131,13 +130,6 @@ class Sheared(Frictionless):
         """The scene with its tilt in the profile."""
         scene = self.scene
         return replace(scene, profile=scene.profile.tilted(scene.tilt), tilt=0.0)
-
-    @cached_property
-    def locked_in(self) -> LoadedContact:
-        """The same with what it locks in, from which Q and bulk stress lead to other states."""
-        from sie.friction.coupled.answer import pressed_contact
-
-        return pressed_contact(self.pressed[1])
 
     def _frictionless(self, scene: Scene) -> Normal:
         return Frictionless(scene, self.tol).unverified

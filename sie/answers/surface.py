@@ -39,9 +39,8 @@ class SurfaceAnswers(Stages):
             when they are smaller than the rounding of the edges; 0 below 1e-15 of the half-width,
             where that is full stick.
         """
-        if self.scene.coupled and not (self.scene.tangential_load or self.scene.tau):
-            width = self.pressed[1].slip_width
-            return width, width
+        if self.scene.coupled:
+            return self.coupled[1].slip_widths
         x1, x2 = self.edges
         stick = self.stick or ((x2, x1),)
         return stick[0][0] - x1, x2 - stick[-1][1]
@@ -182,9 +181,10 @@ class SurfaceAnswers(Stages):
     def coupling_notes(self) -> tuple[str, ...]:
         """A sentence on what is neglected where β, or β q, is left out, or ()."""
         if self.scene.neglects_beta:
-            from sie.friction.coupled.normal import departure
-
-            return (departure(self.scene, self.tol),)
+            return (
+                "note: β q is left out of the normal equation (Goodman's approximation); give "
+                'coupling="full" to compare',
+            )
         beta = self.scene.neglected_beta
         if not beta:
             return ()

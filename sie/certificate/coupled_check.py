@@ -16,7 +16,7 @@ from __future__ import annotations
 
 import math
 from functools import cached_property
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -35,10 +35,7 @@ from .result import Certificate, ShearCertificate
 from .shear_check import ENDS, excess
 
 if TYPE_CHECKING:
-    from sie.friction.coupled.answer import LoadedContact
-    from sie.friction.coupled.pressed import Pressed
-
-    State: TypeAlias = Pressed | LoadedContact
+    from sie.friction.coupled.answer import CoupledContact as State
 
 Array = NDArray[np.float64]
 

@@ -120,7 +120,7 @@ class DissimilarCycle(SteadyCycle):
             self.scene, normal_load=P, half_width=None, tangential_load=0.0, bulk_stress=0.0
         )
         pressed = Solution(alone, self.tol)
-        states = [self._after(pressed, pressed.locked_in, 0)]
+        states = [self._after(pressed, pressed.pressed[1], 0)]
         for turn in range(1, 2 * CYCLES + 1):
             states.append(self._after(pressed, states[-1].coupled[1], turn % 2))
             if turn % 2 == 0:

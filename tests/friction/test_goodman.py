@@ -136,9 +136,9 @@ def test_answer_tends_to_the_coupled_one_quadratically():
     assert errors[1] == pytest.approx(0.01 * errors[0], rel=0.02)
 
 
-def test_report_says_how_far_the_approximation_is():
+def test_report_says_what_is_left_out():
     *_, note = solved().notes
-    assert "c/b = 0.707107 instead of 0.700618 (+0.93 %)" in note
+    assert "β q is left out" in note and 'give coupling="full" to compare' in note
     assert solved().check().notes[-1] == note
 
 

@@ -8,24 +8,30 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from functools import cached_property, partial
+from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
+from sie.contact.known_contact import Edges
 from sie.errors import ContactError
 from sie.friction.state import intervals
 from sie.numerics.graded_panels import Pieces
+from sie.numerics.interval import Interval
+from sie.traction.base import FAR_AWAY, InContact, on_line, zero_or_nan
 
-from .view import View
+from .traction import EDGE, REACH, OnPieces, Piece, places, tabulated
 from .work import work
 
 if TYPE_CHECKING:
+    from sie.profiles.base import Profile
+
     from .pressed import Pressed
     from .step import Loaded
 
 Array = NDArray[np.float64]
+Zones = tuple[tuple[float, float], ...]
 
 LEAST = 1e-300
 ONE = 1e-13  # of the contact: marks that are nearer are one
@@ -33,46 +39,187 @@ PRESSED = 1e-9  # of P: what the state of the normal load may miss
 
 
 @dataclass(frozen=True, eq=False)
-class LoadedContact(View):
-    """A state at constant P in the coordinates of the scene.
+class CoupledContact:
+    """A state in the coordinates of the scene.
 
-    loaded      the state
-    pressed     that under P alone
-    origin      of the places of the states
-    sign        of β
-    previous    the state at the point of the path before
+    pressed         the contact under P alone, and how it grew
+    loaded          the state, about the origin of that
+    sign            of β
+    half_modulus    E*/2
+    previous        the state at the point of the path before, None under P alone
     """
 
-    loaded: Loaded
     pressed: Pressed
-    origin: float
+    loaded: Loaded
     sign: float
-    previous: LoadedContact | None = None
+    half_modulus: float
+    previous: CoupledContact | None = None
 
-    @property
-    def half_modulus(self) -> float:  # type: ignore[override]
-        return self.pressed.half_modulus
-
-    def under(self, Q: float, tau: float) -> LoadedContact:
+    def under(self, Q: float, tau: float) -> CoupledContact:
         """The state after a step to Q and τ; ContactError where friction is kept by none."""
+        Q, tau = self.sign * Q, self.sign * tau
+        if (Q, tau) == (self.loaded.Q, self.loaded.strain):
+            return self
         known = float(np.abs(self.loaded.first.state.missed).max())
         if not known <= PRESSED:
             raise ContactError(
                 f"the slip that the normal load left is known to {known:.1g} of f p alone, too "
                 "little to go on from; raise friction, or give dundurs = 0 to neglect β"
             )
-        after = self.loaded.stepped(self.sign * Q, self.sign * tau)
+        after = self.loaded.stepped(Q, tau)
         if after is None:
-            raise refused(self, Q)
+            raise refused(self.loaded, Q)
         return replace(self, loaded=after, previous=self)
+
+    # -- zones and loads ---------------------------------------------------------------------------
+
+    @property
+    def origin(self) -> float:
+        return self.pressed.origin
+
+    @cached_property
+    def contact(self) -> Interval:
+        if self.previous is None:
+            return self.pressed.contact
+        lo, hi = self.loaded.zones.ends[[0, -1]].tolist()
+        return Interval(self.origin + lo, self.origin + hi)
+
+    @property
+    def sharp(self) -> bool:
+        """Whether the edges are corners, where the tractions are infinite."""
+        return self.pressed.sharp
+
+    @property
+    def full_stick(self) -> bool:
+        """Whether the slip zones are narrower than a part 1e-15 of the contact."""
+        return self.previous is None and self.pressed.flat.bonded
+
+    @property
+    def stick(self) -> Zones:
+        """The stick zones."""
+        if self.full_stick:
+            return (self.contact[:2],)
+        return tuple((self.origin + lo, self.origin + hi) for lo, hi in self.loaded.zones.stick)
+
+    @property
+    def slip_widths(self) -> tuple[float, float]:
+        """The widths of the slip zones at both edges, to full relative accuracy."""
+        widths = self.loaded.zones.widths
+        return (0.0, 0.0) if self.full_stick else (widths[0], widths[-1])
+
+    @property
+    def slip_zones(self) -> tuple[tuple[float, float, float], ...]:
+        """(lo, hi, sign of q)."""
+        zones = () if self.full_stick else self.loaded.zones.slip
+        return tuple((self.origin + lo, self.origin + hi, self.sign * s) for lo, hi, s in zones)
+
+    @property
+    def edges(self) -> Edges:
+        P, sharp = self.loaded.question.P, (self.sharp, self.sharp)
+        return Edges(self.contact, P, self.moment, 0.0, sharp, 0.0, 0.0, 0.0, 0)
+
+    @cached_property
+    def moment(self) -> float:
+        """∫p x dx."""
+        at, (p, _, _) = self.loaded.fields.whole
+        return self.origin * self.loaded.question.P + float(at.weight @ (p * at.x))
+
+    @property
+    def kind(self) -> str:
+        """The slip in words."""
+        if self.full_stick:
+            return "full stick, its zones narrower than 1e-15 of the contact; β couples p and q"
+        if self.previous is None:
+            way = "outwards" if self.sign > 0.0 else "inwards"
+            return f"{way} on both sides while the normal load grew; β couples p and q"
+        left, *_, right = ["+" if s > 0.0 else "-" for _, _, s in self.slip_zones]
+        where = f"towards {left}x" if left == right else f"towards {left}x left and {right}x right"
+        return f"{where} beside the stick zone; β couples p and q"
+
+    # -- tractions ---------------------------------------------------------------------------------
+
+    def rows(self, x: Array, rest: Array | None = None) -> Array:
+        """Rows of p and q in contact; at a tip of the profile p is infinite, and q is told as 0."""
+        rows = self._rows(x - self.origin, rest)
+        if self.previous is None and self.pressed.tip:
+            rows[0, x == self.origin], rows[1, x == self.origin] = np.inf, 0.0
+        return rows
+
+    def _rows(self, x: Array, rest: Array | None = None) -> Array:
+        p, q, _ = self.loaded.fields(x, rest)
+        return np.stack((p, self.sign * q))
+
+    @property
+    def values(self) -> InContact:
+        """The tractions about the origin."""
+        lo, hi = self.loaded.zones.ends[[0, -1]].tolist()
+        marks = (lo, *(x - self.origin for x in self.marks[1:-1]), hi)
+        return InContact(Interval(lo, hi), marks, self._rows, self.origin, self.sharp)
+
+    @cached_property
+    def marks(self) -> tuple[float, ...]:
+        """Places in the contact where p or q is not smooth, with its edges, ascending."""
+        (lo, hi), kinks = self.contact[:2], self.loaded.question.slope.kinks
+        places = {self.origin + x for x in (*self.loaded.marks, *kinks)}
+        return (lo, *sorted(x for x in places if lo < x < hi), hi)
+
+    @cached_property
+    def _tables(self) -> list[list[Piece]]:
+        """p and q on each piece."""
+        fields, pieces = self.loaded.fields, self.loaded.state.pieces
+        reach = EDGE / (1.0 + min(0.0, *pieces.powers.tolist())) if self.sharp else REACH
+        v, found = tabulated(places(reach)), []
+        cuts = pieces.cuts.tolist()
+        cuts[0], cuts[-1] = (edge - self.origin for edge in self.contact[:2])
+        for k, length in enumerate(pieces.lengths.tolist()):
+            p, q, _ = fields.on_piece(k, v)
+            found.append([Piece(cuts[k], cuts[k + 1], length, f) for f in (p, self.sign * q)])
+        return found
+
+    def _pieces(self, row: int) -> list[Piece]:
+        return [pair[row] for pair in self._tables]
+
+    def _row(self, row: int, x: Array) -> Array:
+        values: Array = self.rows(x)[row]
+        return values
+
+    @cached_property
+    def tractions(self) -> tuple[OnPieces, OnPieces]:
+        """p and q with their potentials."""
+        loads = self.loaded.question.P, self.sign * self.loaded.Q
+        p, q = (
+            OnPieces(
+                self.contact,
+                partial(self._row, k),
+                partial(self._pieces, k),
+                loads[k],
+                self.origin,
+                self.marks,
+                self.sharp,
+            )
+            for k in (0, 1)
+        )
+        return p, q
 
     # -- slip --------------------------------------------------------------------------------------
 
+    def relative_slip(self, x: ArrayLike) -> Array:
+        """The slip at x since it came into contact, same shape: 0 outside the contact."""
+
+        def value(flat: Array) -> Array:
+            g, (lo, hi) = np.zeros(flat.shape), self.contact[:2]
+            inside = (flat >= lo) & (flat <= hi)
+            g[inside] = self.sign / self.half_modulus * self._slip(flat[inside] - self.origin)
+            return g
+
+        return on_line(value, x)
+
     def _slip(self, x: Array) -> Array:
+        """E*/2 times the slip for β > 0, at places about the origin."""
         g = self._gained(x)
         lo, hi = (edge - self.origin for edge in self.pressed.contact[:2])
         touched = (x >= lo) & (x <= hi)
-        g[touched] += self.pressed._slip(x[touched])
+        g[touched] += self.pressed.slip(x[touched])
         return g
 
     def _gained(self, x: Array) -> Array:
@@ -86,17 +233,22 @@ class LoadedContact(View):
     @property
     def least_slip(self) -> float:
         """The least slip in its direction, over the largest."""
-        verdict = self.loaded.verdict
-        return min(verdict.slip, verdict.rate)
+        if self.previous is None:
+            return self.pressed.least_slip
+        return min(self.loaded.verdict.slip, self.loaded.verdict.rate)
 
     @property
-    def kept(self) -> tuple[tuple[float, float], Any]:
-        """What sticks, and the state that its slip gradient was locked in by."""
+    def kept(self) -> tuple[tuple[float, float], CoupledContact | None]:
+        """A zone that sticks, and an earlier state since which it has; None from the first."""
         before = self.loaded.before
-        earlier: Any = self.pressed
-        if before is not None and before.before is not None:
-            earlier = replace(self, loaded=before)
-        return self.stick[0], earlier
+        if before is not None:
+            earlier = None if before.before is None else self.previous
+            return self.stick[0], replace(self, loaded=before, previous=earlier)
+        lighter = self.pressed.lighter
+        if lighter is None:
+            return self.stick[0], None
+        earlier = replace(self, pressed=lighter, loaded=lighter.loaded)
+        return earlier.stick[0], earlier
 
     @property
     def strain_kept(self) -> float:
@@ -106,9 +258,9 @@ class LoadedContact(View):
 
     @cached_property
     def energy(self) -> float:
-        """The dissipated energy since P was applied."""
+        """The dissipated energy since the bodies touched."""
         if self.previous is None:
-            return self.pressed.energy
+            return self.pressed.energy / self.half_modulus
         done = work(self.previous.loaded, self.loaded)
         return self.previous.energy + done / self.half_modulus
 
@@ -131,6 +283,22 @@ class LoadedContact(View):
         moved += float(self._gained(np.array([edge]))[0])
         moved += self.loaded.strain * (edge - middle)  # with the body under bulk stress
         return self.sign * (moved + self.loaded.Q / math.pi * bonded) / self.half_modulus
+
+    # -- beside the contact ------------------------------------------------------------------------
+
+    def gap(self, x: Array, profile: Profile) -> Array:
+        """The gap between the deformed bodies: 0 in contact."""
+        flat = np.asarray(x, dtype=float).ravel()
+        lo, hi = profile.domain
+        out: Array = zero_or_nan(flat)
+        out[(flat < lo) | (flat > hi) | np.isinf(flat)] = np.inf
+        known = np.isfinite(flat) & (out == 0.0)
+        for edge, side in ((self.contact.x1, -1.0), (self.contact.x2, 1.0)):
+            beside = known & (side * (flat - edge) > 0.0)
+            apart = np.minimum(np.abs(flat[beside] - edge), FAR_AWAY * self.contact.r)
+            rise = profile.height(flat[beside]) - profile.height(np.array(edge))
+            out[beside] = rise - self.loaded.fields.raised(apart, side) / self.half_modulus
+        return out.reshape(np.shape(x))
 
 
 def slipped(after: Loaded, before: Loaded, x: Array) -> Array:
@@ -169,17 +337,11 @@ def _to_far(state: Loaded, start: float) -> float:
     return -float(at.weight @ (q * log))
 
 
-def pressed_contact(pressed: Pressed) -> LoadedContact:
-    """The state under P alone, as the first of others at constant P."""
-    return LoadedContact(pressed.loaded, pressed, pressed.origin, pressed.sign)
-
-
-def refused(state: LoadedContact, Q: float) -> ContactError:
+def refused(state: Loaded, Q: float) -> ContactError:
     """The ContactError: no zones keep the friction law."""
-    question, friction = state.loaded.question, state.loaded.friction
-    P, limit = question.P, friction * question.P
+    P, limit = state.question.P, state.friction * state.question.P
     return ContactError(
-        f"dissimilar bodies (β f = {question.beta * friction:.3g}) under P = {P:.6g}, "
+        f"dissimilar bodies (β f = {state.question.beta * state.friction:.3g}) under P = {P:.6g}, "
         f"|Q| = {abs(Q):.6g} ({abs(Q) / limit:.3g} f P): slip turns inside a zone, or contact that "
         "is gained sticks, which is not solved; change Q, or give dundurs = 0"
     )

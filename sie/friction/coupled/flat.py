@@ -31,20 +31,22 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field
 from functools import cached_property, lru_cache
-from typing import NamedTuple, cast
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from sie.numerics.elliptic import Modulus, modulus_of_ratio
+from sie.profiles.slope import polynomial_slope
 
 from .fields import SHIFTS, Fields, cumulative, interpolated
+from .goodman import Uncoupled
 from .pieces import FINE, Pieces
 from .state import HalfSlope, Question, Solved, State
 
 Array = NDArray[np.float64]
 
-STEP = FINE.step
+STEP, SHIFT = FINE.step, FINE.step / SHIFTS  # of the rule, and of tables
 
 WIDE = 116.0  # |v| at the ends of the stick zone, where 1 - c has its digits
 # Where 1 - c is less than this the punch sticks all over, to the resolution of doubles.
@@ -56,8 +58,7 @@ SETTLED, MOST_STEPS = 1e-13, 20  # of the search for K'/K: where a step ends it
 ALIKE = 1e-8  # the ratios that bound an eigenvalue, where one more step ends the iteration
 # v in the slip zone between which γ is tabulated: beyond, it is a power of the distance
 NEAREST_C, NEAREST_EDGE = -28.0, 40.0
-FINER, FEW = 4, 8  # of tables beside the contact: finer than the rule; points of an interpolation
-MIRRORED = 20  # places of the table beyond infinity
+MIRRORED, POINTS = 20, 10  # places of a table beyond infinity, and of an interpolation
 
 
 @dataclass(frozen=True, eq=False)
@@ -69,6 +70,7 @@ class FlatPunch:
                         makes it about so wide
     modulus             k = c, the half-width of the stick zone
     pressure            p at the places c t of the rule, from the axis outwards
+    approximate         whether β q is left out of equation (1)
     """
 
     beta: float
@@ -76,8 +78,7 @@ class FlatPunch:
     bonded: bool
     modulus: Modulus
     pressure: Array = field(repr=False)
-
-    approximate = False  # whether β q is left out of equation (1)
+    approximate: bool = False
 
     @property
     def c(self) -> float:
@@ -90,68 +91,67 @@ class FlatPunch:
 
     @property
     def theta(self) -> float:
-        return math.atan(self.beta * self.friction) / math.pi
+        return 0.0 if self.approximate else math.atan(self.beta * self.friction) / math.pi
 
     @property
     def exponent(self) -> float:
         """h = 1/2 - θ: p ~ (1 - x)^-h; of a large β f the difference would lose digits."""
-        return math.atan2(1.0, self.beta * self.friction) / math.pi
-
-    # -- the slip gradient -------------------------------------------------------------------------
+        return 0.5 if self.approximate else math.atan2(1.0, self.beta * self.friction) / math.pi
 
     def state(self, b: float, load: float) -> State:
         """The punch of the half-width b under a load as a state."""
-        return _Flat(*self.asked(b, load), load / b * self.pressure)
-
-    def asked(self, b: float, load: float) -> tuple[Pieces, Question]:
-        """Its zones, and what the state is asked for."""
-        none = cast(HalfSlope, _NoSlope())
-        approximate = self.approximate
-        question = Question(self.beta, self.friction, none, np.zeros_like, load, 0.0, approximate)
+        line = polynomial_slope((-math.inf, math.inf), (0.0,), ((0.0,),))
+        flat = HalfSlope(line, 0.0, (0.0, 0.0))
+        question = Question(
+            self.beta, self.friction, flat, np.zeros_like, load, 0.0, self.approximate
+        )
         widths = self.rest * b, 2.0 * self.c * b, self.rest * b
-        return _Sharp(-b, widths, (-1, 0, 1), (), (), self.theta, FINE), question
+        pieces = Pieces(-b, widths, (-1, 0, 1), (), (), self.theta, FINE, sharp=True)
+        if self.approximate:
+            return Uncoupled(pieces, question)
+        return _Flat(pieces, question, load / b * self.pressure)
 
     @cached_property
     def _fields(self) -> Fields:
         return Fields(self.state(1.0, 1.0))
 
+    # -- the slip gradient, and the slip -----------------------------------------------------------
+
     @cached_property
-    def _in_slip(self) -> Table:
+    def _in_slip(self) -> tuple[float, Array]:
         """γ e^(-h v) and the integral of γ, in c < x < 1, by v = ln((x - c)/(1 - x))."""
         first, rows = self._fields.tables[2]
-        v = first + STEP / SHIFTS * np.arange(rows.shape[1])
+        v = first + SHIFT * np.arange(rows.shape[1])
         e = np.exp(-np.abs(v))
-        slip = cumulative(rows[2] * self.rest * e / (1.0 + e) ** 2) * (STEP / SHIFTS)
+        slip = cumulative(rows[2] * self.rest * e / (1.0 + e) ** 2) * SHIFT
         kept = (v > NEAREST_C) & (v < NEAREST_EDGE)
         gamma = rows[2] * np.exp(-self.exponent * v)
-        return finer(float(v[kept][0]), np.stack((gamma, slip))[:, kept])
+        return float(v[kept][0]), np.stack((gamma, slip))[:, kept]
 
     def gradient(self, from_c: Array, e: Array) -> Array:
         """γ at c + from_c = 1 - e."""
         v = np.log(from_c / e)
-        values: Array = self._in_slip(0, v) * np.exp(self.exponent * v)
+        values: Array = _told(self._in_slip, 0, v) * np.exp(self.exponent * v)
         return values
 
     def slip(self, from_c: Array, e: Array) -> Array:
         """The integral of γ from c."""
-        return self._in_slip(1, np.log(from_c / e))
+        return _told(self._in_slip, 1, np.log(from_c / e))
 
     # -- beside the contact ------------------------------------------------------------------------
 
     @cached_property
-    def _beyond(self) -> Table:
+    def _beyond(self) -> tuple[float, Array]:
         """D τ (1 - τ^-2)^h and γ τ² (1 - τ^-2)^h, τ > 1, which are even in ln((τ - 1)/(τ + 1))."""
-        step = STEP / SHIFTS
-        lowest = math.floor((-33.0 + math.log(0.5 * self.rest)) / step)
-        w = step * np.arange(lowest, 0)
+        lowest = math.floor((-33.0 + math.log(0.5 * self.rest)) / SHIFT)
+        w = SHIFT * np.arange(lowest, 0)
         E = 2.0 * np.exp(w) / -np.expm1(w)
         t, (p, q, _) = self._fields.whole
         moments = np.stack((p, q * t.x)) * t.weight / math.pi
         values = moments @ (1.0 / (E[:, None] + self._fields.from_edge(1.0))).T
         values *= (1.0 + E) * (E * (2.0 + E) / (1.0 + E) ** 2) ** self.exponent
         at_infinity = moments.sum(axis=1, keepdims=True)
-        whole = np.concatenate((values, at_infinity, values[:, : -MIRRORED - 1 : -1]), axis=1)
-        return finer(lowest * step, whole)
+        return lowest * SHIFT, np.hstack((values, at_infinity, values[:, : -MIRRORED - 1 : -1]))
 
     def outside(self, E: Array) -> Array:
         """D at 1 + E."""
@@ -163,57 +163,16 @@ class FlatPunch:
 
     def _beside(self, row: int, E: Array) -> Array:
         to_other = 2.0 + E
-        values: Array = self._beyond(row, np.log(E / to_other))
+        values: Array = _told(self._beyond, row, np.log(E / to_other))
         return values * (E * to_other / (1.0 + E) ** 2) ** -self.exponent
 
 
-@dataclass(frozen=True, eq=False)
-class Table:
-    """Rows of functions of v at equidistant v."""
-
-    first: float
-    step: float
-    rows: Array = field(repr=False)
-
-    def __call__(self, row: int, v: Array) -> Array:
-        last = self.first + self.step * (self.rows.shape[1] - 1)
-        place = (np.clip(v, self.first, last) - self.first) / self.step
-        values: Array = interpolated(self.rows[row : row + 1], place.ravel(), FEW)[0]
-        return values.reshape(v.shape)
-
-
-def finer(first: float, rows: Array) -> Table:
-    """A table from one in steps of STEP/SHIFTS, so fine that FEW points suffice."""
-    place = np.arange((rows.shape[1] - 1) * FINER + 1) / FINER
-    return Table(first, STEP / SHIFTS / FINER, interpolated(rows, place))
-
-
-class _NoSlope:
-    """h' = 0."""
-
-    kinks = ()
-
-    def __call__(self, x: Array) -> Array:
-        return np.zeros(x.shape)
-
-
-class _Sharp(Pieces):
-    """The zones of a contact whose edges are corners: the exponents there are smaller by 1."""
-
-    @cached_property
-    def powers(self) -> Array:
-        powers: Array = Pieces.powers.func(self)  # type: ignore[attr-defined]
-        powers[[0, -1]] -= 1.0
-        return powers
-
-    @property
-    def slip_zones(self) -> int:
-        return 0
-
-    @cached_property
-    def turns(self) -> Array:
-        turns: Array = Pieces.turns.func(self)  # type: ignore[attr-defined]
-        return -turns
+def _told(table: tuple[float, Array], row: int, v: Array) -> Array:
+    """A row of a table in steps SHIFT from a first v on."""
+    first, rows = table
+    place = np.clip((v.ravel() - first) / SHIFT, 0.0, rows.shape[1] - 1.0)
+    values: Array = interpolated(rows[row : row + 1], place, POINTS)[0]
+    return values.reshape(v.shape)
 
 
 @dataclass(frozen=True, eq=False)
@@ -297,6 +256,24 @@ def _eigenvector(matrix: Array, v: Array) -> Array:
         if bound - float(ratio.min()) <= ALIKE * bound:
             break
     return matrix @ v
+
+
+# beyond it c = 4 exp(-π K'/2K) is lost even beside a double's smallest lengths; c² is a double
+WIDEST_RATIO = 200.0
+
+
+def goodman_flat(beta: float, friction: float) -> FlatPunch:
+    """The flat punch in Goodman's approximation, of which K'/K = β/f and p = 1/(π sqrt(1 - x²)).
+
+    Where the slip zone would be narrower than rounding, f is that which makes it so wide.
+    """
+    bonded = beta < NARROWEST_RATIO * friction
+    friction = beta / NARROWEST_RATIO if bonded else friction
+    modulus = modulus_of_ratio(min(beta / friction, WIDEST_RATIO))
+    t, near, _ = half_rule()
+    _, square = squares(modulus, t, near)
+    pressure = 1.0 / (math.pi * np.sqrt(square))
+    return FlatPunch(beta, friction, bonded, modulus, pressure, approximate=True)
 
 
 @lru_cache(maxsize=8)

@@ -10,9 +10,7 @@ With w(z)² the product of the distances from both edges, bounded at these, and 
 factor; q is bounded at the ends of n stick zones if the moments ∫ν t^k dt vanish for k < n, and
 that with k = n is Q.
 
-Under a flat punch p = P/(π w), and the stick zone is that of the modulus k = c/b with
-
-    K'(k)/K(k) = β/f.
+Under a flat punch p = P/(π w), and the stick zone is that of `flat.goodman_flat`.
 
 Goodman (1962), J. Appl. Mech. 29, 515; docs/derivations/goodman.md.
 """
@@ -27,9 +25,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from sie.numerics.elliptic import modulus_of_ratio
-
-from .flat import NARROWEST_RATIO, FlatPunch, half_rule, squares
 from .pieces import Pair, across
 from .state import State
 
@@ -37,9 +32,6 @@ if TYPE_CHECKING:
     from .pieces import Places
 
 Array = NDArray[np.float64]
-
-# beyond it c = 4 exp(-π K'/2K) is lost even beside a double's smallest lengths; c² is a double
-WIDEST_RATIO = 200.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,7 +49,9 @@ class Uncoupled(State):
         return values
 
     def pressure(self, at: Places, flow: Array) -> Array:
-        """p from the integral of H1/w."""
+        """p from the integral of H1/w, or that of a flat punch."""
+        if self.pieces.sharp:
+            return -self.question.P / (math.pi * self.half_width * self._w(at))
         values: Array = self._w(at) * flow
         return values
 
@@ -109,44 +103,3 @@ class Uncoupled(State):
         far = dQ / math.pi - 0.5 * strain * (from_first + from_last)
         gamma = strain + np.sign(from_first) * far / np.sqrt(from_first * from_last)
         return places, gamma
-
-
-@dataclass(frozen=True, eq=False)
-class UncoupledFlat(Uncoupled):
-    """The same under a flat punch, whose edges are corners."""
-
-    def pressure(self, at: Places, flow: Array) -> Array:
-        to_left, to_right = self._to_edges(at)
-        values: Array = self.question.P / (math.pi * np.sqrt(to_left * to_right))
-        return values
-
-
-@dataclass(frozen=True, eq=False)
-class GoodmanFlat(FlatPunch):
-    """The flat punch in Goodman's approximation."""
-
-    approximate = True
-
-    @property
-    def theta(self) -> float:
-        return 0.0
-
-    @property
-    def exponent(self) -> float:
-        return 0.5
-
-    def state(self, b: float, load: float) -> State:
-        return UncoupledFlat(*self.asked(b, load))
-
-
-def goodman_flat(beta: float, friction: float) -> GoodmanFlat:
-    """The flat punch for β > 0 and f > 0.
-
-    Where the slip zone would be narrower than rounding, f is that which makes it so wide.
-    """
-    bonded = beta < NARROWEST_RATIO * friction
-    friction = beta / NARROWEST_RATIO if bonded else friction
-    modulus = modulus_of_ratio(min(beta / friction, WIDEST_RATIO))
-    t, near, _ = half_rule()
-    _, square = squares(modulus, t, near)
-    return GoodmanFlat(beta, friction, bonded, modulus, 1.0 / (math.pi * np.sqrt(square)))

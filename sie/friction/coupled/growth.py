@@ -15,7 +15,7 @@ distance from where an edge passed that. The integral is a trapezoidal rule as i
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
@@ -43,6 +43,8 @@ SHORT_STEP = 1e-2  # after such a step the matrix is kept
 STEEP, LEAST_SHARE = 0.9999, 1e-3  # of 1, |m'|; of a step, the part that may be taken
 SHIFTED = 1e-4  # of the distance from an edge: for derivatives of the kernel
 NOISY = 1e-10
+LEAST = 1e-300
+ROUNDING = 1e-14  # of the slope beside the contact
 STILL = 1e-15  # half-widths: a middle that moves by less stays, as under a symmetric profile
 GRID: Array = np.linspace(-1.0, 1.0, 65)
 LEAST_RISE = 1e-3  # of s: how far an edge moves at least in trials
@@ -182,42 +184,76 @@ class Side(Protocol):
     def slope(self, rise: Array) -> Array: ...
 
 
-def slope_of(
-    flat: FlatPunch, panels: list[Panel], side: float, rise: Array
-) -> tuple[Array, Callable[[], Array]]:
-    """∫P' D over panels at places that lie so far beyond their last edge, and its derivative."""
-    E, s, mass, between = [], [], [], 0.0
-    for panel in reversed(panels):
-        if float(rise.min()) + between < NEAR * panel.length:
-            part, rest, dx = trapezoidal(1.0 + min(panel.power, 0.0), 1.0)
-            inside, left = panel.length * part, panel.length * rest
-            E.append(between + left - side * panel.moved(np.array(panel.length), -left))
-            mass.append(panel.length * dx * panel(inside))
-        else:
-            inside, weighted = panel.places
-            E.append(
-                between + panel.spread(side) - (inside + side * panel.moved(np.array(0.0), inside))
-            )
-            mass.append(weighted)
-        s.append(panel.lo + inside)
-        between += panel.spread(side)
-    if not panels:
-        return np.zeros(len(rise)), lambda: np.zeros(len(rise))
-    away = np.maximum(rise[:, None] + np.concatenate(E), 1e-300)
-    widths, load = np.concatenate(s), np.concatenate(mass)
-    return kernel(flat, away, widths) @ load, lambda: kernel_rate(flat, away, widths) @ load
+Kernel = Callable[[Array], Array]  # of the distance beyond the edge of a contact of half-width 1
 
 
-def kernel(flat: FlatPunch, E: Array, s: Array) -> Array:
-    """D/s at a place that lies E beyond the edge of a contact of the half-width s."""
-    values: Array = flat.outside(E / s) / s
-    return values
+class Before:
+    """Integrals over all contacts before an edge reaches places, `ahead` of where a panel begins.
+
+    rise        how far the edge moves until then
+    """
+
+    def __init__(
+        self, flat: FlatPunch, panels: Sequence[Panel], panel: Panel, side: float, ahead: Array
+    ) -> None:
+        self.panel, self.ahead = panel, ahead
+        rise = ahead + side * panel.moved(np.zeros(1), ahead)
+        self.rise = np.maximum(rise, LEAST_RISE * ahead)
+        part, rest, weight = trapezoidal(1.0 + min(panel.power, 0.0), 1.0 - flat.exponent)
+        self.near = part > 1.0 - NOISY
+        self.inside, left, self.weight = (ahead[:, None] * v for v in (part, rest, weight))
+        E = left - side * panel.moved(ahead[:, None], -left)
+        self.E, self.s = np.maximum(E, LEAST_RISE * left), panel.lo + self.inside
+        apart, widths, loads, between = [np.zeros(0)], [np.zeros(0)], [np.zeros(0)], 0.0
+        for other in reversed(panels):
+            inside, mass = other.places
+            left = other.length - inside
+            if float(self.rise.min()) + between < NEAR * other.length:
+                part, rest, dx = trapezoidal(1.0 + min(other.power, 0.0), 1.0)
+                inside, left = other.length * part, other.length * rest
+                mass = other.length * dx * other(inside)
+            apart.append(between + left - side * other.moved(np.array(other.length), -left))
+            widths.append(other.lo + inside)
+            loads.append(mass)
+            between += other.spread(side)
+        self.beyond = np.maximum(self.rise[:, None] + np.concatenate(apart), LEAST)
+        self.widths, self.loads = np.concatenate(widths), np.concatenate(loads)
+
+    def integral(self, kernel: Kernel) -> Array:
+        """∫P' kernel((x - edge)/s) ds/s."""
+        own = kernel(self.E / self.s) / self.s * self.weight * self.panel(self.inside)
+        values: Array = (
+            own.sum(axis=1) + kernel(self.beyond / self.widths) / self.widths @ self.loads
+        )
+        return values
+
+    def of_series(self, kernel: Kernel) -> Array:
+        """The matrix that takes the series of P' to the part of this panel."""
+        value = kernel(self.E / self.s) / self.s * self.weight
+        if self.panel.power:
+            value = value * self.inside**self.panel.power
+        terms = chebyshev.polynomials(len(self.panel.series), self.panel.variable(self.inside))
+        found: Array = np.einsum("kij,ij->ik", terms, value)
+        return found
+
+    def of_shifts(self, kernel: Kernel) -> tuple[Array, Array]:
+        """Derivatives with the series of m outwards, but its constant: integral, and `rise`."""
+        panel, n = self.panel, len(self.panel.shifts)
+        lowest = ((-1.0) ** np.arange(1, n))[:, None]
+        at_end = chebyshev.polynomials(n, panel.variable(self.ahead))[1:]
+        at_nodes = chebyshev.polynomials(n, panel.variable(self.inside))[1:]
+        apart = at_end[:, :, None] - at_nodes
+        apart[:, :, self.near] = 0.0  # where rounding is larger than the difference
+        own = _steepness(kernel, self.E, self.s) * panel(self.inside) * self.weight
+        others = _steepness(kernel, self.beyond, self.widths) @ self.loads
+        rise = (at_end - lowest).T
+        return np.einsum("kij,ij->ik", apart, own) + others[:, None] * rise, rise
 
 
-def kernel_rate(flat: FlatPunch, E: Array, s: Array) -> Array:
-    """The derivative of that with E, by a difference."""
-    step = SHIFTED * E
-    values: Array = (kernel(flat, E + step, s) - kernel(flat, E - step, s)) / (2.0 * step)
+def _steepness(kernel: Kernel, E: Array, s: Array) -> Array:
+    """The derivative of kernel(E/s)/s with E, by a difference."""
+    up, down = (kernel(factor * E / s) for factor in (1.0 + SHIFTED, 1.0 - SHIFTED))
+    values: Array = (up - down) / (2.0 * SHIFTED * E * s)
     return values
 
 
@@ -228,36 +264,46 @@ def collocated(
 
     The matrix of Newton's method is kept while steps are short.
     """
-
-    def equations(panel: Panel) -> list[Equations]:
-        return [Equations(flat, panels, panel, side) for side in sides]
-
     n = len(panel.series)
-    now = equations(replace(panel, series=np.zeros(n)))
-    missed, loads = (
-        np.concatenate(part) for part in zip(*((e.missed, e.loads) for e in now), strict=True)
-    )
-    panel = replace(panel, series=np.linalg.lstsq(loads, missed, rcond=None)[0])
-    matrix, before = np.zeros((0, 0)), math.inf
+    ahead = panel.ahead(chebyshev.points(n))
+
+    def before(panel: Panel) -> list[tuple[Side, Before]]:
+        return [(side, Before(flat, panels, panel, side.sign, ahead)) for side in sides]
+
+    def missed(before: list[tuple[Side, Before]]) -> Array:
+        return np.concatenate([s.slope(b.rise) - b.integral(flat.outside) for s, b in before])
+
+    def of_m(side: Side, before: Before) -> Array:
+        of_integral, rise = before.of_shifts(flat.outside)
+        up, down = (side.slope(before.rise * (1.0 + way * SHIFTED)) for way in (1.0, -1.0))
+        steepness = (up - down) / (2.0 * SHIFTED * before.rise)
+        return side.sign * (of_integral - steepness[:, None] * rise)
+
+    now = before(replace(panel, series=np.zeros(n)))
+    known, loads = missed(now), np.concatenate([b.of_series(flat.outside) for _, b in now])
+    panel = replace(panel, series=np.linalg.lstsq(loads, known, rcond=None)[0])
+    matrix, size = np.zeros((0, 0)), math.inf
     for _ in range(NEWTONS):
-        now = equations(panel)
-        missed = np.concatenate([one.missed for one in now])
-        if before > SHORT_STEP:
-            matrix = np.concatenate([one.matrix for one in now])
-        step = np.linalg.lstsq(matrix, missed, rcond=None)[0]
-        change = np.append(0.0, step[n:])
+        now = before(panel)
+        left = missed(now)
+        if float(np.abs(left).max()) <= ROUNDING * float(np.abs(known).max()):
+            return panel
+        if size > SHORT_STEP:
+            both = [np.hstack((b.of_series(flat.outside), of_m(s, b))) for s, b in now]
+            matrix = np.concatenate(both)
+        step = np.linalg.lstsq(matrix, left, rcond=None)[0]
+        change, before_it = np.append(0.0, step[n:]), size
         share = _share(panel, change) if np.isfinite(step).all() else 0.0
         if share == 0.0:
             return None
         panel = replace(
             panel, series=panel.series + share * step[:n], shifts=panel.shifts + share * change
         )
-        moved = float(np.abs(change).max()) / panel.length
-        size = max(float(np.abs(step[:n]).max() / np.abs(panel.series).max()), moved)
-        if share == 1.0 and (size <= SETTLED or (before <= ROUGH and size > 0.5 * before)):
+        moved_by = float(np.abs(change).max()) / panel.length
+        size = max(float(np.abs(step[:n]).max() / np.abs(panel.series).max()), moved_by) / share
+        if share == 1.0 and (size <= SETTLED or (before_it <= ROUGH and size > 0.5 * before_it)):
             stays = float(np.abs(panel.shifts).max()) <= STILL * panel.hi
             return replace(panel, shifts=np.zeros(n)) if stays else panel
-        before = size / share
     return None
 
 
@@ -270,59 +316,3 @@ def _share(panel: Panel, change: Array) -> float:
         if share < LEAST_SHARE:
             return 0.0
     return share
-
-
-class Equations:
-    """What the equation at the edge on one side misses on a panel, and its matrix."""
-
-    def __init__(self, flat: FlatPunch, panels: list[Panel], panel: Panel, side: Side) -> None:
-        self.flat, self.panel, self.side = flat, panel, side
-        self.y = chebyshev.points(len(panel.series))
-        self.ahead = panel.ahead(self.y)
-        part, rest, weight = trapezoidal(1.0 + min(panel.power, 0.0), 1.0 - flat.exponent)
-        ahead = self.ahead[:, None]
-        self.part = part
-        self.inside, left, self.weight = ahead * part, ahead * rest, ahead * weight
-        least = LEAST_RISE * self.ahead
-        self.rise = np.maximum(
-            self.ahead + side.sign * panel.moved(np.array(0.0), self.ahead), least
-        )
-        E = left - side.sign * panel.moved(ahead, -left)
-        self.E = np.maximum(E, LEAST_RISE * left)
-        self.s = panel.lo + self.inside
-        self.known, self.change = slope_of(flat, panels, side.sign, self.rise)
-        self.value = kernel(flat, self.E, self.s) * self.weight
-
-    @cached_property
-    def missed(self) -> Array:
-        own = (self.value * self.panel(self.inside)).sum(axis=1)
-        values: Array = self.side.slope(self.rise) - self.known - own
-        return values
-
-    @cached_property
-    def loads(self) -> Array:
-        """The matrix that takes the series of P' to the slope."""
-        value = self.value
-        if self.panel.power:
-            value = value * self.inside**self.panel.power
-        terms = chebyshev.polynomials(len(self.y), self.panel.variable(self.inside))
-        found: Array = np.einsum("kij,ij->ik", terms, value)
-        return found
-
-    @property
-    def matrix(self) -> Array:
-        """The derivatives of the slope less that of the profile, with both series."""
-        n, panel = len(self.y), self.panel
-        mass = kernel_rate(self.flat, self.E, self.s) * panel(self.inside) * self.weight
-        # m less that at lo, at the edge and at the nodes, for each term but the constant
-        lowest = (-1.0) ** np.arange(1, n)
-        at_end = chebyshev.polynomials(n, self.y)[1:] - lowest[:, None]
-        at_nodes = chebyshev.polynomials(n, panel.variable(self.inside))[1:]
-        apart = (at_end + lowest[:, None])[:, :, None] - at_nodes
-        apart *= self.part < 1.0 - NOISY  # nearer, rounding is larger than the difference
-        own = np.einsum("kij,ij->ik", apart, mass)
-        step = SHIFTED * self.rise
-        slopes = (self.side.slope(self.rise + way * step) for way in (1.0, -1.0))
-        steepness = np.subtract(*slopes) / (2.0 * step)
-        shifts = own + (self.change() - steepness)[:, None] * at_end.T
-        return np.concatenate((self.loads, self.side.sign * shifts), axis=1)

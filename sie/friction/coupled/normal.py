@@ -9,13 +9,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import replace
 
 import numpy as np
 
 from sie.contact.known_contact import Edges, Normal
-from sie.contact.normal import normal_contact
-from sie.contact.pressure import pressure
 from sie.errors import ContactError
 from sie.numerics.interval import EPS, Interval
 from sie.numerics.root_finding import false_position
@@ -23,12 +20,12 @@ from sie.problem.scene import Scene
 from sie.profiles.slope import Slope
 from sie.progress_bar import reported
 
-from .flat import FlatPunch, flat_punch
+from .answer import CoupledContact
+from .flat import FlatPunch, flat_punch, goodman_flat
 from .frozen import Frozen
-from .goodman import goodman_flat
 from .growth import Panel
 from .march import NEGLECT, March, Touch, first_touch, refuse_turning
-from .pressed import Flat, Grown
+from .pressed import Grown, Pressed, about
 
 WIDER = 1.0 + 64.0 * EPS  # than the frictionless contact: as far as P' is sought at first
 MORE = 1.1  # where a load asks for more
@@ -38,13 +35,12 @@ NARROWEST_STICK = 1e-9  # of the contact
 RESOLVED = 3e-12  # of P: what a state may miss
 STEEPEST = 1.5  # β f: exponents at the ends of slip zones are then 0.19 and 0.81
 LOOKS = 64  # places at which a slope is looked at
-NEGLECTED = "note: β q is left out of the normal equation (Goodman's approximation)"
 
 
 @reported("contact of dissimilar bodies")
 def coupled_contact(
     scene: Scene, frictionless: Callable[[Scene], Normal]
-) -> tuple[Edges, Grown | Flat]:
+) -> tuple[Edges, CoupledContact]:
     """The edges and the state; ContactError where no contact answers.
 
     `frictionless` solves the normal problem of a scene; its contact bounds the search.
@@ -54,15 +50,18 @@ def coupled_contact(
     _refuse_friction(flat, scene)
     bound = frictionless(_without_friction(scene))
     contact, slope = bound.edges.contact, bound.slope(scene.profile)
-    common = math.copysign(1.0, scene.beta), 0.5 * scene.Estar, scene.friction
+    G, f = 0.5 * scene.Estar, scene.friction
     if _flat(slope, contact):
         assert scene.normal_load is not None
-        state: Grown | Flat = Flat(flat, scene.normal_load, *common, contact.r, contact.m)
+        pressed = Pressed(flat, scene.normal_load, f, contact.r, contact.m)
     else:
         march, s, P = _grown(scene, flat, slope, contact)
         frozen, events = Frozen(flat, tuple(march.panels)), (march.base, *march.kinks)
-        state = Grown(flat, P, *common, s, frozen, events, slope)
-        _refuse_unresolved(state, P)
+        origin = march.panels[0].middle
+        half = about(origin, slope, G, Interval(frozen.middle(s) - s, frozen.middle(s) + s))
+        pressed = Grown(flat, P, f, s, origin, frozen, events, half)
+        _refuse_unresolved(pressed)
+    state = CoupledContact(pressed, pressed.loaded, math.copysign(1.0, scene.beta), G)
     return state.edges, state
 
 
@@ -96,14 +95,15 @@ def _refuse_friction(flat: FlatPunch, scene: Scene) -> None:
         )
 
 
-def _refuse_unresolved(state: Grown, P: float) -> None:
+def _refuse_unresolved(state: Grown) -> None:
     """Raises ContactError where the conditions at the ends of zones are not met well enough."""
     # but for Q, which (1) tells with the digits that 1/β leaves
     missed = float(np.abs(state.loaded.state.missed[:-1]).max())
     if not missed <= RESOLVED:
         raise ContactError(
-            f"the contact of dissimilar bodies under P = {P:.6g} is known to {missed:.1g} of P "
-            f"alone, as where it hardly spreads beyond a flat base: raise the load, or {NEGLECT}"
+            f"the contact of dissimilar bodies under P = {state.load:.6g} is known to {missed:.1g} "
+            "of P alone, as where it hardly spreads beyond a flat base: raise the load, or "
+            f"{NEGLECT}"
         )
 
 
@@ -175,32 +175,3 @@ def _without_friction(scene: Scene) -> Scene:
     """The scene whose contact bounds the search."""
     P, b = scene.normal_load, scene.half_width
     return Scene(profile=scene.profile, modulus=scene.Estar, normal_load=P, half_width=b)
-
-
-def departure(scene: Scene, tol: float) -> str:
-    """What Goodman's approximation changes, in a sentence.
-
-    It has figures for the normal load on a symmetric convex profile.
-    """
-    if scene.slides:
-        return f"{NEGLECTED}: in full sliding the pressure is that without friction"
-    try:
-        if scene.tilt or scene.moment:
-            raise ContactError("not symmetric")
-        upright = replace(scene, coupling="full", tangential_load=0.0, moment=None)
-        _, state = coupled_contact(upright, lambda one: normal_contact(one, tol))
-        if math.isnan(state.axis):
-            raise ContactError("not symmetric")
-    except ContactError:
-        return f"{NEGLECTED}; how far the answer is from the coupled one is not known here"
-    k, c = goodman_flat(abs(scene.beta), scene.friction).c, state.flat.c
-    found = f"c/b = {k:.6g} instead of {c:.6g} ({_percent(k, c)})"
-    simple = normal_contact(scene, tol)
-    axis = np.array([state.axis])
-    p, coupled = float(pressure(simple, scene, tol)(axis)[0]), float(state.rows(axis)[0, 0])
-    peak = f" and p = {p:.6g} instead of {coupled:.6g} ({_percent(p, coupled)}) on the axis"
-    return f"{NEGLECTED}: under the normal load {found}{peak if math.isfinite(p + coupled) else ''}"
-
-
-def _percent(one: float, other: float) -> str:
-    return f"{100.0 * (one - other) / other:+.2g} %"

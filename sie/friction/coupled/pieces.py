@@ -82,6 +82,7 @@ class Pieces:
     kinks       places where h' is not smooth
     theta       atan(β f)/π, β > 0
     fineness    of the rules
+    sharp       whether the edges are corners, at which exponents are smaller by 1
     """
 
     left: float
@@ -91,6 +92,7 @@ class Pieces:
     kinks: tuple[float, ...]
     theta: float
     fineness: Fineness = FINE
+    sharp: bool = False
 
     @cached_property
     def ends(self) -> Array:
@@ -151,7 +153,8 @@ class Pieces:
 
     @cached_property
     def slip_zones(self) -> int:
-        return sum(1 for sign in self.signs if sign)
+        """Their number, less that of sharp edges: the power of χ far away."""
+        return sum(1 for sign in self.signs if sign) - 2 * self.sharp
 
     @cached_property
     def sign(self) -> Array:
@@ -167,6 +170,7 @@ class Pieces:
                     0.5 - sign * self.theta,
                     0.5 + sign * self.theta,
                 )
+        powers[[0, -1]] -= self.sharp
         return powers
 
     @cached_property
@@ -263,9 +267,9 @@ class Pieces:
 
     @cached_property
     def turns(self) -> Array:
-        """(-1)^N of each zone, N the number of slip zones to the right of it."""
+        """(-1)^N of each zone, N the number of slip zones to the right of it, less a sharp edge."""
         slips = np.array([sign != 0 for sign in self.signs])
-        return (-1.0) ** (slips[::-1].cumsum()[::-1] - slips)
+        return (-1.0) ** (slips[::-1].cumsum()[::-1] - slips - self.sharp)
 
 
 def across(kernel: Array, masses: Sequence[Array]) -> tuple[Array, Array]:

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-INTERVALS = (4, 8, 16, 32, 64)  # of the rule, one after the other
+INTERVALS = (4, 8, 16, 32, 64, 128)  # of the rule, one after the other
 PROMISED = 3e-7  # of the energy of a step: what must be reached
 EARLY = (1e-6, 1e-5, 1e-4, 1e-3, 3e-3, 1e-2, 3e-2)  # parts of a step, of which one has a state
 LATE = (0.6, 0.9, 0.97, 0.99, 0.997, 0.999, 0.9997, 0.9999)  # the same before a loop closes
