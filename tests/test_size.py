@@ -35,7 +35,7 @@ LINES = {
     "sensitivity": 1290,
     "stress": 2320,
     "sweeps": 720,
-    "traction": 2360,
+    "traction": 2310,
 }
 FILES = 253
 
