@@ -31,11 +31,11 @@ LINES = {
     "paths": 1160,
     "plots": 940,
     "problem": 890,
-    "profiles": 5180,
+    "profiles": 5140,
     "sensitivity": 1240,
     "stress": 2200,
     "sweeps": 700,
-    "traction": 2360,
+    "traction": 2310,
 }
 FILES = 250
 

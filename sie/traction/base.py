@@ -272,22 +272,6 @@ class Density(ABC):
     def _steepness_of_force(self, z: Any) -> Any:
         return -self._of_force(z) / z
 
-    def strength(self, x: float) -> float:
-        """The edge intensity at x, or that of a corner of the profile: 0 where p is finite.
-
-        Parameters
-        ----------
-        x : float
-            A place on the surface.
-
-        Returns
-        -------
-        float
-            The factor of the infinity. Those of densities of one profile add up as these do.
-        """
-        arguments.real("x", x)
-        return 0.0
-
     def potentials(self, z: ArrayLike, side: int = 1) -> tuple[Complex, Complex]:
         """The Cauchy potential and its derivative, at little more than the cost of the first.
 

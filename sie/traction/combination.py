@@ -24,10 +24,9 @@ from .base import Density, refuse_side, zero_or_nan
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
-# How far beside a place where infinite terms cancel their finite sum is evaluated: the difference
-# of both sides is the square of this.
-BESIDE = 1e-7
-CANCELLED = 1e-9  # a sum of strengths below this fraction of their sizes is rounding
+# How far beside a place, of the interval, a sum is looked at whose terms are infinite there.
+BESIDE, CLOSER = 1e-7, 1e-9
+GROWS = 1e-4  # of the size of the terms: by so much it grows in between where it is infinite
 
 
 @dataclass(frozen=True, eq=False)
@@ -103,46 +102,27 @@ class Combination(Density):
     def __call__(self, x: ArrayLike) -> Array:
         x = arguments.reals("x", x)
         flat = x.ravel()
-        with np.errstate(invalid="ignore"):  # infinities that cancel are treated below
+        with np.errstate(invalid="ignore"):
             total: Array = self._total([density(flat) for _, density in self.terms], flat)
-        for k in np.flatnonzero(~np.isfinite(total) & ~np.isnan(flat)):
-            total[k] = self._at_infinity(float(flat[k]))
+        for k in np.flatnonzero(np.isnan(total) & ~np.isnan(flat)):
+            total[k] = self._beside(float(flat[k]), lambda density, y: density(y))
         return total.reshape(x.shape)
 
-    def _at_infinity(self, x: float) -> float:
-        """The sum where terms are infinite: finite where their strengths cancel."""
-        infinite = [factor * density.strength(x) for factor, density in self.terms]
-        return self._cancelled(infinite, self, x)
+    def _beside(self, x: float, value: Callable[[Density, Array], Array]) -> float:
+        """The sum at x, where terms are infinite, by values beside: infinite where it grows."""
+        lo, hi = self.interval
+        far, near = (part * (hi - lo) for part in (BESIDE, CLOSER))
+        places = np.array([[y, z] for y, z in ((x + far, x + near), (x - far, x - near))])
+        places = places[(lo < places[:, 0]) & (places[:, 0] < hi)]
+        values = [factor * value(density, places.ravel()) for factor, density in self.terms]
+        sums, size = (np.sum(v, axis=0).reshape(-1, 2) for v in (values, np.abs(values)))
+        rise = float(sums[0, 1] - sums[0, 0])
+        if abs(rise) > GROWS * size.max():
+            return math.copysign(math.inf, rise)
+        return float(sums[:, 0].mean())
 
     def _steepness(self, x: float) -> float:
-        """The derivative where those of terms are infinite.
-
-        It is finite where they cancel, each in proportion to its strength if it has one.
-        """
-        steep = [
-            (factor, d.strength(x) or 1.0, float(d.cauchy_derivative(x).imag))
-            for factor, d in self.terms
-        ]
-        infinite = [
-            math.copysign(factor * strength, factor * slope)
-            for factor, strength, slope in steep
-            if math.isinf(slope)
-        ]
-        return self._cancelled(infinite, lambda y: self.cauchy_derivative(y).imag, x)
-
-    def _cancelled(
-        self, infinite: list[float], function: Callable[[Array], Array], x: float
-    ) -> float:
-        """The sum of infinite terms at x; where they cancel, the mean of a function beside x."""
-        if abs(sum(infinite)) > CANCELLED * sum(map(abs, infinite)):
-            return math.copysign(math.inf, sum(infinite))
-        lo, hi = self.interval
-        step = BESIDE * (hi - lo)
-        return float(np.mean(function(np.array([y for y in (x - step, x + step) if lo < y < hi]))))
-
-    @override
-    def strength(self, x: float) -> float:
-        return sum((factor * density.strength(x) for factor, density in self.terms), 0.0)
+        return self._beside(x, lambda density, y: density.cauchy_derivative(y).imag)
 
     @override
     def hilbert(self, x: ArrayLike) -> Array:

@@ -75,17 +75,6 @@ class SlopeDensity(Density):
     def slope_scale(self) -> float:
         """The largest |H| in the contact, about."""
 
-    def strength(self, x: float) -> float:
-        """k1, k2 at a sharp edge; ±1 under a corner of the profile, whatever the load."""
-        x = arguments.real("x", x)
-        for edge, k in zip(self.interval, (self.k1, self.k2), strict=True):
-            if x == edge and k:
-                return k
-        return self._corner(x)
-
-    def _corner(self, x: float) -> float:
-        return 0.0
-
     # A form defines these on 1-d arrays, in units of E*/2 and without the singular ends.
     @abstractmethod
     def _regular(self, x: Array) -> Array:

@@ -125,10 +125,6 @@ class PanelDensity(SlopeDensity):
         V, continued = potential.beside(self.panels, x)
         return (self.panels.edge.cos / math.pi) * V, continued
 
-    def _corner(self, x: float) -> float:
-        at = (infinite for e, infinite in self.panels.jumps if e == x)
-        return next((math.copysign(1.0, infinite) for infinite in at), 0.0)
-
     def _pair(self, z: Complex) -> tuple[Complex, Complex]:
         V, dV = potential.upper(self.panels, z)
         return self._potential_scale * V, self._potential_scale * dV

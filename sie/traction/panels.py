@@ -231,7 +231,7 @@ class Panels:
         rise, bound = np.bincount(which, rises, len(e)), np.zeros(len(e))
         np.maximum.at(bound, which, np.broadcast_to(n @ np.abs(dH), inside.shape)[inside])
         infinite = np.isin(e, [at for at, _ in self.jumps])
-        sign = np.where(infinite, -np.inf, np.copysign(np.inf, -rise))
+        sign = np.where(infinite, -np.inf, np.copysign(np.inf, rise))
         found = infinite | (np.abs(rise) > (SEEN_JUMP if g.slope.functions else JUMP) * bound)
         return tuple(zip(e[found].tolist(), sign[found].tolist(), strict=True))
 
