@@ -31,7 +31,7 @@ LINES = {
     "paths": 1160,
     "plots": 940,
     "problem": 890,
-    "profiles": 5140,
+    "profiles": 5180,
     "sensitivity": 1240,
     "stress": 2200,
     "sweeps": 700,

@@ -6,6 +6,7 @@ from bisect import bisect_right
 from collections.abc import Iterator
 from itertools import pairwise
 from operator import itemgetter
+from typing import Any
 
 import numpy as np
 from numpy.polynomial import polynomial
@@ -18,6 +19,8 @@ Array = NDArray[np.float64]
 Runs = list[tuple[float, float, int]]
 INF = float("inf")
 
+SAMPLES = 33  # points between two breaks at which the heights of functions are compared
+FAR = 1e6  # how far beyond the breaks two functions may cross, in lengths of what is between
 NEAR = 1e-6  # of its distance: by which the root of a polynomial may be off
 ULPS = 4.0  # by which the ends of a domain may be off
 
@@ -28,7 +31,7 @@ def finite_ends(profile: Profile) -> tuple[float, ...]:
     return tuple(x for x in ends if abs(x) < INF)
 
 
-def inside(domains: Array, x: Array) -> Iterator[tuple[int, slice]]:
+def inside(profiles: tuple[Profile, ...], domains: Array, x: Array) -> Iterator[tuple[int, slice]]:
     """The profiles, and which of the places x (ascending) are on a domain (n, 2) of each."""
     lo, hi = domains.T
     # the ends are rounded, and a height tells them
@@ -36,7 +39,9 @@ def inside(domains: Array, x: Array) -> Iterator[tuple[int, slice]]:
     lo, hi = lo - np.abs(beyond[0]), hi + np.abs(beyond[1])
     start, stop = np.searchsorted(x, lo), np.searchsorted(x, hi, side="right")
     for k in np.flatnonzero(start < stop).tolist():
-        yield k, slice(start[k], stop[k])
+        # the rounding of a function depends on the places that are asked for together
+        whole = bool(profiles[k].pieces.functions)
+        yield k, slice(0, len(x)) if whole else slice(start[k], stop[k])
 
 
 def lowest_of(profiles: tuple[Profile, ...]) -> Runs:
@@ -51,7 +56,7 @@ def lowest_of(profiles: tuple[Profile, ...]) -> Runs:
     pieces = list(pairwise(ends.tolist()))
     inner = np.array([_inner(lo, hi) for lo, hi in pieces])
     active: list[list[int]] = [[] for _ in pieces]
-    for k, some in inside(np.array([p.domain for p in profiles]), inner):
+    for k, some in inside(profiles, np.array([p.domain for p in profiles]), inner):
         for j in np.flatnonzero(np.asarray(profiles[k].height(inner[some])) < INF).tolist():
             active[some.start + j].append(k)
     for (lo, hi), here in zip(pieces, active, strict=True):
@@ -99,6 +104,8 @@ def _crossings(
     """The places between lo and hi where two profiles have the same height."""
     one, other = pair
     inner = _inner(lo, hi)
+    if slopes[one].functions or slopes[other].functions:
+        return _sampled_crossings(profiles[one], profiles[other], lo, hi)
     rows = []
     for k in (one, other):
         piece = int(np.searchsorted(slopes[k].breaks, inner)) - 1
@@ -119,3 +126,33 @@ def _crossings(
         step = (profiles[one].height(real) - profiles[other].height(real)) / steep
     real = real - np.where(np.abs(step) <= NEAR * np.abs(real - inner), step, 0.0)
     return [float(x) for x in real if lo < x < hi]
+
+
+def _sampled_crossings(one: Profile, other: Profile, lo: float, hi: float) -> list[float]:
+    from scipy.optimize import brentq  # noqa: PLC0415
+
+    def difference(x: Any) -> Any:
+        return one.height(x) - other.height(x)
+
+    centre = _inner(lo, hi)
+    left, right = (x if abs(x) < INF else centre + side * FAR for x, side in ((lo, -1), (hi, 1)))
+    if abs(lo) < INF and abs(hi) < INF:
+        x = left + (right - left) * 0.5 * (1.0 - np.cos(np.pi * np.linspace(0.0, 1.0, SAMPLES)))
+    else:
+        spread = np.geomspace(1e-3, FAR, 4 * SAMPLES)
+        x = np.concatenate((centre - spread[::-1], [centre], centre + spread))
+        x = x[(x >= left) & (x <= right)]
+    with np.errstate(over="ignore", invalid="ignore"):
+        values = difference(x)
+    change = np.flatnonzero(
+        np.isfinite(values[:-1] * values[1:]) & (values[:-1] * values[1:] < 0.0)
+    )
+
+    def root(a: float, b: float) -> float:
+        at_a, at_b = difference(a), difference(b)
+        # Heights at one point may differ by rounding from those at many; then one end is the root.
+        if at_a * at_b > 0.0:
+            return a if abs(at_a) < abs(at_b) else b
+        return float(brentq(difference, a, b, xtol=1e-300, rtol=8.9e-16))
+
+    return [root(float(x[k]), float(x[k + 1])) for k in change]

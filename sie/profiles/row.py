@@ -22,7 +22,7 @@ from sie.arguments import abridged
 from sie.inheritance import override
 from sie.numerics.zones import united
 
-from .base import Profile
+from .base import Profile, function_slope
 from .indenter import of_any_x
 from .lowest_profile import finite_ends, inside, lowest_of
 from .placed_traces import closed, open_seams
@@ -44,13 +44,12 @@ class Row(Profile):
     ----------
     profiles : sequence of Profile
         The indenters, each where it stands: `shifted(dx)` moves one along the surface, `raised(dz)`
-        away from it. At least one; none of them periodic, or given by a function.
+        away from it. At least one; none of them periodic.
 
     Raises
     ------
     ValueError
-        If there is no profile, or one is not a profile, is periodic, or has a slope that is no
-        polynomial on its pieces.
+        If there is no profile, or one is not a profile or is periodic.
 
     Examples
     --------
@@ -76,11 +75,6 @@ class Row(Profile):
                 raise ValueError(
                     f"profiles[{k}] is periodic: make a row of what is in one period and repeat "
                     "that"
-                )
-            if profile.pieces.functions:
-                raise ValueError(
-                    f"profiles[{k}] has the slope of a function, and a row compares heights of "
-                    "polynomials: give its trace, sie.Sampled(x, h)"
                 )
         object.__setattr__(self, "profiles", given)
 
@@ -114,9 +108,22 @@ class Row(Profile):
     @cached_property
     def pieces(self) -> Slope:
         """The slope of whichever profile is lowest; 0 where there is none."""
+        if any(self.profiles[k].pieces.functions for _, _, k in self.lowest if k >= 0):
+            ends = {x for run in self.lowest for x in run[:2]}
+            inner = {b for p in self.profiles for b in p.breaks if min(ends) < b < max(ends)}
+            return function_slope(sorted(ends | inner), self._lowest_slope)
         none = polynomial_slope((-INF, INF), (0.0,), ((0.0,),))
         slopes = [self.profiles[k].pieces if k >= 0 else none for _, _, k in self.lowest]
         return chained([s.within(lo, hi) for s, (lo, hi, _) in zip(slopes, self.lowest)])
+
+    def _lowest_slope(self, x: Array) -> Array:
+        """The slope of the lowest profile at x; 0 where there is none."""
+        ends = np.array([hi for _, hi, _ in self.lowest[:-1]])
+        which = np.array([k for _, _, k in self.lowest])[np.searchsorted(ends, x, side="right")]
+        values = np.zeros(x.shape)
+        for k in np.unique(which[which >= 0]).tolist():
+            values[which == k] = self.profiles[k].pieces(x[which == k])
+        return values
 
     @cached_property
     def _lowest_on(self) -> Array:
@@ -133,7 +140,7 @@ class Row(Profile):
         flat = x.ravel()
         order = np.argsort(flat, kind="stable")
         least = np.full(flat.shape, INF)
-        for k, some in inside(self._lowest_on, flat[order]):
+        for k, some in inside(self.profiles, self._lowest_on, flat[order]):
             least[some] = np.minimum(least[some], self.profiles[k].height(flat[order[some]]))
         out = np.empty(flat.shape)
         out[order] = least
@@ -194,11 +201,6 @@ class Periodic(Profile):
             )
         object.__setattr__(self, "profile", profile)
         object.__setattr__(self, "repeats", period)
-        if profile.pieces.functions and max(-lo, hi) == INF and not self._level(self._closed):
-            raise ValueError(
-                f"the slope is a function, and its height differs between x = {self.start:g} and "
-                "one period on: give it a domain of one period"
-            )
 
     def __repr__(self) -> str:
         return f"Periodic({self.profile!r}, period={self.repeats!r})"

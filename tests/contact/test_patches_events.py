@@ -16,7 +16,7 @@ RISE = 0.5 * (BESIDE**2 - BESIDE * np.sqrt(BESIDE**2 - 1.0) + np.arccosh(BESIDE)
 RAISED = float((RISE - (BESIDE - 2.0) ** 2 / 0.6).max())
 PAIR = sie.Row([sie.Parabola(1.0), sie.Parabola(0.3).shifted(2.0).raised(RAISED)])
 ENDING = sie.Row(
-    [sie.Piecewise((-1.0, 1.0), [(0.0, 1.0)]), sie.Parabola(0.5).shifted(9.0).raised(9.0)]
+    [sie.FromFunction("x", domain=(-1.0, 1.0)), sie.Parabola(0.5).shifted(9.0).raised(9.0)]
 )
 
 

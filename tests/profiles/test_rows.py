@@ -12,7 +12,7 @@ from sie import Flat, FromFunction, Parabola, Periodic, Polynomial, Row, Sampled
 
 TWO = Row([Parabola(1.0).shifted(-1.0), Parabola(0.5).shifted(0.9).raised(0.02)])
 FLATS = Row([Flat(0.4).shifted(-0.6), Flat(0.55).shifted(0.85)])
-MIXED = Row([Flat(0.4), Polynomial((0.01, 0, 0.5, 0.1, 0.04)), Wedge(0.5).shifted(1)])
+MIXED = Row([Flat(0.4), FromFunction(np.sinh, domain=(-3, 3)).raised(0.01), Wedge(0.5).shifted(1)])
 TRACE = Sampled(np.linspace(-1, 1, 41), np.cos(5 * np.linspace(-1, 1, 41)))
 ROWS = [TWO, FLATS, MIXED, Row([TRACE, Parabola(1.0).shifted(0.2).raised(-0.9)]), Row([TWO, FLATS])]
 WAVES = [Periodic(profile, 7.0) for profile in (Parabola(2.0), Flat(0.3), *ROWS[:4], TRACE)]
@@ -74,8 +74,6 @@ def test_raising_moves_a_profile_away(profile, dz):
         (lambda: Row([]), "without profiles"),
         (lambda: Row([1.0]), "is not a profile"),
         (lambda: Row([WAVES[0]]), "periodic"),
-        (lambda: Row([Flat(1.0), FromFunction(np.sinh)]), r"give its trace, sie.Sampled\(x, h\)"),
-        (lambda: Periodic(FromFunction("x + 1"), 2.0), "give it a domain of one period"),
         (lambda: Periodic(Flat(1.0), 1.5), "more than its period"),
         (lambda: Periodic(Flat(1.0), -1.0), "not positive"),
         (lambda: Periodic(WAVES[0], 2.0), "periodic already"),
