@@ -107,6 +107,15 @@ def table_of_columns(head: Sequence[str], columns: Mapping[str, Any]) -> str:
     return "\n".join(lines) + "\n"
 
 
+def table_of_rows(rows: list[dict[str, float]]) -> Any:
+    """A DataFrame of the rows where pandas is installed, otherwise these."""
+    try:
+        import pandas  # type: ignore[import, unused-ignore]  # noqa: PLC0415
+    except ImportError:
+        return rows
+    return pandas.DataFrame(rows)
+
+
 # -- writing -------------------------------------------------------------------------------------
 
 

@@ -125,9 +125,8 @@ def plan(
     no_shear: dict[str, tuple[str, ...]] = dict.fromkeys(("shear", "energy"), ())
     needed = TWO_PROBLEMS | ({} if sheared(scene, economy) or scene.epsilon else no_shear)
     stages = {stage for name in names for stage in needed[name]}
-    patches = scene.profile.of_several
     steps = (
-        *(_of_patches(scene) if patches else _of_one_patch(scene, economy)),
+        *_of_contact(scene, economy),
         _tilt(scene),
         _if_asked("pressure", "pressure" in stages, _expansion(scene, economy), "pressure"),
         _convexity(scene, economy),
@@ -193,41 +192,36 @@ def _of_one_problem(scene: Scene, names: tuple[str, ...], stages: set[str]) -> I
 # -- first the pressure ----------------------------------------------------------------------------
 
 
-def _of_patches(scene: Scene) -> tuple[Step, ...]:
-    """The steps to the edges of a profile that may touch in several patches."""
-    known = (not scene.profile.pieces.functions, KNOWN)
-    pieces = "the slope is a function: pieces of Chebyshev series where contact is possible"
-    edges = "load given: patches from a grid, their edges by Newton, verified by bounds"
-    return (
-        _step("resolution", [known], pieces),
-        Step("edges", True, edges, "normal"),
-        Step("symmetry", False, "not used for patches: the edges of all are unknown"),
-        Step("flat pieces", False, "not told apart: values of h' on all pieces are summed"),
-    )
-
-
-def _of_one_patch(scene: Scene, economy: Collection[str]) -> tuple[Step, ...]:
-    profile, pieces = scene.profile, scene.profile.pieces
-    known = (not pieces.functions, KNOWN)
-    series = "the slope is a function: one Chebyshev series in the contact, or pieces on a window"
+def _of_contact(scene: Scene, economy: Collection[str]) -> tuple[Step, ...]:
+    """The steps to the edges, of one patch or of a profile that may touch in several."""
+    profile, pieces, several = scene.profile, scene.profile.pieces, scene.profile.of_several
+    series = "one Chebyshev series in the contact, or pieces on a window"
+    if several:
+        series = "pieces of Chebyshev series where contact is possible"
     ends = any(abs(end) != float("inf") for end in profile.domain)
     given = "half-width" if scene.half_width is not None else "load"
     sharp = " or sharp at the ends of the indenter" * ends
     edges = f"{given} given: smooth edges{sharp}, by bracketed Newton with exact derivatives"
+    if several:
+        edges = "load given: patches from a grid, their edges by Newton, verified by bounds"
     uneven = (
-        ("symmetry" not in economy, NO_ECONOMY),
-        (scene.tilt != 0.0, "the tilt breaks it"),
-        (bool(scene.epsilon), "friction breaks it"),
-        (profile.axis is None, "the profile has no axis"),
+        (several, "not used for patches: the edges of all"),
+        ("symmetry" not in economy, f"{NO_ECONOMY}: both edges"),
+        (scene.tilt != 0.0, "the tilt breaks it: both edges"),
+        (bool(scene.epsilon), "friction breaks it: both edges"),
+        (profile.axis is None, "the profile has no axis: both edges"),
     )
-    why = [(holds, f"{reason}: both edges are unknown") for holds, reason in uneven]
+    why = [(holds, f"{reason} are unknown") for holds, reason in uneven]
     extra = " while the tilt is zero" * (scene.moment is not None)
     even = f"about x = {profile.axis or 0.0:g}{extra}: half the unknowns, half the pieces"
-    flat = int(pieces.is_zero.sum()) if scene.tilt == 0.0 else 0
-    cost = f"{flat} of {len(pieces.origins)} cost nothing: h' = 0 there"
-    free = (not flat, "there are none"), ("zero panels" in economy, cost)
+    flat = int(pieces.is_zero.sum()) if scene.tilt == 0.0 and not several else 0
+    free = (
+        (several, "not told apart: values of h' on all pieces are summed"),
+        (not flat, "there are none"),
+        ("zero panels" in economy, f"{flat} of {len(pieces.origins)} cost nothing: h' = 0 there"),
+    )
     return (
-        _step("resolution", [known], series),
+        _step("resolution", [(not pieces.functions, KNOWN)], f"the slope is a function: {series}"),
         Step("edges", True, edges, "normal"),
         _step("symmetry", why, even),
         _step("flat pieces", free, f"{flat} integrated although zero: {NO_ECONOMY}"),

@@ -279,14 +279,12 @@ def _content(
     more: dict[str, Any],
 ) -> bytes:
     """The content of a file that `sie solve` writes."""
-    if kind == "field":
-        from sie.io.stress_grid import grid_csv
-
-        return grid_csv(solution, file, *(arguments.grid or GRID)).encode()
     if kind == "plot":
         return _bytes(_picture(solution, file), path)
     from sie.io import export
 
+    if kind == "field":
+        return export.grid_csv(solution, file, *(arguments.grid or GRID)).encode()
     if kind == "csv":
         return export.csv_text(solution, file, arguments.points).encode()
     return export.json_text(solution, file, arguments.points, more).encode()

@@ -28,9 +28,9 @@ from sie import arguments
 from sie.cauchy.density import Part
 from sie.cauchy.equation import CauchyEquation
 from sie.cauchy.system import System
+from sie.files import table_of_rows
 from sie.numerics import jacobi
 from sie.numerics.root_finding import false_positions
-from sie.stress.fretting import table_of_rows
 
 from .edge_crack import CrackCertificate, EdgeCrack, cells, opened, regular_kernel
 

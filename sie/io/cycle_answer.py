@@ -19,7 +19,7 @@ from sie.errors import ContactError
 from sie.problem.material import Elastic
 from sie.progress_bar import reported
 from sie.stress.fretting import Cycle
-from sie.stress.surface_search import ROUNDS, by_value, columns, largest
+from sie.stress.surface_search import ROUNDS, columns, largest
 
 from .scene_keys import EDGES
 
@@ -135,7 +135,7 @@ def _largest(x: Array, quantity: Callable[[Array], Array], rounds: int = ROUNDS)
         infinite = ~np.isfinite(values)
         if infinite.any():
             return {"reason": f"infinite at x = {x[infinite][0]:g}, a sharp edge or a corner"}
-        place, value = largest(x, values, by_value(quantity), rounds)
+        place, value = largest(x, values, quantity, rounds)
     except ContactError as problem:
         return {"reason": str(problem)}
     return {"value": value, "x": place}

@@ -1,4 +1,4 @@
-"""An answer for other programs: CSV and JSON.
+"""An answer for other programs: CSV, JSON and grids of stress.
 
 CSV has four comment lines (#), then x,p,gap and one row for each point; with shear also q and slip.
 CSV of a load path has such rows for every turning point with P > 0, each after the number of the
@@ -43,6 +43,9 @@ and, where they are wanted,
                  mended {left_out, averaged, sorted}, tilt, pressure_error, edge_errors [x1, x2]},
                  ..]
 
+A grid of stress has four comment lines (#), then x,y,xx,yy,xy,zz,j2,mises and one row for each
+point, x fastest, which ParaView turns into a structured grid; y is the depth.
+
 Floats are written as `repr` writes them, so that nothing is lost. JSON has no infinity: it is the
 string "Infinity" or "-Infinity", which Python's float(), NumPy and JavaScript's Number() read as
 the number; in CSV it is inf.
@@ -53,14 +56,14 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Callable, Mapping
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from sie import __version__
 from sie.files import table_of_columns
-from sie.problem.request import POINTS
+from sie.problem.request import GRID, POINTS
 from sie.progress_bar import counted
 
 from .answers import energy_of, notes_of, readings_of, slip_of, slipping, wanted
@@ -69,6 +72,7 @@ from .scene_file import SceneFile
 from .scene_tables import tables_of
 
 if TYPE_CHECKING:
+    from sie.stress.half_plane import Stress
     from sie.traction.base import Density
 
 
@@ -76,6 +80,8 @@ Array = NDArray[np.float64]
 
 TRACTIONS = ("x", "p", "gap", "q", "slip")  # columns of CSV, those of ...
 STRESSES, LENGTHS = ("p", "q"), ("x", "gap", "slip")
+COMPONENTS = ("xx", "yy", "xy", "zz", "j2", "mises")
+BESIDE, DEPTH = 1.0, 2.0  # what a grid shows beside the contact and in depth, in half-widths
 
 
 def csv_text(solution: Any, file: SceneFile, points: int = POINTS) -> str:
@@ -258,3 +264,35 @@ def _finite(value: Any) -> Any:
     if isinstance(value, float) and math.isinf(value):
         return "Infinity" if value > 0.0 else "-Infinity"
     return value
+
+
+# -- grids ----------------------------------------------------------------------------------------
+
+
+class Grid(NamedTuple):
+    """Positions (nx,), depths (ny,), and the stress there in arrays (ny, nx)."""
+
+    x: Array
+    y: Array
+    stress: Stress
+
+
+def grid(solution: Any, nx: int = GRID[0], ny: int = GRID[1]) -> Grid:
+    """The stress of a solution around the contact."""
+    (x1, x2), r = solution.edges, solution.half_width
+    x, y = np.linspace(x1 - BESIDE * r, x2 + BESIDE * r, nx), np.linspace(0.0, DEPTH * r, ny)
+    return Grid(x, y, solution.stress(x, y[:, None]))
+
+
+def grid_csv(solution: Any, file: SceneFile, nx: int, ny: int) -> str:
+    """The grid as a table, with lines of comment on the scene of the file and its units."""
+    units, (x1, x2), found = file.units, solution.edges, grid(solution, nx, ny)
+    head = (
+        f"{file.title or 'plane contact'} (sie {__version__})",
+        repr(solution.scene),
+        f"lengths in {units.length}, stresses in {units.stress}, j2 in its square",
+        f"contact from x1 = {x1!r} to x2 = {x2!r}",
+    )
+    x, y = np.meshgrid(found.x, found.y)
+    columns = {"x": x, "y": y} | {name: getattr(found.stress, name) for name in COMPONENTS}
+    return table_of_columns(head, {name: v.ravel() for name, v in columns.items()})

@@ -16,9 +16,8 @@ from sie.errors import ContactError
 from sie.io.beside_scene import Units
 
 from . import teaching
-from .controls import NODES, ROUNDED, SAVED, SHAPES
 from .frame import Array, frame_of, inside, mises, surface, tops, words
-from .setting import Setting, sliders, solution_of
+from .setting import NODES, ROUNDED, SAVED, SHAPES, Setting, sliders, solution_of
 
 ALL_DIGITS = 1e-12  # of the textbook's error: what is left is rounding
 GROUND = 81  # points of the surface

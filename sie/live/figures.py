@@ -14,7 +14,7 @@ from bokeh.models.annotations.legends import ColorBar
 from bokeh.palettes import viridis
 from bokeh.plotting import figure
 
-from .controls import NODES
+from .setting import NODES
 
 TOOLS = "pan,wheel_zoom,box_zoom,reset,save"
 PRESSURE, SHEAR, GHOST, YIELD = "#4477aa", "#ee6677", "#999999", "#ff2255"

@@ -17,8 +17,7 @@ from sie import Scene, Solution
 from sie.errors import ContactError
 from sie.io.beside_scene import Units
 
-from .controls import ACROSS, DEPTH, DOWN, OF_FILE, ROUNDED, WEDGE
-from .setting import Setting, sliders, solution_of
+from .setting import ACROSS, DEPTH, DOWN, OF_FILE, ROUNDED, WEDGE, Setting, sliders, solution_of
 
 Array = NDArray[np.float64]
 

@@ -13,8 +13,8 @@ from bokeh.settings import settings
 
 from sie.problem.scene import Scene
 
-from .controls import ACROSS, DEPTH, DOWN, LIVE, SAVED, Control, shapes
 from .figures import items
+from .setting import ACROSS, DEPTH, DOWN, LIVE, SAVED, Control, shapes
 
 SERVED = "Each answer is solved anew on this machine. "
 KEPT = (

@@ -27,8 +27,7 @@ from sie.problem.scene import Scene
 from sie.profiles.base import Profile
 from sie.profiles.shapes import Flat, Parabola, Power, RoundedFlat, Wedge
 
-from .newton import CLOSE, MOST_STEPS, Array, Contact, Integrals, newton
-from .smooth import Smooth
+from .smooth import CLOSE, MOST_STEPS, Array, Contact, Integrals, Smooth, newton
 
 Formula = Callable[..., Array]
 

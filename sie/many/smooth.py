@@ -1,11 +1,11 @@
-"""Slopes that are smooth in the contact, by their values at Chebyshev nodes."""
+"""Newton's method for many contacts, and slopes that are smooth there, by their values at nodes."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,13 +13,64 @@ from numpy.typing import NDArray
 from sie.numerics import chebyshev
 from sie.numerics.interval import EPS
 
-from .newton import Array, Contact, Integrals, newton
+Array = NDArray[np.float64]
 
+MOST_STEPS, CLOSE = 40, 1e-8  # of Newton's method; what is left is the square of the last step
 SIZES = (24, 48, 96, 192)  # nodes of a smooth slope
 RESOLVED, MISSED = 2e-14, 1e-12  # its last coefficients, and what it may miss at probes
 PROBES = np.array([-0.9413, -0.6137, -0.2871, 0.0519, 0.3833, 0.7211, 0.9687])
 FARTHER = np.array([1.25, 1.7, 2.5, 4.0, 8.0, 16.0, 64.0])  # half-widths, where a slope has to rise
 BISECTIONS = 60
+
+
+class Contact(NamedTuple):
+    """Contacts of n scenes: centre, half-width, T = P/G and the moment about the centre over G."""
+
+    m: Array
+    r: Array
+    T: Array
+    about: Array
+
+
+class Integrals(NamedTuple):
+    """∫H dφ, ∫H s dφ, ∫H_s dφ, ∫H_s s dφ and ∫H (1 - s²) dφ, H_s the derivative by s."""
+
+    I0: Array
+    I1: Array
+    J0: Array
+    J1: Array
+    C2: Array
+
+
+def newton(
+    integrals: Callable[[Array, Array], Integrals],
+    start: tuple[Array, Array],
+    size: Array,
+    of_width: bool,
+) -> Contact:
+    """I0 = 0 and r I1 = T for m and ln r, or for m alone where r is given.
+
+    The derivatives of I0 and of r I1 by m and r are J0/r, J1/r and J1, J0.
+    """
+    m, r = start
+    for _ in range(MOST_STEPS):
+        k = integrals(m, r)
+        carried = r * k.I1
+        lacks = 0.0 * r if of_width else np.log(size / carried)
+        J1 = 0.0 * r if of_width else k.J1
+        # J is indefinite where the slope does not rise; then nothing settles
+        det = k.J0 * k.J0 - J1 * J1
+        dm = -(k.I0 * k.J0 * r + J1 * carried * lacks) / det
+        du = (k.J0 * k.I1 * lacks + J1 * k.I0) / det
+        lost = ~np.isfinite(lacks + dm + du)
+        m = m + np.where(lost, 0.0, np.clip(dm, -r, r))
+        r = r * np.exp(np.where(lost, 0.0 if of_width else 1.0, np.clip(du, -3.0, 3.0)))
+        left = np.where(lost, np.inf, np.maximum(np.abs(du), np.abs(dm) / r))
+        if not (left > CLOSE).any():
+            break
+    k = integrals(m, r)
+    r = np.where((left <= CLOSE) & np.isfinite(k.C2), r, np.nan)
+    return Contact(m, r, r * k.I1 if of_width else size, -r * r * k.C2)
 
 
 @dataclass(frozen=True)

@@ -27,7 +27,7 @@ from sie.profiles.base import Profile
 from sie.profiles.from_function import FromFunction
 
 from .families import SHAPES, families
-from .newton import Array, Contact
+from .smooth import Array, Contact
 
 CHUNK = 4096  # scenes, whose arrays stay in the cache
 VALUES = 1 << 14  # of a pressure that are evaluated together

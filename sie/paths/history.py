@@ -226,10 +226,9 @@ class History(PathContacts, Sequence[Solution]):
             The loads of each point, its stick zones, and the energy dissipated up to it if that is
             known.
         """
-        return [self.row(k) for k in counted("turning points", range(len(self)), len(self))]
+        return [self._row(k) for k in counted("turning points", range(len(self)), len(self))]
 
-    def row(self, index: int) -> dict[str, Any]:
-        """The row of one point, as of `rows`."""
+    def _row(self, index: int) -> dict[str, Any]:
         point, (P, Q, sigma, turn) = self[index], self.turning_points[index].loads
         row: dict[str, Any] = {"normal_load": P, "tangential_load": Q, "bulk_stress": sigma}
         if self.path.tilt or self.path.moment:

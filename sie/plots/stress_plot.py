@@ -17,7 +17,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from sie.io.beside_scene import UNITS, Units
-from sie.io.stress_grid import BESIDE, DEPTH, grid
+from sie.io.export import BESIDE, DEPTH, grid
 
 from . import style
 

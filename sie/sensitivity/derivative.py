@@ -16,9 +16,8 @@ from sie.profiles.base import Profile
 from sie.stress.half_plane import Stress
 from sie.traction.base import Density
 
-from .contact_rate import contact_rate
 from .parameters import change_by
-from .shear_rate import ShearRate, Zones, shear_rate
+from .rates import ShearRate, Zones, contact_rate, shear_rate
 
 Array = NDArray[np.float64]
 NODES = 14  # of the slope beside an edge

@@ -32,9 +32,9 @@ from sie.numerics.interval import Interval
 from sie.profiles.sampled import Sampled
 from sie.profiles.splines import not_a_knot_bands
 
-from .contact_rate import Response, integrals_of, response
 from .derivative import Derivative, OfPatches, peaks
 from .parameters import held, parameters
+from .rates import Response, integrals_of, response
 
 Array = NDArray[np.float64]
 

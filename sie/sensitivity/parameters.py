@@ -8,7 +8,7 @@ a parameter of the profile  its direction (`directions`)
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import partial
 
 from sie.errors import ContactError
@@ -17,8 +17,34 @@ from sie.problem.scene import Scene
 from sie.profiles.base import Profile
 from sie.profiles.sampled import Sampled
 
-from .contact_rate import Change
 from .directions import directions
+
+
+@dataclass(frozen=True)
+class Change:
+    """A direction in which the numbers of a scene change.
+
+    profile          the change of h; None for none
+    load             that of P; None where the half-width is given in its place
+    half_width       that of the half-width, where it is given
+    tilt             that of the tilt; None where the moment is given in its place
+    moment           that of M, where it is given
+    modulus          δE*/E*
+    friction, tangential_load, tau, bulk_stress, poisson  those of f, Q, τ, σ and ν of the body
+    """
+
+    profile: Profile | None = None
+    load: float | None = 0.0
+    half_width: float = 0.0
+    tilt: float | None = 0.0
+    moment: float = 0.0
+    modulus: float = 0.0
+    friction: float = 0.0
+    tangential_load: float = 0.0
+    tau: float = 0.0
+    bulk_stress: float = 0.0
+    poisson: float = 0.0
+
 
 Makers = dict[str, Callable[[], Change]]
 

@@ -30,7 +30,7 @@ from sie.errors import ContactError
 from sie.progress_bar import reported, step_done
 
 from .critical_plane import Parameter, StressHistory, on_grid, worst_planes
-from .surface_search import by_value, columns, largest
+from .surface_search import columns, largest
 
 Array = NDArray[np.float64]
 
@@ -115,8 +115,7 @@ def _worst_x(states: Sequence[Any], parameter: Parameter, y: float) -> float:
     best = values.max()
     high = np.flatnonzero(values >= best - TOO_SMALL * abs(best))
     values[high] = worst_planes(h.at(high), parameter).value
-    value = by_value(lambda x: worst_planes(_history(states, x, y), parameter).value)
-    return largest(x, values, value)[0]
+    return largest(x, values, lambda x: worst_planes(_history(states, x, y), parameter).value)[0]
 
 
 def _history(states: Sequence[Any], x: Array, y: float | Array) -> StressHistory:

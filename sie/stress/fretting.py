@@ -21,6 +21,7 @@ from numpy.typing import ArrayLike, NDArray
 from sie import arguments
 from sie.arguments import abridged
 from sie.errors import ContactError
+from sie.files import table_of_rows
 
 from . import fatigue
 from .fatigue import CriticalPlane
@@ -365,15 +366,6 @@ class Cycle:
         """
         criterion = fatigue.fatemi_socie(self.states, k, yield_stress)
         return fatigue.at_points(self.states, criterion, x, y)
-
-
-def table_of_rows(rows: list[dict[str, float]]) -> Any:
-    """A DataFrame of the rows where pandas is installed, otherwise these."""
-    try:
-        import pandas  # type: ignore[import, unused-ignore]  # noqa: PLC0415
-    except ImportError:
-        return rows
-    return pandas.DataFrame(rows)
 
 
 def _product(a: Array, b: Array) -> Array:

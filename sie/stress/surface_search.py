@@ -19,9 +19,6 @@ from .half_plane import Tractions
 from .scan_columns import thinned
 
 Array = NDArray[np.float64]
-Index = NDArray[np.intp]
-# The position among those of each row, and the value, where a quantity is largest.
-BestOf = Callable[[Array], tuple[Index, Array]]
 
 # Distances of columns from a mark in half-widths, and the ratio of neighbouring ones.
 FARTHEST, NEAREST, RATIO = 30.0, 1e-9, 1.6
@@ -57,10 +54,12 @@ def _within(marks: Array, gap: Array, distance: Array) -> Array:
     return (marks[:, None] + distance)[distance < 0.5 * gap[:, None]]
 
 
-def largest(x: Array, values: Array, best_of: BestOf, rounds: int = ROUNDS) -> tuple[float, float]:
+def largest(
+    x: Array, values: Array, quantity: Callable[[Array], Array], rounds: int = ROUNDS
+) -> tuple[float, float]:
     """The position near these columns where a quantity with these values is largest, and its value.
 
-    `best_of` takes rows of positions. Few rounds are for a quantity that is dear.
+    Few rounds are for a quantity that is dear.
     """
     padded = np.concatenate(([-np.inf], values, [-np.inf]))
     top = np.flatnonzero((values >= padded[:-2]) & (values >= padded[2:]))
@@ -68,14 +67,15 @@ def largest(x: Array, values: Array, best_of: BestOf, rounds: int = ROUNDS) -> t
     top = top[values[top] >= best - (1.0 - HIGH) * abs(best)]
     top = top[np.argsort(-values[top], kind="stable")][: MOST_TOPS if rounds == ROUNDS else 1]
     lo, at, hi = x[np.maximum(top - 1, 0)], x[top], x[np.minimum(top + 1, len(x) - 1)]
-    _, value = best_of(at[:, None])
+    value = np.asarray(quantity(at))
     for turn in range(rounds):
         step_done(0)
         near = np.linspace(lo, hi, POINTS, axis=1)
-        k, found = best_of(near)
-        better = found > value
-        at = np.where(better, near[np.arange(len(k)), k], at)
-        value = np.where(better, found, value)
+        values = np.asarray(quantity(near.ravel())).reshape(near.shape)
+        best_at = (np.arange(len(near)), values.argmax(axis=1))
+        better = values[best_at] > value
+        at = np.where(better, near[best_at], at)
+        value = np.where(better, values[best_at], value)
         step = (hi - lo) / (POINTS - 1)
         lo, hi = np.maximum(at - step, lo), np.minimum(at + step, hi)
         if turn >= EARLY:
@@ -83,14 +83,3 @@ def largest(x: Array, values: Array, best_of: BestOf, rounds: int = ROUNDS) -> t
             at, value, lo, hi = at[kept], value[kept], lo[kept], hi[kept]
     first = int(value.argmax())
     return float(at[first]), float(value[first])
-
-
-def by_value(quantity: Callable[[Array], Array]) -> BestOf:
-    """The largest values of a function of positions, row by row."""
-
-    def best_of(x: Array) -> tuple[Index, Array]:
-        values = np.asarray(quantity(x.ravel())).reshape(x.shape)
-        k = values.argmax(axis=1)
-        return k, values[np.arange(len(k)), k]
-
-    return best_of

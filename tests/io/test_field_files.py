@@ -10,8 +10,8 @@ import pytest
 import sie
 from sie.cli import main
 from sie.io import scene_file
+from sie.io.export import grid_csv
 from sie.io.scene_file import SceneFile
-from sie.io.stress_grid import grid_csv
 
 STEEL = sie.Elastic(210e3, 0.3)
 LOADS = {"normal_load": 500.0, "friction": 0.3, "tangential_load": 150.0}

@@ -20,9 +20,8 @@ import sie
 from sie.cli import main
 from sie.io.scene_file import Units, example, parse
 from sie.live.answer import PARTS, answer
-from sie.live.controls import ACROSS, DOWN, LIVE, SAVED, shapes
 from sie.live.frame import frame_of, surface
-from sie.live.setting import Setting, sliders
+from sie.live.setting import ACROSS, DOWN, LIVE, SAVED, Setting, shapes, sliders
 
 pytest.importorskip("bokeh", reason="the live page needs the extra `live`")
 from sie.live.page import saved

@@ -1,4 +1,4 @@
-"""The derivative of a contact without shear, for a change of its profile, loads and modulus.
+"""The derivative of a contact and its shear, for a change of profile, loads, friction and bodies.
 
 With E* fixed, the pressure p = L[h'] on the contact is linear in h', and moving an edge adds a
 square-root singularity there. So for any change of h', P and the tilt the derivative of p is the
@@ -15,12 +15,19 @@ Where the half-width is given in place of the load, or the moment in place of th
 change of the tilt follow from two linear equations. On several patches the charges at the edges
 come from the linear equations of Newton's method (`patches.edge_charges`). A change of E* at a
 given load is one of P by -P δE*/E*, of a pressure that is then scaled.
+
+In sliding q = ± f p. In partial slip q = ± f (p - p̂), p̂ the pressure of the same profile under
+P̂ = P - |Q|/f at the tilt of p less 2τ/(± f E*) (`friction.partial_slip`), so that
+
+    δq = ± δf (p - p̂) ± f (δp - δp̂)
+
+and the edges of the contact of p̂ are those of the stick zones.
 """
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -28,8 +35,9 @@ from numpy.typing import NDArray
 
 from sie.contact.edge_integrals import EdgeIntegrals, edge_integrals
 from sie.contact.known_contact import Edges, Normal
-from sie.contact.pressure import slope_series
+from sie.contact.pressure import OnePatch, slope_series
 from sie.errors import ContactError
+from sie.friction.partial_slip import OneSignedSlip
 from sie.patches.answer import SeveralPatches
 from sie.patches.density import PatchPressure
 from sie.patches.newton import response as response_of_patches
@@ -44,38 +52,16 @@ from sie.traction.on_panels import PanelDensity
 from sie.traction.panels import Panels
 from sie.traction.piece_quadrature import Geometry
 
+from .parameters import Change
+
 Array = NDArray[np.float64]
+Zones = tuple[tuple[float, float], ...]
+Terms = tuple[tuple[float, Density], ...]
 TOLERANCE = 1e-13  # to which a direction is resolved on a contact
 RESOLVED = 1e-15  # ... and on patches
 NARROWEST = 1e-9  # of the contact: patches and gaps narrower than that are about to vanish
 CORNER = 1e-9  # half-widths: an edge so near to a corner of the profile stands at it
 FLAT = polynomial_slope((-math.inf, math.inf), (0.0,), ((0.0,),))
-
-
-@dataclass(frozen=True)
-class Change:
-    """A direction in which the numbers of a scene change.
-
-    profile          the change of h; None for none
-    load             that of P; None where the half-width is given in its place
-    half_width       that of the half-width, where it is given
-    tilt             that of the tilt; None where the moment is given in its place
-    moment           that of M, where it is given
-    modulus          δE*/E*
-    friction, tangential_load, tau, bulk_stress, poisson  those of f, Q, τ, σ and ν of the body
-    """
-
-    profile: Profile | None = None
-    load: float | None = 0.0
-    half_width: float = 0.0
-    tilt: float | None = 0.0
-    moment: float = 0.0
-    modulus: float = 0.0
-    friction: float = 0.0
-    tangential_load: float = 0.0
-    tau: float = 0.0
-    bulk_stress: float = 0.0
-    poisson: float = 0.0
 
 
 class ContactRate(NamedTuple):
@@ -220,4 +206,78 @@ def _refuse_events(r: Array, gaps: Array, half: float) -> None:
         return
     raise ContactError(
         f"{what} to rounding ({remedy}), where derivatives are one-sided: change the load a little"
+    )
+
+
+# -- the shear -------------------------------------------------------------------------------------
+
+
+class ShearRate(NamedTuple):
+    """The derivative of the shear q = Σ c p_i.
+
+    stick    that of the stick zones
+    terms    pairs (c, p_i)
+    rates    pairs whose sum is the derivative
+    """
+
+    stick: Zones
+    terms: Terms = ()
+    rates: Terms = ()
+
+    @property
+    def shear(self) -> Density:
+        """That of q."""
+        return superposed(*self.rates)
+
+
+def shear_rate(solution: Any, change: Change, contact: ContactRate) -> ShearRate:
+    """The derivative of the shear of a solution. ContactError where it has none."""
+    scene, f = solution.scene, solution.scene.friction
+    if not f:
+        return ShearRate(())
+    if not solution.sheared:
+        if change.tangential_load or change.tau:
+            raise _begins("Q and the bulk stress are 0")
+        return ShearRate(contact.patches)
+    if scene.sliding:
+        return _sum((), scene.sliding * f, ((1.0, solution.pressure, contact.pressure),), change, f)
+    if scene.slides:
+        raise _begins("|Q| = f P")
+    state: Any = solution.tangential
+    if not isinstance(state, OneSignedSlip):
+        raise ContactError(
+            "the bulk stress makes the two edges slip in opposite directions, where derivatives of "
+            "the shear are not known: lower the bulk stress, or raise the tangential load"
+        )
+    reduced, density = state.reduced, state.corrective
+    found = reduced.normal if isinstance(reduced, OnePatch) else reduced
+    along, Q, gained = state.sign * f, solution.tangential_load, change.friction / f
+    twice = 2.0 / (along * scene.Estar)
+    under = replace(
+        change,
+        load=contact.load - (change.tangential_load - Q * gained) / along,
+        tilt=contact.tilt - twice * (change.tau - scene.tau * (gained + change.modulus)),
+    )
+    rate = contact_rate(found, density, scene.profile, under)
+    both = (1.0, solution.pressure, contact.pressure), (-1.0, density, rate.pressure)
+    return _sum(rate.patches, along, both, change, f)
+
+
+def _sum(
+    stick: Zones,
+    along: float,
+    parts: tuple[tuple[float, Density, Density], ...],
+    change: Change,
+    f: float,
+) -> ShearRate:
+    """The shear ± f Σ ± p_i, with the derivatives of the p_i and that of f."""
+    terms = tuple((along * c, p) for c, p, _ in parts)
+    by_friction = tuple((c * change.friction / f, p) for c, p in terms)
+    return ShearRate(stick, terms, tuple((along * c, rate) for c, _, rate in parts) + by_friction)
+
+
+def _begins(where: str) -> ContactError:
+    return ContactError(
+        f"{where}, where slip begins or a stick zone vanishes, and derivatives are one-sided: give "
+        "a tangential load between 0 and f P"
     )
