@@ -7,10 +7,10 @@ zones [a_k, b_k], k = 1...N, of centres μ_k, on the line or per period (d is th
     T_k(z) = d(z, μ_k) Π_i [d(z, a_i) d(z, b_i)/d(z, μ_i)²]^(1/2)
     F(z)   = Δτ + T_k(z) 1/π ∫ dν_k(t)/d(z, t),      dν_k = Δq/T_k dt on slip; any k
     Σ cos(t - μ_k) dν_k = -π Δτ for each k,      Σ d(t, μ_k) dν_k = ΔQ
-    Re ∫ T_k Ψ_k dz = 0 over each gap between neighbouring zones: one rigid shift of all
+    PV∫ T_k Ψ_k dx = 0 over each gap between neighbouring zones: one rigid shift of all
 
-are 2N equations for 2N ends. On zone k Δq = -|T_k| Re Ψ_k. The integral over a gap goes over the
-half-circle above it, where nothing is singular. Moving an end e adds a charge κ_e at e, from which
+are 2N equations for 2N ends. On zone k Δq = -|T_k| Re Ψ_k. The integral over a gap is a series in
+the place of a charge (`Gap`). Moving an end e adds a charge κ_e at e, from which
 the derivatives follow (docs/derivations/marching.md).
 """
 
@@ -19,13 +19,15 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from functools import cached_property
+from functools import cached_property, partial
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from sie.errors import ContactError
+from sie.numerics import chebyshev
 from sie.numerics.chord import Chord
 from sie.numerics.graded_panels import (
     OF_RULES,
@@ -38,44 +40,40 @@ from sie.numerics.graded_panels import (
 )
 from sie.numerics.zones import left_over, united
 
+from .potentials import Between, Frame, beyond_piece, on_piece, settled_series
 from .rates import LoadRates, Rates
 from .state import KNOWN, SAME, Contact, Ends, State, Zones, intervals
 
 Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 NEAREST = 5  # places next to an end, from which what is there follows
 FEW = 3  # nodes a panel of the places where |q| <= f p is tested on the way
 
 
 class Gap:
-    """The half-circle above a gap between two stick zones."""
+    """What a charge ν_k at t adds to Re ∫ (F - Δτ) dx over the gap between zones k and k + 1.
 
-    def __init__(self, lo: float, hi: float, breaks: tuple[float, ...] = OF_RULES) -> None:
-        shares = gauss_shares(breaks)
-        half = 0.5 * np.pi * shares.lo  # half the angle from lo
-        other = 0.5 * np.pi * shares.hi
-        length = hi - lo
-        turn = np.exp(-1j * half)
-        self.lo, self.hi = lo, hi
-        self.from_lo: Complex = length * np.sin(half) * 1j * turn
-        self.from_hi: Complex = -length * np.sin(other) * turn
-        self.near_lo = shares.lo < shares.hi
-        self.weight: Complex = 0.5j * length * turn**2 * np.pi * shares.weight
+    With T_k cos(π(z - c)/λ) = sqrt(1 - u²) Σ γ_n U_n(u), u ~ tan(π(z - c)/λ), c the gap's centre,
+    that is -Re Σ γ_n w^(n+1)/cos(π(t - c)/λ), w = u_t - sqrt(u_t² - 1).
+    """
 
-    def apart(self, e: float) -> Complex:
-        """z - e for an end e outside the gap, or one of its ends."""
-        if e <= self.lo:
-            return (self.lo - e) + self.from_lo
-        return (self.hi - e) + self.from_hi
+    def __init__(self, lo: float, hi: float, chord: Chord, root: Callable[[Any], Array]) -> None:
+        self.lo, self.hi, self.frame = lo, hi, Frame(((lo, hi),), chord)
 
-    def from_all(self, rule: Rule) -> Complex:
-        """z - t as a matrix, t the places of a rule."""
-        found = np.empty((len(self.weight), len(rule.lo)), dtype=complex)
-        for rows, e, apart in (
-            (self.near_lo, self.lo, self.from_lo),
-            (~self.near_lo, self.hi, self.from_hi),
-        ):
-            found[rows] = apart[rows, None] - rule.apart_from(e)
+        def smooth(s: Array) -> Array:
+            sine, cosine = np.sqrt(0.5 * (1.0 + s)), np.sqrt(0.5 * (1.0 - s))
+            z, turned, _ = on_piece(self.frame, lo, hi, sine, cosine)
+            found: Array = root(z) * turned / (2.0 * sine * cosine)
+            return found
+
+        c = settled_series(smooth)
+        c = c[: chebyshev.chopped_length(c, 1e-17 * np.abs(c).max())]
+        self.series = 0.5 * (c - np.append(c[2:], np.zeros(min(2, len(c)))))
+        self.series[0] += 0.5 * c[0]
+
+    def at(self, t: Any) -> Array:
+        left, right, cosine = beyond_piece(self.frame, self.lo, self.hi, t)
+        w = 1.0 / (0.5 * (left + right) + np.sqrt(left + 0j) * np.sqrt(right + 0j))
+        found: Array = -(w * np.polynomial.polynomial.polyval(w, self.series)).real / cosine
         return found
 
 
@@ -142,8 +140,7 @@ class Equations:
     @cached_property
     def rule(self) -> Rule:
         """Places on them."""
-        rough = self.rough and len(self.stick) == 1  # the circle above a gap comes near its ends
-        return Rule.graded(self.sources, self.breaks(self.sources) if rough else OF_RULES)
+        return Rule.graded(self.sources, self.breaks(self.sources) if self.rough else OF_RULES)
 
     def breaks(self, ends: Array) -> tuple[float, ...]:
         """Those of a rule on intervals: as fine as the nearest place beyond an end asks for."""
@@ -195,7 +192,7 @@ class Equations:
         for (a, b), m in zip(self.stick, self.centres, strict=True):
             middle = d(apart(m))
             ratio = (d(apart(a)) / middle) * (d(apart(b)) / middle)
-            out = out * np.sqrt(ratio if np.iscomplexobj(ratio) else np.abs(ratio))
+            out = out * np.sqrt(np.abs(ratio))
         return out
 
     @cached_property
@@ -207,18 +204,20 @@ class Equations:
 
     @cached_property
     def gaps(self) -> list[Gap]:
-        found = []
-        for (_, b), (a, _) in zip(self.stick, self.stick[1:], strict=False):
-            points = np.append(self.sources, self.stick)
-            apart = np.abs(points - np.array([[b], [a]]))
-            near = float(apart[apart > 0.0].min()) / (a - b)
-            found.append(Gap(b, a, breaks_for(near) if self.rough else OF_RULES))
-        return found
+        """Those between neighbouring stick zones."""
+        return [
+            Gap(float(b), float(a), self.chord, partial(self._root, k))
+            for k, ((_, b), (a, _)) in enumerate(pairwise(self.stick))
+        ]
 
-    def root(self, k: int, gap: Gap) -> Complex:
-        """T_k on a half-circle."""
-        middle: Complex = self.chord(gap.apart(self.centres[k]))
-        return middle * self.ratios(gap.apart)
+    def _root(self, k: int, z: Between) -> Array:
+        """T_k at places beside the stick zones."""
+
+        def apart(e: float) -> Array:
+            return np.where(z.from_lo <= z.from_hi, (z.lo - e) + z.from_lo, (z.hi - e) - z.from_hi)
+
+        found: Array = self.chord(apart(self.centres[k])) * self.ratios(apart)
+        return found
 
     @cached_property
     def residual(self) -> Array:
@@ -236,18 +235,7 @@ class Equations:
     @cached_property
     def over_gaps(self) -> list[Array]:
         """What a charge ν_k at each place adds to Re ∫ (F - Δτ) dx over gap k."""
-        return [self._over(k, gap) for k, gap in enumerate(self.gaps)]
-
-    def _over(self, k: int, gap: Gap) -> Array:
-        """The same over any gap, on the half-circle."""
-        kernel = 1.0 / self.chord(gap.from_all(self.rule))
-        found: Array = ((gap.weight * self.root(k, gap)) @ kernel).real / math.pi
-        return found
-
-    def over(self, gap: Gap) -> float:
-        """Re ∫ (F - Δτ) dx over a gap beside a stick zone."""
-        k = int(np.abs(self.stick - gap.lo).min(axis=1).argmin())
-        return float(self._over(k, gap) @ self.charges[k])
+        return [gap.at(self.rule) for gap in self.gaps]
 
     @cached_property
     def stuck_shear(self) -> tuple[Array, Array, Array]:
@@ -305,8 +293,7 @@ class Equations:
             out[N, j] = math.pi * kappa * own
             for k, gap in enumerate(self.gaps):
                 ratio = own / float(d(e - self.centres[k]))
-                value = gap.weight @ (self.root(k, gap) / d(gap.apart(e)))
-                out[N + 1 + k, j] = kappa * ratio * float(value.real)
+                out[N + 1 + k, j] = math.pi * kappa * ratio * float(gap.at(Between(e, e, 0.0, 0.0)))
         return out
 
     def in_stick(self, k: int, places: Rule) -> Array:

@@ -20,7 +20,7 @@ from sie.errors import ContactError
 from sie.numerics.graded_panels import OF_SERIES, Pieces, Rule
 from sie.numerics.zones import united
 
-from .equations import Equations, Gap
+from .equations import Equations
 from .state import SAME, intervals
 
 if TYPE_CHECKING:
@@ -114,12 +114,17 @@ class GainedSlip:
 
     def _across_gap(self, lo: float, hi: float, across: float) -> float:
         """Δg at the left edge of a patch that slides as a whole, from the nearest stick zone."""
-        now, ends = self.equations, self.equations.stick.ravel()
+        ends = self.equations.stick.ravel()
         if (ends < lo).any():
             e = float(ends[ends < lo].max())
-            return self.at_ends[e] + now.over(Gap(e, lo))
+            return self.at_ends[e] + self._gained(e, lo)
         e = float(ends.min())
-        return self.at_ends[e] - now.over(Gap(hi, e)) - across
+        return self.at_ends[e] - self._gained(hi, e) - across
+
+    def _gained(self, lo: float, hi: float) -> float:
+        """What Δg gains between patches."""
+        places = Pieces.places(np.array([[lo, hi]]))
+        return Pieces.integral(places, self._strain(places, 0.0)).last
 
 
 def drag(part: Part) -> float:

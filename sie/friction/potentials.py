@@ -70,6 +70,16 @@ def in_angle(lo: float, hi: float, v: Any) -> Between:
     return Between(lo, hi, (hi - lo) * np.sin(half) ** 2, (hi - lo) * np.cos(half) ** 2)
 
 
+def settled_series(values: Callable[[Array], Array]) -> Array:
+    """The series through values at NODES points, doubled until its tail has settled."""
+    n = NODES
+    while True:
+        series = chebyshev.transform(values(chebyshev.points(n)))
+        if np.abs(series[-TAIL:]).max() <= SETTLED * np.abs(series).max() or n >= MOST_NODES:
+            return series
+        n *= 2
+
+
 @lru_cache(maxsize=1)
 def _half_circle() -> tuple[Any, Any, Any]:
     """(z - 0, 1 - z, dz) at nodes of the half-circle above [0, 1], graded to both ends."""
@@ -171,7 +181,7 @@ class Given:
         while n <= MOST_NODES:
             s = chebyshev.points(n)
             sine, cosine = np.sqrt(0.5 * (1.0 + s)), np.sqrt(0.5 * (1.0 - s))
-            x, stretch, even = _on_piece(frame, lo, hi, sine, cosine)
+            x, stretch, even = on_piece(frame, lo, hi, sine, cosine)
             values = (frame.W(x) * density(x)).real * stretch * 2.0 * sine * cosine
             series = chebyshev.transform(values)
             if np.abs(series[-TAIL:]).max() <= SETTLED * np.abs(series).max():
@@ -185,7 +195,7 @@ class Given:
 
     def integral(self, x: Places) -> Any:
         """1/π ∫ d W/(x - ξ) dξ beside the piece and on it."""
-        left, right, cosine = self._ends(x)
+        left, right, cosine = beyond_piece(self.frame, self.lo, self.hi, x)
         scale = 1.0 / cosine if self.frame.odd else 1.0
         on_it = np.isrealobj(left) & (left >= 0.0).real & (right <= 0.0).real
         root = np.sqrt(left + 0j) * np.sqrt(right + 0j)
@@ -196,16 +206,17 @@ class Given:
         on = -chebyshev.evaluate_second_kind(self.series[1:], inside)
         return scale * np.where(on_it, on, beside) + self.even
 
-    def _ends(self, x: Places) -> tuple[Any, Any, Any]:
-        """(t + 1, t - 1) of places, and cos(π(x - c)/λ), which is 1 on the line."""
-        frame, middle = self.frame, 0.5 * (self.lo + self.hi)
-        half = frame.chord.apart(self.hi - middle) / frame.unit
-        cosine = frame.cosine(x, middle)
-        scale = half * cosine
-        return frame.apart(x, self.lo) / scale, frame.apart(x, self.hi) / scale, cosine
+
+def beyond_piece(frame: Frame, lo: float, hi: float, x: Places) -> tuple[Any, Any, Any]:
+    """(t + 1, t - 1) of places anywhere, and cos(π(x - c)/λ), which is 1 on the line."""
+    middle = 0.5 * (lo + hi)
+    half = frame.chord.apart(hi - middle) / frame.unit
+    cosine = frame.cosine(x, middle)
+    scale = half * cosine
+    return frame.apart(x, lo) / scale, frame.apart(x, hi) / scale, cosine
 
 
-def _on_piece(
+def on_piece(
     frame: Frame, lo: float, hi: float, sine: Array, cosine: Array
 ) -> tuple[Between, Array, Array]:
     """Places where 1 + t, 1 - t are 2 sin², 2 cos²; what d W is stretched by there; `even`."""

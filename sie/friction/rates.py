@@ -19,10 +19,6 @@ from sie.numerics import chebyshev
 from sie.numerics.chord import Chord
 
 from .potentials import (
-    MOST_NODES,
-    NODES,
-    SETTLED,
-    TAIL,
     Density,
     Frame,
     Given,
@@ -32,6 +28,7 @@ from .potentials import (
     in_angle,
     pressure_rate,
     pressure_rate_of_moment,
+    settled_series,
 )
 
 Array = NDArray[np.float64]
@@ -50,7 +47,13 @@ class Slip:
     @classmethod
     def fitted(cls, potential: Potential, lo: float, hi: float, sense: float) -> Slip:
         """The strain integrated from the stick end of the zone, or from the nearest one."""
-        series = _strain_series(potential, lo, hi)
+
+        def stretched(s: Array) -> Array:
+            x = in_angle(lo, hi, 0.5 * (1.0 + s))
+            found: Array = potential.strain(x) * np.pi * np.sqrt(x.from_lo * x.from_hi)
+            return found
+
+        series = settled_series(stretched)
         rate = 0.5 * chebyshev.antiderivative(series)  # v runs over half of [-1, 1]
         rate[0] += _slip_at(potential, lo, hi, float(rate.sum()))
         return cls(lo, hi, sense, rate)
@@ -58,17 +61,6 @@ class Slip:
     def at(self, x: Places) -> Any:
         v = (2.0 / np.pi) * np.arctan2(np.sqrt(x.from_lo), np.sqrt(x.from_hi))
         return chebyshev.evaluate(self.series, 2.0 * v - 1.0)
-
-
-def _strain_series(potential: Potential, lo: float, hi: float) -> Array:
-    n = NODES
-    while True:
-        x = in_angle(lo, hi, 0.5 * (1.0 + chebyshev.points(n)))
-        stretched = potential.strain(x) * np.pi * np.sqrt(x.from_lo * x.from_hi)
-        series = chebyshev.transform(stretched)
-        if np.abs(series[-TAIL:]).max() <= SETTLED * np.abs(series).max() or n >= MOST_NODES:
-            return series
-        n *= 2
 
 
 def _slip_at(potential: Potential, lo: float, hi: float, across: float) -> float:
