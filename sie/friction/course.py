@@ -58,16 +58,14 @@ def course(before: State, step: LoadStep) -> tuple[Part, ...]:
 def _next_part(state: State, step: LoadStep, begun: float, last: Part | None) -> Part:
     """The part from a share on.
 
-    A finite step is tried first at the start of a step, unless new contact sticks there.
+    A finite step is tried first at the start of a step, unless something sticks anew there.
     """
     known, opened = (last.known, last.opened) if last else ({}, None)
     zones = onset(state, step.rates, step.friction, known)
     if opened:
         zones = zones.split(*opened)
-    if len(zones.zones) > len(state.stick) > 0:
-        zones = with_receding_ends(state, step, begun, zones, last)
-    grows = any(end.motion is Motion.GROWS for end in zones.ends)
-    problems, first = [], begun == 0.0 and not grows
+    zones = with_receding_ends(state, step, begun, zones, last)
+    problems, first = [], begun == 0.0 and not zones.sticks_anew
     for finite in (first, not first):
         try:
             if finite:

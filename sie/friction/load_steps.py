@@ -31,6 +31,7 @@ Result = TypeVar("Result")
 
 ROUNDED = 4.0 * EPS  # of S: less is no change of it
 SHARES = (0.0, 0.05, 0.25, 0.5, 0.75, 1.0)  # of a step at which it is tested that all sticks
+SLIDES, STICKS = 1e-14, 1e-9  # of f P, that Q is below it: where nothing sticks, and where little
 SAME = 1e-7  # of a contact: so much alike are the stick zones at both turning points of a cycle
 UNSTEADY = (
     "the steady state is not that of one permanent stick zone which both ends of the slip reach at "
@@ -49,6 +50,7 @@ class TurningPoint:
     turned      whether slip has opposite signs at the two edges
     parts       the parts of the last step in the order of time, where no layers answer it
     step        that step
+    slides      that at its end, if |Q| = f P there: all sticks again; the parts end just before
     why         why they do not
     """
 
@@ -59,12 +61,13 @@ class TurningPoint:
     turned: bool = False
     parts: tuple[Part, ...] = ()
     step: LoadStep | None = None
+    slides: State | None = None
     why: str = ""
 
     @property
     def state(self) -> State:
-        """The state after the last part."""
-        return self.parts[-1].state
+        """What the next step starts from."""
+        return self.slides or self.parts[-1].state
 
 
 class Followable(Contacts, Protocol):
@@ -251,6 +254,22 @@ def all_sticks(contacts: Followable, first: Loads, second: Loads) -> bool:
         for share in SHARES
         for end in onset(State.untouched(step.at(share)), step.rates, f).ends
     )
+
+
+def nearly_sliding(f: float, start: Loads, end: Loads) -> Loads:
+    """The loads at the end of a step, or where next to nothing sticks if there nothing does.
+
+    Nothing slips where Q grows with f P. Raises ContactError where the bodies slide all the way.
+    """
+    slips = abs(end.Q - start.Q) > f * (end.P - start.P) * (1.0 + SLIDES)
+    if not slips or abs(end.Q) <= (1.0 - SLIDES) * f * end.P:
+        return end
+    if start.Q * end.Q > 0.0 and abs(start.Q) > (1.0 - SLIDES) * f * start.P:
+        raise ContactError(
+            "|Q| is f P at the start and at the end, and P falls: the bodies slide all the way; "
+            f"begin or end the step below it, as at Q = {0.999 * end.Q:.6g}"
+        )
+    return end._replace(Q=math.copysign((1.0 - STICKS) * f * end.P, end.Q))
 
 
 def sheared_all_over(contacts: Contacts, loads: Loads, Q: float) -> State:

@@ -20,8 +20,8 @@ from sie.errors import ContactError
 from sie.numerics.graded_panels import Rule
 from sie.numerics.root_finding import false_position
 
-from .rates import LoadRates, Rates
-from .state import State, Zones
+from .rates import TESTED, LoadRates, Rates
+from .state import TURNS, State, Zones
 
 Array = NDArray[np.float64]
 
@@ -167,7 +167,11 @@ def onset(
 
     now = _as_it_is(state, known)
     for _ in range(ROUNDS * len(now.ends)):
-        changed = _changed(state, now, rates, known) or _slips_on(state, now, rates)
+        changed = (
+            _changed(state, now, rates, known)
+            or _slips_on(state, now, rates)
+            or _stops_inside(now, rates(now))
+        )
         if changed is None:
             return now
         now = changed
@@ -265,6 +269,23 @@ def _slips_on(state: State, now: Onset, rates: Callable[[Onset], Rates]) -> Onse
                 ends[j] = End(place, s, Motion.ADVANCES)
                 return now.of_ends(ends)
     return None
+
+
+def _stops_inside(now: Onset, rates: Rates) -> Onset | None:
+    """The same with stick where slip would oppose its direction most; None where it does not."""
+    if rates.turning >= TURNS:
+        return None
+    slips = rates.slips
+    m, i = np.unravel_index(slips.argmin(), slips.shape)
+    lo, hi, sense = rates.shear.slip[m]
+    x = float(lo + (hi - lo) * TESTED[i])
+    opened = [End(x + side * NARROW * min(x - lo, hi - x), sense) for side in (-1.0, 1.0)]
+    for j, (e, last) in enumerate(((lo, slips[m, 0]), (hi, slips[m, -1]))):
+        if last < 0.0 and any(e in patch for patch in now.patches):
+            opened[j] = End(e, 0.0)
+    k = sum(end.place < x for end in now.ends)
+    sliding = tuple(zone for zone in now.sliding if zone[0] != lo)
+    return replace(now.of_ends([*now.ends[:k], *opened, *now.ends[k:]]), sliding=sliding)
 
 
 def _share_of_limit(state: State, edge: float) -> float:

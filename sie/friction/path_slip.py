@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from dataclasses import replace
 from functools import cached_property
 from itertools import pairwise
 from typing import Any
@@ -157,7 +158,11 @@ class CourseSlip(StateSlip, PathSlip):
 
     @property
     def locked(self) -> State:
-        return self.state.state
+        state = self.state.state
+        if self.state.slides is None:
+            return state
+        s = math.copysign(1.0, state.contact.Q)
+        return replace(state, stick=(), slip=tuple((*patch, s) for patch in state.stick))
 
 
 def state_of(history: Followable, point: TurningPoint) -> State:
@@ -171,7 +176,7 @@ def state_of(history: Followable, point: TurningPoint) -> State:
     room = SAME * contact.width
     marks = np.unique(np.concatenate((slip.levels, contact.limit.marks)))
     q = Pieces.fitted(intervals(contact.patches, marks, room), lambda rule: shear(rule.x))
-    stick = tuple((lo, hi) for lo, hi in slip.stick if hi > lo)
+    stick = tuple((lo, hi) for lo, hi in slip.stick if hi > lo) or contact.patches
     zones = left_over(contact.patches, stick)
     signs = np.sign(q(np.array([0.5 * (lo + hi) for lo, hi in zones])))
     slips = tuple((*zone, float(s)) for zone, s in zip(zones, signs, strict=True))

@@ -175,9 +175,14 @@ class Rates:
         return self.K * np.array(senses)
 
     @cached_property
-    def turning(self) -> float:
-        """The smallest rate of slip in the direction of its zone over the largest one."""
+    def slips(self) -> Array:
+        """The rates of slip in the direction of each slip zone, at TESTED, (zones, places)."""
         slips = GainedSlip(self.shear)
         rates = [s * slips.at(lo + (hi - lo) * TESTED) for lo, hi, s in self.shear.slip]
-        largest = max((float(np.abs(rate).max()) for rate in rates), default=0.0)
-        return min(float(rate.min()) for rate in rates) / largest if largest else 0.0
+        return np.array(rates).reshape(-1, len(TESTED))
+
+    @property
+    def turning(self) -> float:
+        """The smallest rate of slip in the direction of its zone over the largest one."""
+        largest = float(np.abs(self.slips).max(initial=0.0))
+        return float(self.slips.min()) / largest if largest else 0.0

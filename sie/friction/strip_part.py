@@ -102,18 +102,19 @@ def strip_part(
 def with_receding_ends(
     state: State, step: LoadStep, begun: float, zones: Onset, last: Part | None
 ) -> Onset:
-    """The zones with ends of new stick zones that recede, where K rises as the contact changes."""
-    ends = list(zones.ends)
+    """The zones with ends that leapt to where K = 0 and recede, where K rises as loads change."""
+    ends, known = list(zones.ends), last.known if last else {}
+    leapt = [j for j, e in enumerate(ends) if e.motion is Motion.ADVANCES and e.place not in known]
+    if not leapt:
+        return zones
     try:
         length = min(1.0 - begun, last.longest if last else 1.0)
         span = Span(state, step, zones, begun, length)
         K = span.rates(0, span.with_edges(np.tile(span.start, (MOMENTS, 1)))[0]).K.ravel()
     except ContactError:
         return zones
-    for j in span.which(Motion.ADVANCES):
-        a, b = zones.stick[j // 2]
-        new = not any(a <= lo and hi <= b for lo, hi in state.stick)
-        if new and ends[j].sense * K[j] > 0.0:
+    for j in leapt:
+        if ends[j].sense * K[j] > 0.0:
             ends[j] = replace(ends[j], motion=Motion.RECEDES)
     return zones.of_ends(ends)
 

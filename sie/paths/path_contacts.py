@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any
 from sie.answers.sheared import Sheared
 from sie.errors import ContactError, LoadError
 from sie.friction.course import course
-from sie.friction.load_steps import TurningPoint
+from sie.friction.load_steps import TurningPoint, nearly_sliding, sheared_all_over
 from sie.friction.loading import Loads, LoadStep
 from sie.friction.partial_slip import refuse_stretch
 from sie.numerics.interval import EPS, Interval
@@ -31,7 +31,6 @@ if TYPE_CHECKING:
 
 UNSEEN = 1e-9  # of f P: a smaller step of P is not followed part by part ...
 UNTOLD = 1e-11  # ... and a smaller one at constant P
-SLIDES, STICKS = 1e-10, 1e-9  # of f P, that Q is below it: what is refused, and what is not
 # P, and what is added to the scene's tilt or moment.
 Under = tuple[float, float]
 
@@ -162,14 +161,6 @@ class PathContacts:
         """The turning point after a step from a state, part by part."""
         if first.sigma != loads.sigma:
             refuse_stretch(self.period)
-        f, limit = self.scene.friction, self.scene.friction * loads.P
-        slips = abs(loads.Q - first.Q) > f * (loads.P - first.P) * (1.0 + SLIDES)
-        if slips and abs(loads.Q) > (1.0 - SLIDES) * limit:
-            Q = math.copysign((1.0 - STICKS) * limit, loads.Q)
-            raise ContactError(
-                "|Q| comes to f P in a step in which P, the tilt or the proportion of Q and σ "
-                f"changes: no stick zone is left to follow; end it at Q = {Q:.12g}"
-            )
         for at in (first, loads):
             found = self.plain(*at.normal)
             if any(found.sharp):
@@ -183,8 +174,10 @@ class PathContacts:
                     "P, the tilt or the proportion of Q and σ changes in this step, and full "
                     "contact is not followed through it; change Q at constant P"
                 )
-        step = LoadStep(self, first, loads, {0.0: start.contact})
-        return TurningPoint(loads, parts=course(start, step), step=step)
+        almost = nearly_sliding(self.scene.friction, first, loads)
+        step = LoadStep(self, first, almost, {0.0: start.contact})
+        slides = None if almost is loads else sheared_all_over(self, loads, loads.Q)
+        return TurningPoint(loads, parts=course(start, step), step=step, slides=slides)
 
     def _refuse_unseen(self, first: Loads, loads: Loads) -> None:
         """Refuse a step that rounding hides."""
