@@ -32,7 +32,6 @@ MOST_STEPS, HALVINGS = 25, 5
 DIFFERENCE, NARROWEST = 1e-6, 1e-6  # for derivatives: of widths, and of zones at the edges
 FOLDS = 1.0  # by which a step may change a width
 CELLS = 72
-BEHIND = 1e-6  # of the contact: how far behind a mark an end stops
 LEAST = 1e-9  # of a cell, and of what it carries
 STALE = 0.4  # of what was missed: a slower step asks for new derivatives
 
@@ -80,9 +79,6 @@ class Found(NamedTuple):
     slopes: Array | None
 
 
-Cut = tuple[Array, set[tuple[int, float]]]  # unknowns, and the number of each end that met a mark
-
-
 class Unknowns(NamedTuple):
     """What Newton's method looks for: both edges over a unit, then ln of other widths.
 
@@ -106,27 +102,6 @@ class Unknowns(NamedTuple):
         widths = np.exp(u[2:]).tolist()
         widths.insert(self.widest, right - left - sum(widths))
         return Zones(left, tuple(widths), self.signs) if widths[self.widest] > 0.0 else None
-
-    def up_to_marks(self, u: Array, step: Array, marks: tuple[float, ...]) -> Cut:
-        """The unknowns after a step but for ends that would pass marks, and these.
-
-        Conditions are not smooth there: such an end stops just behind the first mark.
-        """
-        before, after = self.zones(u), self.zones(u + step)
-        assert before is not None
-        while after is None:
-            step = 0.5 * step
-            after = self.zones(u + step)
-        ends, behind, met = after.ends, BEHIND * sum(before.widths), set()
-        for k, first in enumerate(before.ends.tolist()):
-            way = math.copysign(1.0, ends[k] - first)
-            passed = [way * mark for mark in marks if way * first < way * mark < way * ends[k]]
-            if 0 < k < len(ends) - 1 and passed and way * ends[k] > min(passed) + behind:
-                ends[k] = way * (min(passed) + behind)
-                met.add((k, min(passed)))
-        if not met or not (np.diff(ends) > 0.0).all():
-            return u + step, set()
-        return self.told(zones_between(ends, self.signs)), met
 
     def through(self, u: Array, end: int, mark: float) -> Array:
         """The unknowns of which one edge is replaced so that an end of a zone is at a mark."""
@@ -160,20 +135,11 @@ def settled(
 
         return state
 
-    def behind_marks(u: Array, step: Array) -> Cut:
-        return unknowns.up_to_marks(u, np.clip(step, -FOLDS, FOLDS), marks)
-
     told, rough = (unknowns.told(start), None), (ROUGHLY, ROUGHLY)
     found = _descended(trial(QUICK), told, rough)
-    if accepted >= ROUGHLY:
-        return found.state if found else None
-    for cut in (None, behind_marks):
-        found = _descended(trial(QUICK), told, rough, cut) if cut else found
-        if found is not None:
-            found = _descended(trial(FINE), found[1:], (SETTLED, accepted), cut)
-        if found is not None:
-            return found.state
-    return None
+    if found is not None and accepted < ROUGHLY:
+        found = _descended(trial(FINE), found[1:], (SETTLED, accepted))
+    return found.state if found else None
 
 
 def passing(
@@ -222,15 +188,10 @@ def _descended(
     trial: Trial,
     start: tuple[Array, Array | None],
     limits: tuple[float, float],
-    cut: Callable[[Array, Array], Cut] | None = None,
 ) -> Found | None:
-    """Newton's method until no more than the first limit is missed; the second one is accepted.
-
-    Where `cut` stops an end at a mark for the first time, more may be missed than before.
-    """
+    """Newton's method until no more than the first limit is missed; the second one is accepted."""
     u, slopes = start
     (state, missed), fresh = trial(u), False
-    seen: set[tuple[int, float]] = set()
     enough, accepted = limits
     for _ in range(MOST_STEPS):
         size = float(np.abs(missed).max())
@@ -243,11 +204,6 @@ def _descended(
         if not np.isfinite(slopes).all():
             return None
         step = np.asarray(np.linalg.lstsq(slopes, -missed, rcond=None)[0], dtype=float)
-        new, met = cut(u, step) if cut else (u, set())
-        if met - seen:
-            seen, u, slopes = seen | met, new, None
-            state, missed = trial(u)
-            continue
         step *= min(1.0, FOLDS / float(np.abs(step).max()))
         shortened = _shortened(trial, u, step, size)
         if shortened is None:

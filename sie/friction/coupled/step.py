@@ -37,6 +37,7 @@ Array = NDArray[np.float64]
 
 CLOSED = 1e-12  # of f P: loads that are the same
 TOLERATED = 1e-9  # of the largest f p, and of the largest slip: what the verdict forgives
+ON_THE_WAY = 0.8, 0.9  # parts of a step, from which zones go on to its end
 AWAY = 0.05  # of the stick zone: how far its ends go about, times the root of the part of f P
 
 
@@ -99,14 +100,37 @@ class Loaded:
         goes_on = self.before is not None and self._farther(Q, strain) > 1.0
         for base in (self.before, self) if goes_on else (self,):
             assert base is not None
-            start = guess(base, Q, strain)
-            state = settled(base.asked(Q, strain), start, base.marks) if start else None
+            state = base.reached(Q, strain)
             if state is not None:
                 step = Q - self.Q, strain - self.strain
                 after = Loaded(Fields(state), Q, strain, base, step, self.friction)
                 if after.verdict.holds and (base is self or after.within(self)):
                     return after
         return None
+
+    def reached(self, Q: float, strain: float) -> State | None:
+        """The state under other loads if all that sticks then sticks now, not yet a verdict on it.
+
+        Where Newton's method fails from a guess, zones go on as between two parts of the way.
+        """
+        question = self.asked(Q, strain)
+        start = guess(self, Q, strain)
+        state = settled(question, start, self.marks) if start else None
+        if state is not None:
+            return state
+        ends, signs = [], set()
+        for part in ON_THE_WAY:
+            loads = self.Q + part * (Q - self.Q), self.strain + part * (strain - self.strain)
+            start = guess(self, *loads)
+            state = settled(self.asked(*loads), start, self.marks, ROUGHLY) if start else None
+            if state is None:
+                return None
+            ends.append(state.pieces.ends)
+            signs.add(state.pieces.signs)
+        ahead = 2.0 * ends[1] - ends[0]
+        if len(signs) > 1 or not (np.diff(ahead) > 0.0).all():
+            return None
+        return settled(question, zones_between(ahead, signs.pop()), self.marks)
 
     def _closed(self, Q: float, strain: float) -> Loaded | None:
         """The last state in which the loads turned on the way to others, if a loop closes there."""
@@ -225,7 +249,9 @@ def verdict(after: Loaded) -> Verdict:
     """The friction law, place by place."""
     f, (at, (p, q, gamma)) = after.question.friction, after.fields.nodes
     peak, sticks = float(p.max()), after.state.sticks(at)
-    deficit = float((f * p - np.abs(q))[sticks].min()) / (f * peak)
+    at_marks = after.fields(np.array(after.marks))  # too near to them nodes are not looked at
+    least = [(f * rows[0] - np.abs(rows[1])).min() for rows in ((p[sticks], q[sticks]), at_marks)]
+    deficit = float(min(least)) / (f * peak)
     slip = rate = 0.0
     if after.before is not None:
         before = after.before
