@@ -21,7 +21,7 @@ LINES = {
     "cli": 780,
     "contact": 2380,
     "examples": 10,
-    "friction": 9380,
+    "friction": 9390,
     "inverse": 310,
     "io": 4590,
     "live": 1130,

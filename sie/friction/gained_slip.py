@@ -11,6 +11,7 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -20,7 +21,7 @@ from sie.errors import ContactError
 from sie.numerics.graded_panels import OF_SERIES, Pieces, Rule
 from sie.numerics.zones import united
 
-from .potentials import Gap, Potential
+from .potentials import Potential
 from .state import SAME, Contact, intervals
 
 if TYPE_CHECKING:
@@ -104,12 +105,22 @@ class GainedSlip:
 
     def _across_gap(self, lo: float, hi: float, across: float) -> float:
         """Δg at the left edge of a patch that slides as a whole, from the nearest stick zone."""
-        now, ends = self.potential, self.potential.stick.ravel()
+        ends = self.potential.stick.ravel()
         if (ends < lo).any():
             e = float(ends[ends < lo].max())
-            return self.at_ends[e] + now.over(Gap(e, lo))
+            return self.at_ends[e] + self._gained(e, lo)
         e = float(ends.min())
-        return self.at_ends[e] - now.over(Gap(hi, e)) - across
+        return self.at_ends[e] - self._gained(hi, e) - across
+
+    def _gained(self, lo: float, hi: float) -> float:
+        """What Δg gains between places outside the stick zones."""
+        now, total = self.potential, 0.0
+        inside = now.sources[(now.sources[:, 0] >= lo) & (now.sources[:, 1] <= hi)]
+        for a, b in pairwise(np.unique(np.append(inside, (lo, hi))).tolist()):
+            places = Pieces.places(np.array([[a, b]]))
+            sense = next((s for x1, x2, s in now.slip if x1 <= a and b <= x2), 0.0)
+            total += Pieces.integral(places, now.strain(places, sense)).last
+        return total
 
 
 def drag(part: Part) -> float:

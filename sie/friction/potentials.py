@@ -9,10 +9,10 @@ them ρ is given. With d the chord of a period, or the difference of two places,
 the conditions of balance, ∫ρ dt = A, and one rigid shift of all zones are 2N equations
 
     Σ cos(t - μ_k) dν_k = -π B for each k,      Σ d(t, μ_k) dν_k = A
-    Re ∫ T_k Ψ_k dz = 0 over each gap between neighbouring zones
+    PV∫ T_k Ψ_k dx = 0 over each gap between neighbouring zones
 
-The integral over a gap goes over the half-circle above it, where nothing is singular. On zone k the
-density is -|T_k| Re Ψ_k, beside the zones Re F - B is the strain (Muskhelishvili 1953, chapter 11).
+The integral over a gap is a series in the place of a charge (`Gap`). On zone k the density is
+-|T_k| Re Ψ_k, beside the zones Re F - B is the strain (Muskhelishvili 1953, chapter 11).
 
 A pole y_e at an end e adds y_e T_k(z)/d(z, e) to F, k the zone of e, and the equations are linear
 in the poles. They are what a state gains per length where an end moves (`equations`). Of a rate
@@ -24,56 +24,74 @@ from __future__ import annotations
 import math
 from abc import ABC, abstractmethod
 from collections.abc import Callable
-from functools import cached_property
+from functools import cached_property, partial
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from sie.numerics import chebyshev
 from sie.numerics.chord import Chord
 from sie.numerics.graded_panels import (
     OF_RULES,
     Pieces,
     Rule,
     breaks_for,
-    gauss_shares,
     principal_value,
 )
 
 Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 Slips = tuple[tuple[float, float, float], ...]
+
+NODES, MOST_NODES = 48, 6144
+SETTLED, TAIL = 1e-13, 6  # of the largest coefficient: the last ones of a series that has settled
+NEGLIGIBLE = 1e-17  # of the same: left out
 
 
 class Gap:
-    """The half-circle above a gap between two zones."""
+    """What a charge ν_k at t adds to PV∫ (F - B) dx over the gap between zones k and k + 1.
 
-    def __init__(self, lo: float, hi: float, breaks: tuple[float, ...] = OF_RULES) -> None:
-        shares = gauss_shares(breaks)
-        half = 0.5 * np.pi * shares.lo  # half the angle from lo
-        other = 0.5 * np.pi * shares.hi
-        length = hi - lo
-        turn = np.exp(-1j * half)
-        self.lo, self.hi = lo, hi
-        self.from_lo: Complex = length * np.sin(half) * 1j * turn
-        self.from_hi: Complex = -length * np.sin(other) * turn
-        self.near_lo = shares.lo < shares.hi
-        self.weight: Complex = 0.5j * length * turn**2 * np.pi * shares.weight
+    With T_k cos(π(x - c)/λ) = sqrt(1 - u²) Σ γ_n U_n(u), u ~ tan(π(x - c)/λ), c the gap's centre,
+    it is -Re Σ γ_n w^(n+1)/cos(π(t - c)/λ), w = u_t - sqrt(u_t² - 1).
+    """
 
-    def apart(self, e: float) -> Complex:
-        """z - e for an end e outside the gap, or one of its ends."""
-        if e <= self.lo:
-            return (self.lo - e) + self.from_lo
-        return (self.hi - e) + self.from_hi
+    def __init__(self, ends: tuple[float, float], chord: Chord, root: Callable[[Rule], Array]):
+        self.ends, self.chord = np.array(ends), chord
+        self.centre = float(self.ends.mean())
+        n = NODES
+        while True:
+            u = chebyshev.points(n)
+            places, cosine = self._places(0.5 * (1.0 + u), 0.5 * (1.0 - u))
+            c = chebyshev.transform(root(places) * cosine / np.sqrt((1.0 + u) * (1.0 - u)))
+            size = np.abs(c)
+            if size[-TAIL:].max() <= SETTLED * size.max() or n >= MOST_NODES:
+                break
+            n *= 2
+        c = np.append(c[: chebyshev.chopped_length(c, NEGLIGIBLE * size.max())], (0.0, 0.0))
+        self.series = 0.5 * (c[:-2] - c[2:])
+        self.series[0] += 0.5 * c[0]
 
-    def from_all(self, rule: Rule) -> Complex:
-        """z - t as a matrix, t the places of a rule."""
-        found = np.empty((len(self.weight), len(rule.lo)), dtype=complex)
-        for rows, e, apart in (
-            (self.near_lo, self.lo, self.from_lo),
-            (~self.near_lo, self.hi, self.from_hi),
-        ):
-            found[rows] = apart[rows, None] - rule.apart_from(e)
+    def _places(self, left: Array, right: Array) -> tuple[Rule, Array]:
+        """Places at shares left and right of the gap in u, and cos(π(x - c)/λ) there."""
+        lo, hi = np.repeat(self.ends[:, None], len(left), axis=1)
+        length, ends = float(hi[0] - lo[0]), self.ends[None]
+        if not self.chord.periodic:
+            return Rule(ends, lo, hi, length * left, length * right, 0.0 * lo), np.ones_like(left)
+        wave = np.pi / self.chord.period
+        half = 0.5 * wave * length
+        angle = np.arctan(np.tan(half) * (left - right))
+        near = 2.0 * np.sin(half) * np.cos(angle)
+        from_lo = np.arctan2(near * left, np.cos(angle + half)) / wave
+        from_hi = np.arctan2(near * right, np.cos(angle - half)) / wave
+        return Rule(ends, lo, hi, from_lo, from_hi, 0.0 * lo), np.cos(angle)
+
+    def at(self, apart: Callable[[float], Array]) -> Array:
+        """That of charges at places t, by t - e for the places e of the gap."""
+        d, cosine = self.chord, self.chord.cosine(apart(self.centre))
+        half = float(d(0.5 * np.diff(self.ends))[0])
+        left, right = (d(apart(float(e))) / (half * cosine) + 0j for e in self.ends)
+        w = 1.0 / (0.5 * (left + right) + np.sqrt(left) * np.sqrt(right))
+        found: Array = -(w * np.polynomial.polynomial.polyval(w, self.series)).real / cosine
         return found
 
 
@@ -112,8 +130,7 @@ class Potential(ABC):
     @cached_property
     def rule(self) -> Rule:
         """Places on the sources."""
-        rough = self.rough and len(self.stick) == 1  # the circle above a gap comes near its ends
-        return Rule.graded(self.sources, self.breaks(self.sources) if rough else OF_RULES)
+        return Rule.graded(self.sources, self.breaks(self.sources) if self.rough else OF_RULES)
 
     def breaks(self, ends: Array) -> tuple[float, ...]:
         """Those of a rule on intervals: as fine as the nearest place beyond an end asks for."""
@@ -149,7 +166,7 @@ class Potential(ABC):
         for (a, b), m in zip(self.stick, self.centres, strict=True):
             middle = d(apart(m))
             ratio = (d(apart(a)) / middle) * (d(apart(b)) / middle)
-            out = out * np.sqrt(ratio if np.iscomplexobj(ratio) else np.abs(ratio))
+            out = out * np.sqrt(np.abs(ratio))
         return out
 
     @cached_property
@@ -161,36 +178,21 @@ class Potential(ABC):
 
     @cached_property
     def gaps(self) -> list[Gap]:
-        found = []
-        for (_, b), (a, _) in zip(self.stick, self.stick[1:], strict=False):
-            points = np.append(self.sources, self.stick)
-            apart = np.abs(points - np.array([[b], [a]]))
-            near = float(apart[apart > 0.0].min()) / (a - b)
-            found.append(Gap(b, a, breaks_for(near) if self.rough else OF_RULES))
-        return found
+        """Those between neighbouring zones."""
+        inner = self.stick.ravel()[1:-1].reshape(-1, 2).tolist()
+        return [
+            Gap((lo, hi), self.chord, partial(self._root, k)) for k, (lo, hi) in enumerate(inner)
+        ]
 
-    def root(self, k: int, gap: Gap) -> Complex:
-        """T_k on a half-circle."""
-        middle: Complex = self.chord(gap.apart(self.centres[k]))
-        return middle * self.ratios(gap.apart)
+    def _root(self, k: int, places: Rule) -> Array:
+        """T_k at places beside the zones."""
+        found: Array = self.chord(places.apart(self.centres[k])) * self.ratios(places.apart)
+        return found
 
     @cached_property
     def over_gaps(self) -> list[Array]:
-        """What a charge ν_k at each place adds to Re ∫ (F - B) dx over gap k."""
-        return [self._over(k, gap) for k, gap in enumerate(self.gaps)]
-
-    def _over(self, k: int, gap: Gap) -> Array:
-        """The same over any gap, on the half-circle."""
-        kernel = 1.0 / self.chord(gap.from_all(self.rule))
-        found: Array = ((gap.weight * self.root(k, gap)) @ kernel).real / np.pi
-        return found
-
-    def _poles_over(self, k: int, gap: Gap) -> Array:
-        """What a unit pole at each end adds to Re ∫ (F - B) dx over a gap, (2N)."""
-        root = gap.weight * self.root(k, gap)
-        over = [(root / self.chord(gap.apart(e))).sum().real for e in self.stick.ravel()]
-        found: Array = self.scales[k] * np.array(over)
-        return found
+        """What a charge ν_k at each place adds to PV∫ (F - B) dx over gap k."""
+        return [gap.at(self.rule.apart_from) for gap in self.gaps]
 
     @cached_property
     def scales(self) -> Array:
@@ -199,12 +201,6 @@ class Potential(ABC):
         own = d(ends - np.repeat(self.centres, 2))
         found: Array = own / d(ends - self.centres[:, None])
         return found
-
-    def over(self, gap: Gap) -> float:
-        """Re ∫ (F - B) dx over a gap beside a zone."""
-        k = int(np.abs(self.stick - gap.lo).min(axis=1).argmin())
-        total = float(self._over(k, gap) @ self.charges[k])
-        return total + (float(self._poles_over(k, gap) @ self.poles) if self.poles.size else 0.0)
 
     def missed(self, A: float, B: float) -> Array:
         """By how much the density that is given misses the equations, (2N)."""
@@ -225,7 +221,7 @@ class Potential(ABC):
         out[:N] = np.pi * self.scales * d.cosine(ends - self.centres[:, None])
         out[N] = np.pi * self.scales[0] * d(ends - self.centres[0])
         for k, gap in enumerate(self.gaps):
-            out[N + 1 + k] = self._poles_over(k, gap)
+            out[N + 1 + k] = np.pi * self.scales[k] * gap.at(lambda e: ends - e)
         return out
 
     def psi(self, k: int, places: Rule, density: Array) -> Array:
@@ -272,6 +268,6 @@ class Potential(ABC):
         """Re F - B at places in a zone that slips in a direction."""
         middle = 0.5 * float(places.ends.min() + places.ends.max())
         k = int(np.abs(self.stick - middle).min(axis=1).argmin())
-        root = self.chord(places.apart(self.centres[k])) * self.ratios(places.apart)
+        root = self._root(k, places)
         found: Array = root * self.psi(k, places, self.known(places, sense) / root)
         return found

@@ -49,7 +49,7 @@ class Rate(Potential):
     slip     the slip zones, and
     given    the rate there in the direction of slip
     beyond   where that is infinite
-    rough    no, where the circle above the gap to a patch that slides comes near its data
+    rough    no, where slip is integrated over the gap to a patch that slides, next to its data
     """
 
     zones: Zones
