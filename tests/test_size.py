@@ -17,7 +17,7 @@ LINES = {
     "cracks": 780,
     "wear": 470,
     "cauchy": 2170,
-    "certificate": 1530,
+    "certificate": 1470,
     "cli": 800,
     "contact": 2390,
     "examples": 10,
