@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from functools import partial
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -18,6 +17,7 @@ from numpy.typing import NDArray
 from sie.errors import ContactError
 from sie.numerics import chebyshev
 from sie.numerics.root_finding import false_position
+from sie.profiles.lowest_points import lowest_points
 from sie.profiles.slope import Slope
 from sie.progress_bar import step_done
 
@@ -113,38 +113,15 @@ class Edge:
         self.piece += int(self.sign)
 
 
-def first_touch(slope: Slope, lo: float, hi: float) -> Touch:
-    """Where a convex profile touches first, given a contact; ContactError at a corner of it."""
-    r = 0.5 * (hi - lo)
-    breaks = slope.breaks
-    pieces = [k for k in range(len(breaks) - 1) if breaks[k] < hi and breaks[k + 1] > lo]
-    flat = [k for k in pieces if slope.is_zero[k]]
-    if flat:
-        start, end = float(breaks[flat[0]]), float(breaks[flat[-1] + 1])
-    else:
-        start = end = _minimum(slope, pieces, (lo, hi))
-        near = float(breaks[np.argmin(np.abs(breaks - start))])
-        if abs(near - start) <= CLOSE * r:
-            start = end = near
+def first_touch(slope: Slope, r: float) -> Touch:
+    """Where a convex profile touches first, given the half-width of a contact."""
+    start, end = lowest_points(slope)
+    near = float(slope.breaks[np.argmin(np.abs(slope.breaks - start))])
+    if start == end and abs(near - start) <= CLOSE * r:
+        start = end = near
     sides = [_beside(slope, place, sign, r) for place, sign in ((start, -1.0), (end, 1.0))]
     powers, strengths = zip(*sides, strict=True)
     return Touch(start, end, (powers[0], powers[1]), (strengths[0], strengths[1]))
-
-
-def _minimum(slope: Slope, pieces: list[int], within: tuple[float, float]) -> float:
-    """The place where h' changes sign."""
-
-    def value(x: float, k: int) -> float:
-        return float(slope.value(np.array([k]), np.array([x]), 0.0)[0])
-
-    for k in pieces:
-        lo, hi = max(within[0], float(slope.breaks[k])), min(within[1], float(slope.breaks[k + 1]))
-        ends = value(lo, k), value(hi, k)
-        if ends[0] >= 0.0:
-            return lo
-        if ends[1] > 0.0:
-            return false_position(partial(value, k=k), lo, hi, ends, never)
-    return within[1]
 
 
 def _beside(slope: Slope, place: float, sign: float, r: float) -> tuple[float, float]:

@@ -62,7 +62,7 @@ def _grown(
     scene: Scene, flat: FlatPunch, slope: Slope, contact: Interval
 ) -> tuple[March, float, float]:
     """The growth up to the load or the half-width of a scene, and both."""
-    touch = first_touch(slope, *contact[:2])
+    touch = first_touch(slope, contact.r)
     _refuse_many_kinks(slope, contact, touch)
     law, P = scene.profile.power_law, scene.normal_load
     exponent = law.exponent if law is not None else 0.0
