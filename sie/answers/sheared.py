@@ -112,6 +112,7 @@ class Sheared(Frictionless):
     @cached_property
     def pressed(self) -> tuple[Edges, CoupledContact]:
         """The same under the normal load alone, from which Q and bulk stress lead to others."""
+        from sie.friction.coupled.answer import CoupledContact
         from sie.friction.coupled.normal import coupled_contact
 
         scene = self._upright
@@ -119,7 +120,8 @@ class Sheared(Frictionless):
             P, b = scene.normal_load, scene.half_width
             plain = Scene(profile=scene.profile, modulus=scene.Estar, normal_load=P, half_width=b)
             _ = Frictionless(plain, self.tol).grown_as_one_patch
-        edges, state = coupled_contact(scene, self._frictionless)
+        state = CoupledContact.of(coupled_contact(scene, self._frictionless), scene)
+        edges = state.edges
         lever = edges.normal_load * edges.contact.r
         if scene.moment is not None and abs(edges.moment - scene.moment) > BALANCED * lever:
             raise held_moment(self.scene)

@@ -25,6 +25,7 @@ from .traction import EDGE, REACH, OnPieces, Piece, places, tabulated
 from .work import work
 
 if TYPE_CHECKING:
+    from sie.problem.scene import Scene
     from sie.profiles.base import Profile
 
     from .pressed import Pressed
@@ -54,6 +55,11 @@ class CoupledContact:
     sign: float
     half_modulus: float
     previous: CoupledContact | None = None
+
+    @classmethod
+    def of(cls, pressed: Pressed, scene: Scene) -> CoupledContact:
+        """The state of a scene under P alone."""
+        return cls(pressed, pressed.loaded, math.copysign(1.0, scene.beta), 0.5 * scene.Estar)
 
     def under(self, Q: float, tau: float) -> CoupledContact:
         """The state after a step to Q and τ; ContactError where friction is kept by none."""

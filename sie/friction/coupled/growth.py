@@ -18,7 +18,7 @@ import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -39,32 +39,26 @@ DEGREE = 24
 NEAR = 0.5  # lengths of a panel: farther from its end a Gauss rule of its DEGREE suffices
 REACH = 34.0  # e-folds of an integrand
 NEWTONS, SETTLED, ROUGH = 20, 1e-13, 1e-9  # steps, and the size of one that ends them
-SHORT_STEP = 1e-2  # after such a step the matrix is kept
+SHORT_STEP, ROUNDING = 1e-2, 1e-14  # after such a step the matrix is kept; of the slope
 STEEP, LEAST_SHARE = 0.9999, 1e-3  # of 1, |m'|; of a step, the part that may be taken
 SHIFTED = 1e-4  # of the distance from an edge: for derivatives of the kernel
 NOISY = 1e-10
 LEAST = 1e-300
-ROUNDING = 1e-14  # of the slope beside the contact
 STILL = 1e-15  # half-widths: a middle that moves by less stays, as under a symmetric profile
 GRID: Array = np.linspace(-1.0, 1.0, 65)
 LEAST_RISE = 1e-3  # of s: how far an edge moves at least in trials
 
 
-class Rule(NamedTuple):
-    """Parts of an interval, what is left of it, and weights."""
+def trapezoidal(below: float, above: float) -> tuple[Array, Array, Array]:
+    """Parts of an interval, what is left of it, and weights.
 
-    part: Array
-    rest: Array
-    weight: Array
-
-
-def trapezoidal(below: float, above: float) -> Rule:
-    """The rule for integrands whose powers at the ends are larger than -1 by these numbers."""
+    The powers of integrands at the ends are larger than -1 by these numbers.
+    """
     lo, hi = (math.ceil(REACH / room / STEP) for room in (below, above))
     v = STEP * np.arange(-lo, hi + 1)
     e = np.exp(-np.abs(v))
     near, far = e / (1.0 + e), 1.0 / (1.0 + e)
-    return Rule(np.where(v < 0.0, near, far), np.where(v < 0.0, far, near), STEP * near * far)
+    return np.where(v < 0.0, near, far), np.where(v < 0.0, far, near), STEP * near * far
 
 
 @dataclass(frozen=True, eq=False)
@@ -135,6 +129,17 @@ class Panel:
     def turn(self, ahead: Array) -> Array:
         """m' at lo + ahead."""
         return _slope(self.shifts, self.variable(ahead)) / self._rise(ahead)
+
+    def cut(self, length: float) -> Panel:
+        """Its beginning, of this length."""
+        if length >= self.length:
+            return self
+        short = replace(self, hi=self.lo + length)
+        at = self.variable(short.ahead(chebyshev.points(len(self.series))))
+        series, shifts = (
+            chebyshev.transform(chebyshev.evaluate(c, at)) for c in (self.series, self.shifts)
+        )
+        return replace(short, series=series, shifts=shifts)
 
     @cached_property
     def whole_shift(self) -> float:
@@ -260,51 +265,52 @@ def _steepness(kernel: Kernel, E: Array, s: Array) -> Array:
 def collocated(
     flat: FlatPunch, panels: list[Panel], panel: Panel, sides: tuple[Side, ...]
 ) -> Panel | None:
-    """The panel with its series, from one with a guess of m; None if no step converges.
-
-    The matrix of Newton's method is kept while steps are short.
-    """
+    """The panel with its series, from one with a guess of m; None where Newton finds none."""
     n = len(panel.series)
     ahead = panel.ahead(chebyshev.points(n))
 
     def before(panel: Panel) -> list[tuple[Side, Before]]:
         return [(side, Before(flat, panels, panel, side.sign, ahead)) for side in sides]
 
-    def missed(before: list[tuple[Side, Before]]) -> Array:
-        return np.concatenate([s.slope(b.rise) - b.integral(flat.outside) for s, b in before])
-
-    def of_m(side: Side, before: Before) -> Array:
-        of_integral, rise = before.of_shifts(flat.outside)
-        up, down = (side.slope(before.rise * (1.0 + way * SHIFTED)) for way in (1.0, -1.0))
-        steepness = (up - down) / (2.0 * SHIFTED * before.rise)
-        return side.sign * (of_integral - steepness[:, None] * rise)
-
     now = before(replace(panel, series=np.zeros(n)))
-    known, loads = missed(now), np.concatenate([b.of_series(flat.outside) for _, b in now])
+    known, loads = _missed(flat, now), np.concatenate([b.of_series(flat.outside) for _, b in now])
     panel = replace(panel, series=np.linalg.lstsq(loads, known, rcond=None)[0])
-    matrix, size = np.zeros((0, 0)), math.inf
+    matrix, size = loads, math.inf
     for _ in range(NEWTONS):
-        now = before(panel)
-        left = missed(now)
+        now, before_it = before(panel), size
+        left = _missed(flat, now)
         if float(np.abs(left).max()) <= ROUNDING * float(np.abs(known).max()):
             return panel
         if size > SHORT_STEP:
-            both = [np.hstack((b.of_series(flat.outside), of_m(s, b))) for s, b in now]
-            matrix = np.concatenate(both)
+            both = [(b.of_series(flat.outside), _of_shifts(flat, s, b)) for s, b in now]
+            matrix = np.block([list(row) for row in both])
         step = np.linalg.lstsq(matrix, left, rcond=None)[0]
-        change, before_it = np.append(0.0, step[n:]), size
+        change = np.append(0.0, step[n:])
         share = _share(panel, change) if np.isfinite(step).all() else 0.0
         if share == 0.0:
             return None
-        panel = replace(
-            panel, series=panel.series + share * step[:n], shifts=panel.shifts + share * change
-        )
-        moved_by = float(np.abs(change).max()) / panel.length
-        size = max(float(np.abs(step[:n]).max() / np.abs(panel.series).max()), moved_by) / share
+        series, shifts = panel.series + share * step[:n], panel.shifts + share * change
+        panel = replace(panel, series=series, shifts=shifts)
+        moved = float(np.abs(change).max()) / panel.length
+        size = max(float(np.abs(step[:n]).max() / np.abs(series).max()), moved) / share
         if share == 1.0 and (size <= SETTLED or (before_it <= ROUGH and size > 0.5 * before_it)):
-            stays = float(np.abs(panel.shifts).max()) <= STILL * panel.hi
+            stays = float(np.abs(shifts).max()) <= STILL * panel.hi
             return replace(panel, shifts=np.zeros(n)) if stays else panel
     return None
+
+
+def _missed(flat: FlatPunch, now: list[tuple[Side, Before]]) -> Array:
+    """E*/2 h' less the slope beside the contact, at the places of both sides."""
+    return np.concatenate([s.slope(b.rise) - b.integral(flat.outside) for s, b in now])
+
+
+def _of_shifts(flat: FlatPunch, side: Side, before: Before) -> Array:
+    """The derivatives with the series of m of the latter less the former."""
+    of_integral, rise = before.of_shifts(flat.outside)
+    up, down = (side.slope(before.rise * (1.0 + way * SHIFTED)) for way in (1.0, -1.0))
+    steepness = (up - down) / (2.0 * SHIFTED * before.rise)
+    found: Array = side.sign * (of_integral - steepness[:, None] * rise)
+    return found
 
 
 def _share(panel: Panel, change: Array) -> float:

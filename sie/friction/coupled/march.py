@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from functools import partial
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -18,6 +17,7 @@ from numpy.typing import NDArray
 from sie.errors import ContactError
 from sie.numerics import chebyshev
 from sie.numerics.root_finding import false_position
+from sie.profiles.lowest_points import lowest_points
 from sie.profiles.slope import Slope
 from sie.progress_bar import step_done
 
@@ -39,7 +39,7 @@ STEEPLY, LEAST_CUT = 0.7, 1e-4
 SHORTEST = 1e-13  # of the half-width, a panel
 MOST = 400  # panels
 BEYOND = 1.01  # of the length at which an edge seems to reach a kink, a panel
-LANDED, LANDINGS = 1e-14, 12  # of the half-width: an edge at a kink; and trials
+LANDED = 1e-14  # of the half-width: an edge at a kink
 CLOSE = 1e-12  # of the half-width: kinks so near the place of first contact are that place
 FIRST = 1e-8  # of the half-width from first contact: where the power of the slope is measured
 WHOLE = 1e-3  # of twice a power, from a whole number
@@ -84,18 +84,21 @@ class Edge:
         return self.entered + self.sign * self.since
 
     @property
+    def _ahead(self) -> float:
+        """The next place where the profile is not smooth."""
+        return float(self.profile.breaks[self.piece + (self.sign > 0.0)])
+
+    @property
     def end(self) -> float:
-        """The distance to the next place where the profile is not smooth."""
-        ahead = self.piece + (1 if self.sign > 0.0 else 0)
-        return self.sign * (float(self.profile.breaks[ahead]) - self.entered) - self.since
+        """The distance to that."""
+        return self.sign * (self._ahead - self.entered) - self.since
 
     @property
     def stays(self) -> bool:
         """Whether the edge would stay there: at the indenter's end, or where its slope jumps."""
         if self.piece == (len(self.profile.origins) - 1 if self.sign > 0.0 else 0):
             return True
-        ahead = self.piece + (1 if self.sign > 0.0 else 0)
-        return self.profile.corner(float(self.profile.breaks[ahead]))[0] != 0.0
+        return self.profile.corner(self._ahead)[0] != 0.0
 
     def slope(self, rise: Array) -> Array:
         """E*/2 h' ahead, as it rises outwards."""
@@ -104,48 +107,21 @@ class Edge:
         values: Array = self.sign * self.half_modulus * found.reshape(rise.shape)
         return values
 
-    def moved(self, rise: float) -> None:
-        self.since += rise
-
     def passed(self) -> None:
         """Enters the next piece."""
-        ahead = self.piece + (1 if self.sign > 0.0 else 0)
-        self.entered, self.since = float(self.profile.breaks[ahead]), 0.0
+        self.entered, self.since = self._ahead, 0.0
         self.piece += int(self.sign)
 
 
-def first_touch(slope: Slope, lo: float, hi: float) -> Touch:
-    """Where a convex profile touches first, given a contact; ContactError at a corner of it."""
-    r = 0.5 * (hi - lo)
-    breaks = slope.breaks
-    pieces = [k for k in range(len(breaks) - 1) if breaks[k] < hi and breaks[k + 1] > lo]
-    flat = [k for k in pieces if slope.is_zero[k]]
-    if flat:
-        start, end = float(breaks[flat[0]]), float(breaks[flat[-1] + 1])
-    else:
-        start = end = _minimum(slope, pieces, (lo, hi))
-        near = float(breaks[np.argmin(np.abs(breaks - start))])
-        if abs(near - start) <= CLOSE * r:
-            start = end = near
+def first_touch(slope: Slope, r: float) -> Touch:
+    """Where a convex profile touches first, given the half-width of a contact."""
+    start, end = lowest_points(slope)
+    near = float(slope.breaks[np.argmin(np.abs(slope.breaks - start))])
+    if start == end and abs(near - start) <= CLOSE * r:
+        start = end = near
     sides = [_beside(slope, place, sign, r) for place, sign in ((start, -1.0), (end, 1.0))]
     powers, strengths = zip(*sides, strict=True)
     return Touch(start, end, (powers[0], powers[1]), (strengths[0], strengths[1]))
-
-
-def _minimum(slope: Slope, pieces: list[int], within: tuple[float, float]) -> float:
-    """The place where h' changes sign."""
-
-    def value(x: float, k: int) -> float:
-        return float(slope.value(np.array([k]), np.array([x]), 0.0)[0])
-
-    for k in pieces:
-        lo, hi = max(within[0], float(slope.breaks[k])), min(within[1], float(slope.breaks[k + 1]))
-        ends = value(lo, k), value(hi, k)
-        if ends[0] >= 0.0:
-            return lo
-        if ends[1] > 0.0:
-            return false_position(partial(value, k=k), lo, hi, ends, never)
-    return within[1]
 
 
 def _beside(slope: Slope, place: float, sign: float, r: float) -> tuple[float, float]:
@@ -226,9 +202,8 @@ class March:
 
     def advance(self, goal: float) -> Panel:
         """One more panel, as far as goal at most."""
-        lo = self.s
-        length, before, landing = self._longest(goal), math.inf, 0
-        fresh = lo == self.kinked
+        lo, before = self.s, math.inf
+        length, fresh = self._longest(goal), lo == self.kinked
         while True:
             step_done(0)
             if length < SHORTEST * goal or len(self.panels) > MOST:
@@ -237,19 +212,15 @@ class March:
             if panel is None:
                 length *= CUT
                 continue
-            reached = self._crossing(panel)
-            if reached < length and landing < LANDINGS:
-                length, landing = reached, landing + 1
-                continue
             self._scale = max(self._scale, self.load + panel.load(math.inf))
             missed = self._missed(panel, goal)
-            if missed > NEGLIGIBLE and missed <= NO_LESS * before:
-                before, landing = missed, 0
-                length *= max((NEGLIGIBLE / missed) ** STEEPLY, LEAST_CUT) if fresh else CUT
-                continue
-            if missed > UNRESOLVED:
-                raise ContactError(self._unresolved())
-            break
+            if missed <= NEGLIGIBLE or missed > NO_LESS * before:
+                break
+            before = missed
+            length *= max((NEGLIGIBLE / missed) ** STEEPLY, LEAST_CUT) if fresh else CUT
+        if missed > UNRESOLVED:
+            raise ContactError(self._unresolved())
+        panel = panel.cut(self._crossing(panel))
         self._accept(panel)
         return panel
 
@@ -308,7 +279,7 @@ class March:
         self.load += panel.load(math.inf)
         self.panels.append(panel)
         for edge in self.edges:
-            edge.moved(panel.spread(edge.sign))
+            edge.since += panel.spread(edge.sign)
             if not edge.stays and abs(edge.end) <= 10.0 * LANDED * panel.hi:
                 edge.passed()
                 self.kinked = panel.hi

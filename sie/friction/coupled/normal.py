@@ -7,12 +7,11 @@ what no contact can carry.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 
 import numpy as np
 
-from sie.contact.known_contact import Edges, Normal
+from sie.contact.known_contact import Normal
 from sie.errors import ContactError
 from sie.numerics.interval import EPS, Interval
 from sie.numerics.root_finding import false_position
@@ -20,7 +19,6 @@ from sie.problem.scene import Scene
 from sie.profiles.slope import Slope
 from sie.progress_bar import reported
 
-from .answer import CoupledContact
 from .flat import FlatPunch, flat_punch, goodman_flat
 from .frozen import Frozen
 from .growth import Panel
@@ -38,10 +36,8 @@ LOOKS = 64  # places at which a slope is looked at
 
 
 @reported("contact of dissimilar bodies")
-def coupled_contact(
-    scene: Scene, frictionless: Callable[[Scene], Normal]
-) -> tuple[Edges, CoupledContact]:
-    """The edges and the state; ContactError where no contact answers.
+def coupled_contact(scene: Scene, frictionless: Callable[[Scene], Normal]) -> Pressed:
+    """How the contact grew; ContactError where none answers.
 
     `frictionless` solves the normal problem of a scene; its contact bounds the search.
     """
@@ -50,26 +46,23 @@ def coupled_contact(
     _refuse_friction(flat, scene)
     bound = frictionless(_without_friction(scene))
     contact, slope = bound.edges.contact, bound.slope(scene.profile)
-    G, f = 0.5 * scene.Estar, scene.friction
     if _flat(slope, contact):
         assert scene.normal_load is not None
-        pressed = Pressed(flat, scene.normal_load, f, contact.r, contact.m)
-    else:
-        march, s, P = _grown(scene, flat, slope, contact)
-        frozen, events = Frozen(flat, tuple(march.panels)), (march.base, *march.kinks)
-        origin = march.panels[0].middle
-        half = about(origin, slope, G, Interval(frozen.middle(s) - s, frozen.middle(s) + s))
-        pressed = Grown(flat, P, f, s, origin, frozen, events, half)
-        _refuse_unresolved(pressed)
-    state = CoupledContact(pressed, pressed.loaded, math.copysign(1.0, scene.beta), G)
-    return state.edges, state
+        return Pressed(flat, scene.normal_load, scene.friction, contact.r, contact.m)
+    march, s, P = _grown(scene, flat, slope, contact)
+    frozen, events = Frozen(flat, tuple(march.panels)), (march.base, *march.kinks)
+    origin, m = march.panels[0].middle, frozen.middle(s)
+    half = about(origin, slope, 0.5 * scene.Estar, Interval(m - s, m + s))
+    grown = Grown(flat, P, scene.friction, s, origin, frozen, events, half)
+    _refuse_unresolved(grown)
+    return grown
 
 
 def _grown(
     scene: Scene, flat: FlatPunch, slope: Slope, contact: Interval
 ) -> tuple[March, float, float]:
     """The growth up to the load or the half-width of a scene, and both."""
-    touch = first_touch(slope, *contact[:2])
+    touch = first_touch(slope, contact.r)
     _refuse_many_kinks(slope, contact, touch)
     law, P = scene.profile.power_law, scene.normal_load
     exponent = law.exponent if law is not None else 0.0

@@ -15,9 +15,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from sie.errors import ContactError
 from sie.numerics.graded_panels import Pieces as Series
 from sie.numerics.graded_panels import Rule
 from sie.numerics.interval import Interval
+from sie.numerics.nested_rule import integral
 
 from .fields import Fields
 from .frozen import Frozen
@@ -25,7 +27,6 @@ from .pieces import FINE, Pieces
 from .search import state_of
 from .state import HalfSlope, Question
 from .step import Loaded
-from .work import integral
 
 if TYPE_CHECKING:
     from sie.profiles.slope import Slope
@@ -211,7 +212,12 @@ class Grown(Pressed):
             return self.frozen.rate(s) * self.at(s).rate()
 
         cuts = (*self.events, self.half_width)
-        return sum(integral(power, lo, hi, ENERGY) for lo, hi in itertools.pairwise(cuts))
+        parts = [integral(power, lo, hi, ENERGY) for lo, hi in itertools.pairwise(cuts)]
+        if None in parts:
+            raise ContactError(
+                "the energy of pressing is known to less than 1e-6: smooth the profile"
+            )
+        return sum(part for part in parts if part)
 
 
 def about(origin: float, slope: Slope, half_modulus: float, contact: Interval) -> HalfSlope:

@@ -2,14 +2,12 @@
 
 The power is smooth in the load between the turn of the loads and the loads at which an end of the
 stick zone, or an edge on a kink of the profile, passes a mark. There the way is divided. Roots of
-the distance from these loads are smooth in the variable of the rule, that of Clenshaw and Curtis,
-whose nodes are doubled until two sums agree.
+the distance from these loads are smooth in the variable of the rule.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import pairwise
@@ -19,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie.errors import ContactError
+from sie.numerics.nested_rule import integral
 
 from .search import ROUGHLY, Zones, passing, settled, zones_of
 from .step import Loaded, guess, slip_along
@@ -28,7 +27,6 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-INTERVALS = (4, 8, 16, 32, 64, 128)  # of the rule, one after the other
 PROMISED = 3e-7  # of the energy of a step: what must be reached
 EARLY = (1e-6, 1e-5, 1e-4, 1e-3, 3e-3, 1e-2, 3e-2)  # parts of a step, of which one has a state
 LATE = (0.6, 0.9, 0.97, 0.99, 0.997, 0.999, 0.9997, 0.9999)  # the same before a loop closes
@@ -48,7 +46,10 @@ def work(previous: Loaded, after: Loaded) -> float:
     way, total = Way(previous, after, base), 0.0
     # the longest first: of a short part fewer digits count
     for first, last in sorted(pairwise(way.divided), key=lambda ends: ends[0] - ends[1]):
-        total += integral(way.power, first, last, PROMISED, total)
+        found = integral(way.power, first, last, PROMISED, total)
+        if found is None:
+            raise _unknown()
+        total += found
     if max(way.extended) > EXTENDED * total:
         raise _unknown()
     return total
@@ -175,40 +176,6 @@ class Way:
         if state is None:
             raise _unknown()
         return zones_of(state)
-
-
-def integral(
-    function: Callable[[float], float], first: float, last: float, tol: float, others: float = 0.0
-) -> float:
-    """∫ of a function that may have roots of the distance at both ends, beside other integrals."""
-    values: dict[float, float] = {}
-    sums: list[float] = []
-    for n in INTERVALS:
-        v, weight = _clenshaw_curtis(n)
-        places = (first + (last - first) * v**2 * (3.0 - 2.0 * v)).tolist()[1:-1]
-        values |= {x: function(x) for x in places if x not in values}
-        mean = (6.0 * weight * v * (1.0 - v))[1:-1] @ [values[x] for x in places]
-        sums.append((last - first) * float(mean))
-        if len(sums) > 1 and _error(sums) <= tol * (sums[-1] + others):
-            return sums[-1]
-    raise _unknown()
-
-
-def _error(sums: list[float]) -> float:
-    """Of the last sum: the difference from the one before, or less where differences fall."""
-    last = abs(sums[-1] - sums[-2])
-    before = abs(sums[-2] - sums[-3]) if len(sums) > 2 else 0.0
-    return last * min(1.0, last / before) if before else last
-
-
-def _clenshaw_curtis(n: int) -> tuple[Array, Array]:
-    """Nodes and weights on (0, 1), with n intervals."""
-    k = np.arange(n + 1)
-    angle, m = math.pi * k / n, np.arange(1, n // 2 + 1)
-    factor = np.where(m == n // 2, 1.0, 2.0) / (4.0 * m**2 - 1.0)
-    weight = (1.0 - np.cos(2.0 * np.outer(angle, m)) @ factor) / n
-    weight[[0, -1]] *= 0.5
-    return np.sin(0.5 * angle) ** 2, weight
 
 
 def _unknown() -> ContactError:
