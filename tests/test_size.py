@@ -19,7 +19,7 @@ LINES = {
     "cauchy": 2010,
     "certificate": 1540,
     "cli": 800,
-    "contact": 2390,
+    "contact": 2360,
     "examples": 10,
     "friction": 9880,
     "inverse": 310,

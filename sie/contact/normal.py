@@ -24,7 +24,7 @@ from sie.profiles.pieces import without_functions
 from sie.profiles.resolution import accuracy_for, refined
 from sie.profiles.slope import Slope
 
-from .edges import NEAR, Found, Search
+from .edges import Found, Search
 from .known_contact import NEARER, Edges, Normal, refuse_unresolved, with_breaks
 from .smooth_slope import smooth_contact
 from .tilt_of_moment import refuse_outside, tilt_of_moment
@@ -308,26 +308,14 @@ def _searched(scene: Scene, slope: Slope, economy: Collection[str], start: float
 
 
 def _of_moment(scene: Scene, slope: Slope, economy: Collection[str], start: float) -> Edges:
-    """The edges at the tilt of a given moment; near it, each contact from the one before."""
+    """The edges at the tilt of a given moment, sought from `start`."""
     load, moment, search = scene.normal_load, scene.moment, _search(scene, slope, economy)
     assert load is not None
     assert moment is not None
     refuse_outside(moment, load, search, scene.profile.domain)
-    before: list[Edges] = []
-
-    def edges_at(tilt: float) -> Edges:
-        found = None
-        if before and not any(before[-1].sharp):
-            contact = before[-1].contact
-            if abs(before[-1].moment - moment) <= NEAR * load * contact.r:
-                tilted = _search(scene, slope.tilted(tilt), economy)
-                found = tilted.near(contact, (False, False), load)
-        before.append(
-            tilted.finished(found, load, tilt) if found else _edges_at(tilt, scene, slope, economy)
-        )
-        return before[-1]
-
-    return tilt_of_moment(edges_at, moment, search, start)
+    return tilt_of_moment(
+        lambda tilt: _edges_at(tilt, scene, slope, economy), moment, search, start
+    )
 
 
 def _search(scene: Scene, slope: Slope, economy: Collection[str]) -> Search:
