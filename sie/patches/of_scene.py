@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from sie.contact.window import reach_of_load
 from sie.errors import LoadError
 from sie.numerics.chord import Chord
 from sie.profiles.look import closer, falls, may_touch, values
@@ -173,13 +174,8 @@ def _first_window(problem: Problem) -> tuple[float, float]:
     breaks = np.asarray(problem.profile.breaks)
     finite = breaks[np.isfinite(breaks)]
     first, last = (float(finite.min()), float(finite.max())) if finite.size else (0.0, 0.0)
-    sizes = np.geomspace(1e-140, 1e140, 561)
-    with np.errstate(all="ignore"):
-        # a contact of half-width w under slopes of the size H carries about w H
-        right = sizes * (problem.slope(np.clip(last + sizes, lo, hi)) + problem.given.tilt)
-        left = -sizes * (problem.slope(np.clip(first - sizes, lo, hi)) + problem.given.tilt)
-        enough = [np.flatnonzero(force >= problem.given.load) for force in (right, left)]
-    size = max((float(sizes[k[0]]) for k in enough if k.size), default=1.0)
+    tilted = problem.slope.tilted(problem.given.tilt)
+    size = max(reach_of_load(tilted, problem.given.load, first, last), default=1.0)
     return max(lo, first - 4.0 * size), min(hi, last + 4.0 * size)
 
 
