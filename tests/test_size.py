@@ -31,7 +31,7 @@ LINES = {
     "paths": 1200,
     "plots": 960,
     "problem": 890,
-    "profiles": 5090,
+    "profiles": 5050,
     "sensitivity": 1290,
     "stress": 2320,
     "sweeps": 720,
