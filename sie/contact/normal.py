@@ -25,7 +25,16 @@ from sie.profiles.resolution import accuracy_for, refined
 from sie.profiles.slope import Slope
 
 from .edges import Found, Search
-from .known_contact import NEARER, Edges, Normal, refuse_unresolved, with_breaks
+from .known_contact import (
+    NEARER,
+    Edges,
+    Normal,
+    not_one_patch,
+    refuse_end,
+    refuse_infinite_slope,
+    refuse_unresolved,
+    with_breaks,
+)
 from .smooth_slope import smooth_contact
 from .tilt_of_moment import refuse_outside, tilt_of_moment
 from .window import FITTED, MOST_GROWN, Window, window_of
@@ -94,13 +103,8 @@ def by_pieces(
             f"the search for the contact left the range of doubles, under {_asked(scene)}: {NEARER}"
         ) from None
     refuse_unresolved(found.edges, scene)
-    ends = zip(found.edges.sharp, profile.ends_are_corners, profile.domain, strict=True)
-    for end in [end for is_sharp, is_corner, end in ends if is_sharp and not is_corner]:
-        raise LoadError(
-            f"the contact reaches the end of the trace at x = {end:.6g}, and what the indenter is "
-            "like beyond is not known: lower the load or the tilt, or measure further out",
-            end=end,
-        )
+    for side in np.flatnonzero(found.edges.sharp).tolist():
+        refuse_end(profile, side)
     return found
 
 
@@ -164,7 +168,8 @@ def _in_window(
         try:
             found = _searched(scene, resolved, economy, tilt)
         except LoadError:
-            _refuse_infinite_ends(profile.pieces)
+            for side in (0, 1):
+                refuse_infinite_slope(profile, side)
             raise
         edges = found.edges
         if any(sharp and is_open for sharp, is_open in zip(edges.sharp, window.is_open)):
@@ -182,13 +187,6 @@ def _in_window(
             seen += more
             if profile.axis is not None:
                 seen += tuple(2.0 * profile.axis - x for x in more)
-
-
-def not_one_patch(scene: Scene) -> LoadError:
-    return LoadError(
-        f"half_width = {scene.half_width:.6g} is not that of one patch of contact, and the load of "
-        "several patches is not sought from it: give normal_load instead"
-    )
 
 
 def _lever(scene: Scene) -> float | None:
@@ -231,20 +229,6 @@ def _smooth(scene: Scene, slope: Slope, tol: float, symmetry: bool) -> Normal | 
     smooth, n = (False, False), found.evaluations
     edges = Edges(contact, P, contact.m * P + M, scene.tilt, smooth, 0.0, 0.0, 0.0, n)
     return Normal(edges, axis is not None, c)
-
-
-def _refuse_infinite_ends(slope: Slope) -> None:
-    """Raises LoadError where the slope is infinite at an end of the indenter.
-
-    No series resolves the slope towards such an end.
-    """
-    ends = np.array([end for end in slope.domain if math.isfinite(end)])
-    infinite = ends[~np.isfinite(slope(ends))]
-    if len(infinite):
-        raise LoadError(
-            f"the slope is infinite at the end x = {infinite[0]:.6g} of its domain, which the "
-            "contact comes near: narrow the domain"
-        )
 
 
 def _unseen_by_series(found: Normal, profile: Profile, tol: float) -> bool:
