@@ -194,8 +194,8 @@ def test_stress_on_a_grid(benchmark):
     benchmark(lambda: solution.stress(x, y).j2)
 
 
-@pytest.mark.parametrize("n", [64, 1024, 16384])
-def test_cauchy_equation_by_transforms(benchmark, n):
+@pytest.mark.parametrize("n", [64, 1024])
+def test_cauchy_equation(benchmark, n):
     equation = sie.CauchyEquation((-1.0, 1.0), g=np.exp, total=0.0)
     benchmark(lambda: equation.solve(n=n))
 

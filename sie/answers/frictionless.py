@@ -14,8 +14,8 @@ from typing import TYPE_CHECKING, cast
 import numpy as np
 
 from sie.contact.convexity import may_have_merged, rises, rises_beside, turns_away
-from sie.contact.known_contact import Normal
-from sie.contact.normal import by_pieces, not_one_patch, of_one_patch, one_series
+from sie.contact.known_contact import Normal, not_one_patch
+from sie.contact.normal import by_pieces, of_one_patch, one_series
 from sie.contact.pressure import OnePatch
 from sie.contact.window import window_of
 from sie.errors import ContactError

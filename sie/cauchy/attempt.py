@@ -39,7 +39,7 @@ class Attempt(NamedTuple):
     rounding: Array
     noise: Array
     defect: float
-    spreads: Callable[[], list[Spread]] = list
+    spreads: Callable[[], list[Spread]]
 
     @property
     def progress(self) -> float:
@@ -56,8 +56,6 @@ class Attempt(NamedTuple):
     def answer(self) -> JacobiDensity:
         """The density; its errors include those of rounding."""
         spreads = self.spreads()
-        if not spreads:
-            return self.density
         parts = tuple(
             part.less_certain(of.coefficients)
             for part, of in zip(self.density.parts, spreads, strict=True)
@@ -89,7 +87,7 @@ def attempted(
     coefficients: list[Array],
     unknown: Array,
     terms: list[Terms],
-    spreads: Callable[[], list[Spread]] = list,
+    spreads: Callable[[], list[Spread]],
 ) -> Attempt:
     """The density of these coefficients, with its residuals, tails and rounding."""
     largest = max(float(np.abs(c).max()) for c in coefficients)

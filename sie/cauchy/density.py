@@ -236,8 +236,8 @@ class JacobiDensity(Density):
         The number of nodes on each interval that the solver chose.
     error : float
         Estimated error of φ over its largest value on the interval (singular ends divided out):
-        it follows from the last coefficients, the residual and, with a kernel or several
-        intervals, rounding, which grows next to narrow gaps and near eigenvalues.
+        it follows from the last coefficients, the residual and rounding, which grows next to narrow
+        gaps and near eigenvalues.
     residual : float
         Largest residual of the equation at points that were not used to solve it, over the largest
         term there.

@@ -365,7 +365,7 @@ class CauchyEquation:
         return solve(self.problem, tol)
 
     def system(self, n: int) -> tuple[Array, Array]:
-        """The square system that is solved where no transform serves.
+        """The square system that is solved.
 
         Parameters
         ----------

@@ -57,11 +57,6 @@ class Problem:
     free: tuple[Function, ...]
     generalised: bool = False  # whether k is singular at an end
 
-    @property
-    def is_transform(self) -> bool:
-        """Whether a transform solves it: one interval without a further kernel."""
-        return self.k is None and len(self.maps) == 1
-
     def first_sizes(self) -> tuple[int, ...]:
         """The numbers of coefficients to begin with, one for each interval."""
         on_affine = SMALLEST if len(self.maps) == 1 else SMALLEST_OF_SEVERAL

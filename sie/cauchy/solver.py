@@ -9,9 +9,8 @@ p̃_{n-κ}, orthonormal for 1/w (`jacobi`), κ = -(α + β) the index. So the ma
 identity, shifted by κ places, plus the coefficients of the smooth part. Side conditions are the
 equations that κ = 1 lacks, and a free constant u_j is the unknown that κ = -1 lacks.
 
-Without k on one interval nothing is solved: c is a transform of g, for a = 0 a DCT (`transform`).
-Otherwise the matrix is square, and about as well conditioned as the identity plus k (`system`). The
-sizes grow until coefficients have decayed, the residual is small at points that were not used, and
+The matrix is square, and about as well conditioned as the identity plus k (`system`). The sizes
+grow until coefficients have decayed, the residual is small at points that were not used, and
 the kernel's own coefficients show that its integrals are resolved. k is called once for each size.
 
 Sources: Erdogan & Gupta, Q. Appl. Math. 29 (1972); Erdogan, Gupta & Cook (1973); Elliott, SIAM J.
@@ -29,15 +28,9 @@ from .attempt import DECAYED, Attempt
 from .density import JacobiDensity
 from .formulation import Problem
 from .system import System
-from .transform import by_transform
 
 ENLARGED = 1.45  # from one attempt to the next: the total cost is less than twice the least
-# Unknowns with which a system gives up, ...
-LARGEST = 2000
-# ... a transform by a discrete cosine transform, ...
-LARGEST_TRANSFORM = 200_000
-# ... and one by Gauss-Jacobi quadrature, of n² operations, or n³ with complex exponents.
-LARGEST_RULE = 2000
+LARGEST = 2000  # unknowns
 # After IDLE enlargements without progress an error below SETTLED is noise of g or k.
 IDLE = 3
 SETTLED = 1e-6
@@ -62,15 +55,8 @@ def solve(problem: Problem, tol: float) -> JacobiDensity:
         else:
             idle += 1
         sizes = _enlarged(sizes, more)
-        if sum(sizes) > _largest(problem) or (idle >= IDLE and best.progress < SETTLED):
+        if sum(sizes) > LARGEST or (idle >= IDLE and best.progress < SETTLED):
             raise _unsettled(best, tol)
-
-
-def _largest(problem: Problem) -> int:
-    if not problem.is_transform:
-        return LARGEST
-    (weight,) = problem.weights
-    return LARGEST_TRANSFORM if weight.is_chebyshev else LARGEST_RULE
 
 
 def _unsettled(best: Attempt, tol: float) -> ContactError:
@@ -106,7 +92,5 @@ def consistent(found: Attempt) -> JacobiDensity:
 
 def attempt(problem: Problem, sizes: tuple[int, ...]) -> Attempt:
     """The density with so many nodes on each interval."""
-    if problem.is_transform:
-        return by_transform(problem, sizes[0])
     system = System(problem, sizes)
     return system.attempt(system.solution())

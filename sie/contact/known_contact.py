@@ -98,3 +98,36 @@ def refuse_out_of_scale(r: float, load: float, Estar: float) -> None:
                 f"the contact's {name} is {size:.6g}, whose products leave the range of doubles: "
                 f"{arguments.REMEDY}"
             )
+
+
+def refuse_infinite_slope(profile: Profile, side: int) -> None:
+    """Raises LoadError where the slope is infinite at the left end of the indenter, or right (1).
+
+    No series resolves the slope towards such an end.
+    """
+    end = profile.domain[side]
+    if math.isfinite(end) and not math.isfinite(float(profile.pieces(end))):
+        raise LoadError(
+            f"the slope is infinite at the end x = {end:.6g} of its domain, which the contact "
+            "comes near: narrow the domain"
+        )
+
+
+def refuse_end(profile: Profile, side: int) -> None:
+    """Raises LoadError for contact at an end beyond which the indenter is not known."""
+    refuse_infinite_slope(profile, side)
+    if not profile.ends_are_corners[side]:
+        end = profile.domain[side]
+        raise LoadError(
+            f"the contact reaches the end of the trace at x = {end:.6g}, and what the indenter is "
+            "like beyond is not known: lower the load or the tilt, repeat the trace by "
+            "sie.Periodic(trace, period), or measure further out",
+            end=end,
+        )
+
+
+def not_one_patch(scene: Scene) -> LoadError:
+    return LoadError(
+        f"half_width = {scene.half_width:.6g} is not that of one patch of contact, and the load of "
+        "several patches is not sought from it: give normal_load instead"
+    )

@@ -25,7 +25,16 @@ from sie.profiles.resolution import accuracy_for, refined
 from sie.profiles.slope import Slope
 
 from .edges import Found, Search
-from .known_contact import NEARER, Edges, Normal, refuse_unresolved, with_breaks
+from .known_contact import (
+    NEARER,
+    Edges,
+    Normal,
+    not_one_patch,
+    refuse_end,
+    refuse_infinite_slope,
+    refuse_unresolved,
+    with_breaks,
+)
 from .smooth_slope import smooth_contact
 from .tilt_of_moment import refuse_outside, tilt_of_moment
 from .window import FITTED, MOST_GROWN, Window, window_of
@@ -95,13 +104,8 @@ def by_pieces(
             f"the search for the contact left the range of doubles, under {_asked(scene)}: {NEARER}"
         ) from None
     refuse_unresolved(found.edges, scene)
-    ends = zip(found.edges.sharp, profile.ends_are_corners, profile.domain, strict=True)
-    for end in [end for is_sharp, is_corner, end in ends if is_sharp and not is_corner]:
-        raise LoadError(
-            f"the contact reaches the end of the trace at x = {end:.6g}, and what the indenter is "
-            "like beyond is not known: lower the load or the tilt, or measure further out",
-            end=end,
-        )
+    for side in np.flatnonzero(found.edges.sharp).tolist():
+        refuse_end(profile, side)
     return found
 
 
@@ -165,7 +169,8 @@ def _in_window(
         try:
             found = _searched(scene, resolved, economy, tilt)
         except LoadError:
-            _refuse_infinite_ends(profile.pieces)
+            for side in (0, 1):
+                refuse_infinite_slope(profile, side)
             raise
         edges = found.edges
         if any(sharp and is_open for sharp, is_open in zip(edges.sharp, window.is_open)):
@@ -183,13 +188,6 @@ def _in_window(
             seen += more
             if profile.axis is not None:
                 seen += tuple(2.0 * profile.axis - x for x in more)
-
-
-def not_one_patch(scene: Scene) -> LoadError:
-    return LoadError(
-        f"half_width = {scene.half_width:.6g} is not that of one patch of contact, and the load of "
-        "several patches is not sought from it: give normal_load instead"
-    )
 
 
 def _lever(scene: Scene) -> float | None:
@@ -234,20 +232,6 @@ def _smooth(scene: Scene, slope: Slope, tol: float, symmetry: bool) -> Normal | 
     return Normal(edges, axis is not None, c)
 
 
-def _refuse_infinite_ends(slope: Slope) -> None:
-    """Raises LoadError where the slope is infinite at an end of the indenter.
-
-    No series resolves the slope towards such an end.
-    """
-    ends = np.array([end for end in slope.domain if math.isfinite(end)])
-    infinite = ends[~np.isfinite(slope(ends))]
-    if len(infinite):
-        raise LoadError(
-            f"the slope is infinite at the end x = {infinite[0]:.6g} of its domain, which the "
-            "contact comes near: narrow the domain"
-        )
-
-
 def _unseen_by_series(found: Normal, profile: Profile, tol: float) -> bool:
     """Whether the slope has features that the series of the contact does not show."""
     assert found.series is not None
@@ -281,26 +265,14 @@ def _searched(scene: Scene, slope: Slope, economy: Collection[str], start: float
 
 
 def _of_moment(scene: Scene, slope: Slope, economy: Collection[str], start: float) -> Edges:
-    """The edges at the tilt of a given moment; near it, each contact from the one before."""
+    """The edges at the tilt of a given moment, sought from `start`."""
     load, moment, search = scene.normal_load, scene.moment, _search(scene, slope, economy)
     assert load is not None
     assert moment is not None
     refuse_outside(moment, load, search, scene.profile.domain)
-    before: list[Edges] = []
-
-    def edges_at(tilt: float) -> Edges:
-        found = None
-        if before and not any(before[-1].sharp):
-            contact = before[-1].contact
-            if abs(before[-1].moment - moment) <= NEAR * load * contact.r:
-                tilted = _search(scene, slope.tilted(tilt), economy)
-                found = tilted.near(contact, (False, False), load)
-        before.append(
-            tilted.finished(found, load, tilt) if found else _edges_at(tilt, scene, slope, economy)
-        )
-        return before[-1]
-
-    return tilt_of_moment(edges_at, moment, search, start)
+    return tilt_of_moment(
+        lambda tilt: _edges_at(tilt, scene, slope, economy), moment, search, start
+    )
 
 
 def _search(scene: Scene, slope: Slope, economy: Collection[str]) -> Search:

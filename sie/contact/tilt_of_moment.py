@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from sie.errors import ContactError, LoadError
@@ -82,22 +81,7 @@ def tilt_of_moment(
             moment=best.moment,
             tilt=best.tilt,
         )
-    return _beyond_doubles(best, moment, search)
-
-
-def _beyond_doubles(edges: Edges, moment: float, search: Search) -> Edges:
-    """The edges after the rest of the tilt, which is no double: smooth ones keep more digits.
-
-    A tilt δ adds π δ to I0, which the edges take back by -π δ/JL and -π δ/JR.
-    """
-    if any(edges.sharp) or edges.moment == moment or search.epsilon:
-        return edges
-    k = replace(search, slope=search.slope.tilted(edges.tilt)).integrals(edges.contact)
-    rest = math.pi * (edges.moment - moment) / _fall_of_moment(edges, search)
-    if not (k.JL > 0.0 and k.JR > 0.0):
-        return edges
-    contact = edges.contact.moved(-rest / k.JL, -rest / k.JR).rounded(search.slope.break_points)
-    return replace(edges, contact=contact, moment=moment)
+    return best
 
 
 def _carried(

@@ -8,6 +8,7 @@ import numpy as np
 
 from sie.numerics.interval import Interval
 from sie.problem.scene import Scene
+from sie.profiles.slope import Slope
 
 # A window is refitted while it is longer than the contact by more than this factor ...
 WINDOW = 1.6
@@ -69,6 +70,15 @@ def window_of(scene: Scene) -> Window:
     return Window(*_first_window(scene), scene.profile.domain)
 
 
+def reach_of_load(slope: Slope, load: float, first: float, last: float) -> list[float]:
+    """The lengths w at which w H, beyond `last` and before `first`, is a load over E*/2."""
+    ends = last + WINDOW_SIZES, first - WINDOW_SIZES
+    with np.errstate(all="ignore"):
+        force = WINDOW_SIZES * slope(np.clip(ends, *slope.domain)) * [[1.0], [-1.0]]
+        enough = [np.flatnonzero(~(of_side < load)) for of_side in force]
+    return [float(WINDOW_SIZES[k[0]]) for k in enough if k.size]
+
+
 def _first_window(scene: Scene) -> tuple[float, float]:
     """The interval on which a search begins.
 
@@ -85,14 +95,8 @@ def _first_window(scene: Scene) -> tuple[float, float]:
     if np.isfinite(lo) and np.isfinite(hi):
         return lo, hi
     centre = min((b for b in (*profile.breaks, lo, hi) if np.isfinite(b)), key=abs, default=0.0)
-    sizes = np.concatenate([centre + WINDOW_SIZES, centre - WINDOW_SIZES])
-    with np.errstate(invalid="ignore", over="ignore"):
-        H = profile.pieces.tilted(scene.tilt)(np.clip(sizes, lo, hi)).reshape(2, -1)
-        # A tilted profile touches first where its slope has risen to 0, on one side: both have to
-        # rise outwards
-        outwards = 0.5 * scene.Estar * WINDOW_SIZES * H * [[1.0], [-1.0]]
-        enough = [np.flatnonzero(~(force < (scene.normal_load or 0.0))) for force in outwards]
-    reaches = [float(WINDOW_SIZES[k[0]]) for k in enough if k.size]
+    load = 2.0 * (scene.normal_load or 0.0) / scene.Estar
+    reaches = reach_of_load(profile.pieces.tilted(scene.tilt), load, centre, centre)
     given = () if scene.half_width is None else (scene.half_width,)
     size = max((*given, *reaches), default=1.0)
     return max(lo, centre - 4.0 * size), min(hi, centre + 4.0 * size)

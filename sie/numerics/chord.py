@@ -126,6 +126,3 @@ class Chord:
         """The distance of x from [lo, hi], or from its nearest repetition."""
         middle = 0.5 * (lo + hi)
         return np.abs(self.difference(x - middle)) - 0.5 * (hi - lo)
-
-    def of(self, x: Points, y: Points) -> Any:
-        return self.apart(x.anchor - y.anchor, x.offset - y.offset)

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie import arguments
-from sie.contact.known_contact import Edges, refuse_narrow
+from sie.contact.known_contact import Edges, not_one_patch, refuse_narrow
 from sie.errors import ContactError, LoadError
 from sie.numerics.interval import Interval
 
@@ -151,10 +151,7 @@ def answered(problem: Problem, found: Found, scene: Scene) -> SeveralPatches:
 
 def _refuse_uncovered(scene: Scene) -> None:
     if scene.half_width is not None:
-        raise LoadError(
-            f"half_width = {scene.half_width:.6g} is not that of one patch of contact, and the "
-            "load of several patches is not sought from it: give normal_load instead"
-        )
+        raise not_one_patch(scene)
     if scene.epsilon or scene.bonded:
         what = "bonded surfaces" if scene.bonded else "dissimilar bodies that slide"
         raise ContactError(

@@ -86,11 +86,6 @@ class PatchPressure(Density):
         ]
         return tuple(np.unique(np.concatenate((P.edges, *inner))).tolist())
 
-    @property
-    def hilbert_at_edges(self) -> tuple[float, float]:
-        left, right = self.hilbert(np.array(self.interval)).tolist()
-        return left, right
-
     # -- on the line -------------------------------------------------------------------------------
 
     def placed(self, x: Array) -> tuple[Points, Index, NDArray[np.bool_]]:

@@ -16,6 +16,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from sie.contact.known_contact import refuse_end
+from sie.contact.window import reach_of_load
 from sie.errors import LoadError
 from sie.numerics.chord import Chord
 from sie.profiles.look import closer, falls, may_touch, values
@@ -173,13 +175,8 @@ def _first_window(problem: Problem) -> tuple[float, float]:
     breaks = np.asarray(problem.profile.breaks)
     finite = breaks[np.isfinite(breaks)]
     first, last = (float(finite.min()), float(finite.max())) if finite.size else (0.0, 0.0)
-    sizes = np.geomspace(1e-140, 1e140, 561)
-    with np.errstate(all="ignore"):
-        # a contact of half-width w under slopes of the size H carries about w H
-        right = sizes * (problem.slope(np.clip(last + sizes, lo, hi)) + problem.given.tilt)
-        left = -sizes * (problem.slope(np.clip(first - sizes, lo, hi)) + problem.given.tilt)
-        enough = [np.flatnonzero(force >= problem.given.load) for force in (right, left)]
-    size = max((float(sizes[k[0]]) for k in enough if k.size), default=1.0)
+    tilted = problem.slope.tilted(problem.given.tilt)
+    size = max(reach_of_load(tilted, problem.given.load, first, last), default=1.0)
     return max(lo, first - 4.0 * size), min(hi, last + 4.0 * size)
 
 
@@ -263,27 +260,12 @@ def levels(problem: Problem, window: tuple[float, float]) -> tuple[float, float]
 
 def refuse_unknown_ends(state: State, problem: Problem) -> None:
     """Raises LoadError where contact reaches an end beyond which the indenter is not known."""
-    edges = zip(
-        state.patches.edges[[0, -1]].tolist(),
-        problem.domain,
-        problem.profile.ends_are_corners,
-        strict=True,
-    )
-    for edge, end, corner in edges:
-        if edge != end or problem.chord.periodic:
-            continue
-        if not np.isfinite(float(problem.slope(np.array([end]))[0])):
-            raise LoadError(
-                f"the slope is infinite at the end x = {end:.6g} of its domain, which the "
-                "contact comes near: narrow the domain"
-            )
-        if not corner:
-            raise LoadError(
-                f"the contact reaches the end of the trace at x = {end:.6g}, and what the indenter "
-                "is like beyond is not known: lower the load or the tilt, repeat the trace by "
-                "sie.Periodic(trace, period), or measure further out",
-                end=end,
-            )
+    if problem.chord.periodic:
+        return
+    edges = state.patches.edges[[0, -1]].tolist()
+    for side, (edge, end) in enumerate(zip(edges, problem.domain, strict=True)):
+        if edge == end:
+            refuse_end(problem.profile, side)
 
 
 def refuse_light(found: Found, problem: Problem) -> None:

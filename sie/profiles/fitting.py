@@ -1,4 +1,4 @@
-"""Properties of a trace: its gaps, its outliers, its line, and why contact reaches its end."""
+"""Properties of a trace: its gaps, its outliers, its line."""
 
 from __future__ import annotations
 
@@ -21,8 +21,6 @@ NEIGHBOURS = 6  # points on one side through which a parabola is laid
 FEWEST_NEIGHBOURS = 4
 LOOKED_AT = 30  # points on one side, among which the neighbours are chosen
 MOST_EXAMINED = 1000  # points
-STRAIGHT = 64.0 * EPS  # of the largest height: a trace that leaves its line by less is the line
-ARCHED = 0.5  # of the variance is explained by a downward parabola: the trace is upside down
 
 
 class Gap(NamedTuple):
@@ -112,34 +110,3 @@ def line(x: Array, h: Array) -> tuple[float, float]:
     m = float(x.mean())
     slope = float((x - m) @ (h - h.mean()) / ((x - m) @ (x - m)))
     return float(h.mean()) - slope * m, slope
-
-
-def reason_at_an_end(x: Array, h: Array, side: str) -> str:
-    """A reason why contact may reach the end of the trace, and a remedy; "" if none is found.
-
-    The side that h was stated to be, "gap" or "surface", is none of the reasons.
-    """
-    offset, slope = line(x, h)
-    left = h - (offset + slope * x)
-    if np.abs(left).max() <= STRAIGHT * np.abs(h).max():
-        return "the trace is a straight line, to rounding: an indenter has to rise on both sides"
-    if _arched(x, left):
-        return (
-            "the gap is largest in the middle of the trace: the surface is hollow there"
-            if side
-            else "the trace arches upwards, as the gap of a hollow surface; if h is the "
-            'height of a surface, read it by heights = "surface", or give -h'
-        )
-    if int(np.argmin(h)) in (0, len(h) - 1):
-        return (
-            "the trace is lowest at its end: it is too short, or tilted (levelled takes a line out)"
-        )
-    return ""
-
-
-def _arched(x: Array, left: Array) -> bool:
-    """Whether the residual of the line is mostly a parabola that opens downwards."""
-    u = (x - x.mean()) / np.ptp(x)
-    bow = u * u - np.polyval(np.polyfit(u, u * u, 1), u)
-    share = float(bow @ left)
-    return share < 0.0 and share * share > ARCHED * float(bow @ bow) * float(left @ left)

@@ -7,7 +7,6 @@ and its height where it has a formula.
 
 from __future__ import annotations
 
-import math
 from abc import ABC, abstractmethod
 from collections.abc import Callable
 from functools import wraps
@@ -36,10 +35,8 @@ def of_any_x(height: Callable[[Any, Array], Array]) -> Callable[[Any, ArrayLike]
     @wraps(height)
     def everywhere(profile: Any, x: ArrayLike) -> Array:
         x = arguments.reals("x", x)
+        finite = np.isfinite(x)
         with np.errstate(over="ignore", invalid="ignore"):
-            if _all_finite(x) and _all_finite(h := height(profile, x[()])):
-                return h
-            finite = np.isfinite(x)
             h = height(profile, np.where(finite, x, 0.0)[()])
             h = np.where(np.isnan(h), np.inf, h)  # the difference of two heights beyond all doubles
             if not finite.all():
@@ -48,11 +45,6 @@ def of_any_x(height: Callable[[Any, Array], Array]) -> Callable[[Any, ArrayLike]
         return h[()]
 
     return everywhere
-
-
-def _all_finite(a: Array) -> bool:
-    """Whether the sum of squares is a double, in one call: then every number is."""
-    return math.isfinite(np.vdot(a, a))
 
 
 class Indenter(ABC):

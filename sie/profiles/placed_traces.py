@@ -183,8 +183,9 @@ def explained(error: ContactError, profile: Profile) -> ContactError:
     trace = next((placed.trace for placed in traces_in(profile)), None)
     if trace is None or not error.reached:
         return error
+    advice = smoothing_remedy(profile)
     if "end" in error.reached:
-        advice = fitting.reason_at_an_end(trace.points, trace.heights, trace.reading.side)
-    else:
-        advice = smoothing_remedy(profile)
+        advice = "levelled() takes the tilt of a trace out"
+        if not trace.reading.side:
+            advice += ', and heights = "surface" reads those of a surface, which are no gaps'
     return type(error)(f"{error.args[0]}; {advice}", **error.reached) if advice else error

@@ -275,19 +275,8 @@ class Periodic(Profile):
             "height and slope"
         )
 
-    def within(self, x: Array) -> Array:
-        """The same places in the period that begins at `start`.
-
-        Parameters
-        ----------
-        x : ndarray
-            Finite places, lengths of any shape.
-
-        Returns
-        -------
-        ndarray
-            Lengths, of the shape of x.
-        """
+    def _within(self, x: Array) -> Array:
+        """The same places in the period that begins at `start`."""
         return x - self.repeats * np.floor((x - self.start) / self.repeats)
 
     @override
@@ -302,7 +291,7 @@ class Periodic(Profile):
     def _in_period(self, function: Callable[[Array], Array], x: ArrayLike) -> Array:
         x = arguments.reals("x", x)
         finite = np.isfinite(x)
-        values = function(self.within(np.where(finite, x, self.start)))
+        values = function(self._within(np.where(finite, x, self.start)))
         return np.where(finite, values, np.nan)[()]
 
     @property

@@ -331,20 +331,13 @@ class _Basis:
         from scipy.sparse import diags  # noqa: PLC0415
 
         t, m = self.knots, len(inner)
-        second = 2.0 / (t[4 : m + 4] - t[2 : m + 2])
-        S = diags([-second, second], [0, 1], shape=(m, m + 1)) @ self.first_difference
+        first, second = 3.0 / (t[4 : m + 5] - t[1 : m + 2]), 2.0 / (t[4 : m + 4] - t[2 : m + 2])
+        S = diags([-second, second], [0, 1], shape=(m, m + 1)) @ diags(
+            [-first, first], [0, 1], shape=(m + 1, m + 2)
+        )
         step = np.diff(inner) / 6.0
         mass = diags([step, 2.0 * (np.append(step, 0.0) + np.append(0.0, step)), step], [-1, 0, 1])
         return S.T @ mass @ S
-
-    @property
-    def first_difference(self) -> Any:
-        """Coefficients of the slope of f in quadratic B-splines on two knots fewer."""
-        from scipy.sparse import diags  # noqa: PLC0415
-
-        t, m = self.knots, len(self.chosen)
-        first = 3.0 / (t[4 : m + 5] - t[1 : m + 2])
-        return diags([-first, first], [0, 1], shape=(m + 1, m + 2))
 
     def coefficients(self, lam: float) -> Array:
         return self.solved(lam, self._data)

@@ -96,21 +96,6 @@ def test_the_condition_number_of_a_smooth_kernel_is_small_and_does_not_grow(ends
     assert conditions[2] == pytest.approx(conditions[1], rel=1e-6)
 
 
-@pytest.mark.parametrize(("ends", "a"), [(KINDS[0], 0.0), (KINDS[1], 0.3), (KINDS[3], 0.2j)])
-def test_the_transform_and_the_system_agree(ends, a):
-    """The system is forced by a kernel that vanishes."""
-    question = {"g": lambda x: np.exp(x) / (1.3 - x), "a": a, "ends": ends}
-    question["total"] = 0.2 if index_of(ends) == 1 else None
-    question["free"] = (1.0,) if index_of(ends) == -1 else ()
-    by_transform = sie.CauchyEquation((-1.0, 1.0), **question).solve()
-    by_system = sie.CauchyEquation((-1.0, 1.0), k=lambda x, t: 0.0 * x * t, **question).solve()
-    x = np.linspace(-0.99, 0.99, 41)
-    assert np.abs(by_transform(x) - by_system(x)).max() <= 1e-14 * np.abs(by_system(x)).max()
-    assert (
-        np.abs(np.subtract(by_transform.constants, by_system.constants)).max(initial=0.0) <= 1e-14
-    )
-
-
 SMOOTH_KERNELS = [
     lambda x, t: 0.3, smooth_kernel, lambda x, t: np.cos(5.0 * x * t),
     lambda x, t: 1.0 / (1.0 + (x - t) ** 2),

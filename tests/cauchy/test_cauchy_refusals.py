@@ -129,7 +129,6 @@ def noisy(x):
 @pytest.mark.parametrize(("g", "error"), [(noisy, 1e-7), (np.abs, 1e-2)])
 def test_a_density_that_does_not_settle_is_refused_with_the_best_one(g, error, k, monkeypatch):
     monkeypatch.setattr(solver, "LARGEST", 400)
-    monkeypatch.setattr(solver, "LARGEST_TRANSFORM", 400)
     equation = sie.CauchyEquation((-1.0, 1.0), g, k=k, total=0.0)
     with pytest.raises(
         sie.ContactError, match=r"did not settle to tol = 1\.0e-13.*raise tol"

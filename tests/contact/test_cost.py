@@ -85,14 +85,6 @@ def test_a_smooth_function_takes_one_transform_a_step_and_no_pieces(profile, giv
     assert len(transforms) <= most
 
 
-def test_a_cauchy_equation_without_kernel_builds_no_matrix():
-    from sie.cauchy import system  # noqa: PLC0415
-
-    with counted(system.System, "matrix") as matrices:
-        sie.CauchyEquation((-1.0, 1.0), g=np.exp, total=0.0).solve()
-    assert not matrices
-
-
 def places_for_a_certificate(turns):
     """The number of points where the certificate after so many turning points needs tractions."""
     path = sie.Path([(0.3, 0.14 * (1.0 - k / turns) * (-1.0) ** k) for k in range(turns)])

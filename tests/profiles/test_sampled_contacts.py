@@ -84,21 +84,10 @@ def test_the_slope_of_a_noisy_trace_meets_within_its_noise(jump):
     assert bool(sie.Periodic(sie.Sampled(x, noisy, "gcv"), 1.0).joint) == jump
 
 
-@pytest.mark.parametrize(
-    ("h", "says"),
-    [
-        (-H, 'arches upwards.*heights = "surface"'),
-        (0.0 * X + 3.0, "straight line"),
-        (0.2 * X - 1e6, "straight line"),
-        (H - 4.0 * X, "lowest at its end.*levelled"),
-        (H - 3.0 * X, "measure further out$"),
-    ],
-    ids=["upside down", "flat", "tilted flat", "tilted", "askew"],
-)
-def test_a_contact_at_the_end_of_a_trace_is_refused_with_the_trace_s_own_reason(h, says):
-    with pytest.raises(sie.ContactError, match=says) as refused:
+@pytest.mark.parametrize("h", [-H, 0.0 * X + 3.0, H - 4.0 * X])
+def test_a_contact_at_the_end_of_a_trace_is_refused_with_what_a_trace_may_lack(h):
+    with pytest.raises(sie.ContactError, match=r'end of the trace.*levelled\(\).*"surface"'):
         pressed(sie.Sampled(X, h), 1.0).edges  # noqa: B018 -- computes it
-    assert ("hollow" in str(refused.value)) == ("arches" in says)
 
 
 def wavy_pad(height, waves):

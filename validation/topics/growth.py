@@ -1,7 +1,7 @@
-"""Growth of work and memory with pieces, points, unknowns, patches and steps of a path.
+"""Growth of work and memory with pieces, points, patches and steps of a path.
 
-The work is counted in steps; the time is drawn. The pieces are those of the profile, the unknowns
-and patches those of a Cauchy equation. The patches are coupled by a dense matrix and grow faster
+The work is counted in steps; the time is drawn. The pieces are those of the profile, the patches
+those of a Cauchy equation. These are coupled by a dense matrix and grow faster
 than the rest; no claim is made of them.
 
 Straight lines in a diagram of logarithms; the exponent is that of the last three sizes. The control
@@ -28,7 +28,6 @@ LINEAR = 1.25  # exponent: linear, and logarithms
 SIZES = {
     "pieces": ((100, 300, 1000), (100, 300, 1000, 3000, 10_000)),
     "points": ((100_000, 300_000, 1_000_000), (1000, 10_000, 30_000, 100_000, 300_000, 1_000_000)),
-    "unknowns": ((256, 1024, 4096), (256, 1024, 4096, 16384, 65536)),
     "patches": ((4, 8, 16), (8, 16, 32, 64)),
     "steps": ((25, 50, 100), (100, 300, 1000)),
     "pairs": ((200, 600, 1800), (200, 600, 1800)),
@@ -56,11 +55,6 @@ def of_points(n: int) -> Callable[[], Any]:
     ).pressure
     x = np.linspace(-1.0, 1.0, n)
     return lambda: pressure(x)
-
-
-def of_unknowns(n: int) -> Callable[[], Any]:
-    equation = sie.CauchyEquation((-1.0, 1.0), g=np.abs, b=-1.0, total=1.0)
-    return lambda: equation.solve(n=n)
 
 
 def of_patches(n: int) -> Callable[[], Any]:
@@ -96,7 +90,6 @@ def of_pairs(n: int) -> Callable[[], Any]:
 MEASURED = {
     "pieces": (of_pieces, "solve and 101 pressures, n pieces"),
     "points": (of_points, "n pressures of the rounded punch"),
-    "unknowns": (of_unknowns, "Cauchy equation, n unknowns, by transforms"),
     "patches": (of_patches, "Cauchy equation on n patches"),
     "steps": (of_steps, "stick zones after n steps of a cycle"),
     "pairs": (of_pairs, "a logarithm for each of n pieces and n points"),
@@ -130,7 +123,7 @@ def compute(quick: bool) -> Iterator[Record]:
         used = [peak_memory(run) for run in runs]
         memory[name] = exponent(sizes, used)
         yield Curve("memory", says, sizes, [u / 2**20 for u in used], "both")
-    for name in ("pieces", "points", "unknowns", "steps"):
+    for name in ("pieces", "points", "steps"):
         what = MEASURED[name][1]
         by, wrong = "this project: close to linear", MEASURED["pairs"][1]
         yield Claim(
