@@ -12,7 +12,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, cast, overload
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -56,11 +56,7 @@ class SteadyCycle(Sequence["SteadyState"]):
     def __len__(self) -> int:
         return 2
 
-    @overload
-    def __getitem__(self, index: int) -> SteadyState: ...
-    @overload
-    def __getitem__(self, index: slice) -> Sequence[SteadyState]: ...
-    def __getitem__(self, index: int | slice) -> SteadyState | Sequence[SteadyState]:
+    def __getitem__(self, index: Any) -> Any:
         return self._states[index]
 
     @property
