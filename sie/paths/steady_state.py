@@ -53,6 +53,10 @@ class SteadyCycle(Sequence["SteadyState"]):
     def __init__(self, history: History) -> None:
         self.history = history
 
+    def __getstate__(self) -> dict[str, Any]:
+        """The question alone: states hold functions, which no pickle takes."""
+        return {k: vars(self)[k] for k in ("history", "scene", "points", "tol") if k in vars(self)}
+
     def __len__(self) -> int:
         return 2
 
