@@ -127,18 +127,26 @@ def among(value: Any, choices: Collection[Any]) -> bool:
 
 def reals(name: str, values: Any) -> NDArray[np.float64]:
     """`values` as an array of floats; ValueError unless they are real numbers, inf or nan."""
+    return _numbers(name, values, float, "an array of real numbers: give positions as floats")
+
+
+def complexes(name: str, values: Any) -> NDArray[np.complex128]:
+    """`values` as an array of complex numbers; ValueError unless they are numbers, inf or nan."""
+    said = "an array of numbers: give points x + iy as complex numbers"
+    return _numbers(name, values, complex, said)
+
+
+def _numbers(name: str, values: Any, kind: type, said: str) -> NDArray[Any]:
     refuse_masked(name, values)
     array = _array(values)
-    if array.dtype == np.float64:
-        return array
     try:
-        if array.dtype.kind in "fiu":
-            return array.astype(float)
+        if array.dtype.kind in "fiu" or (kind is complex and array.dtype.kind == "c"):
+            return array.astype(kind, copy=False)
         if array.dtype.kind == "O":  # numbers of other libraries; None would become nan
-            return np.array([float(value) for value in array.flat]).reshape(array.shape)
+            return np.array([kind(value) for value in array.flat]).reshape(array.shape)
     except (TypeError, ValueError, OverflowError):
         pass
-    raise ValueError(f"{name} is not an array of real numbers: give positions as floats")
+    raise ValueError(f"{name} is not {said}")
 
 
 def of_one_shape(
@@ -153,20 +161,6 @@ def of_one_shape(
             "position, or one for all"
         ) from None
     return x, y
-
-
-def complexes(name: str, values: Any) -> NDArray[np.complex128]:
-    """`values` as an array of complex numbers; ValueError unless they are numbers, inf or nan."""
-    refuse_masked(name, values)
-    array = _array(values)
-    try:
-        if array.dtype.kind in "cfiu":
-            return array.astype(complex, copy=False)
-        if array.dtype.kind == "O":
-            return np.array([complex(value) for value in array.flat]).reshape(array.shape)
-    except (TypeError, ValueError, OverflowError):
-        pass
-    raise ValueError(f"{name} is not an array of numbers: give points x + iy as complex numbers")
 
 
 def refuse_masked(name: str, values: Any) -> None:

@@ -41,10 +41,6 @@ class ContactError(Exception):
         super().__init__(message)
         self.reached = reached
 
-    def __reduce__(self) -> tuple[Any, ...]:
-        # The default would lose `reached` on the way through a process pool.
-        return (_rebuilt, (type(self), self.args[0], self.reached))
-
 
 class LoadError(ContactError):
     """The profile cannot carry the load or the moment in one contact.
@@ -98,7 +94,3 @@ class ResolutionError(ContactError):
     Traceback (most recent call last):
     sie.errors.ResolutionError: the slope does not settle: ...
     """
-
-
-def _rebuilt(kind: type[ContactError], message: str, reached: dict[str, Any]) -> ContactError:
-    return kind(message, **reached)

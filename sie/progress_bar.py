@@ -12,18 +12,17 @@ from __future__ import annotations
 
 import sys
 import threading
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 from contextvars import ContextVar
-from functools import wraps
 from importlib.util import find_spec
 from math import inf
 from time import perf_counter
-from typing import Any, ParamSpec, TypeVar
+from typing import Any, TypeVar
 
 PATIENCE = 1.0  # seconds of work before a bar appears ...
 INTERVAL = 0.1  # ... and between two changes of it
 WITHOUT_TOTAL = "{desc}: {elapsed}{postfix}"
-P = ParamSpec("P")
 T = TypeVar("T")
 
 
@@ -90,26 +89,18 @@ def step_done(steps: int = 1) -> None:
         work.update(steps)
 
 
-def reported(name: str) -> Callable[[Callable[P, T]], Callable[P, T]]:
-    """Decorate a function that may take long with the name of what it does."""
-
-    def decorated(function: Callable[P, T]) -> Callable[P, T]:
-        @wraps(function)
-        def reporting(*args: P.args, **kwargs: P.kwargs) -> T:
-            with Progress(name):
-                return function(*args, **kwargs)
-
-        return reporting
-
-    return decorated
+@contextmanager
+def reported(name: str) -> Iterator[None]:
+    """The progress of a function that may take long; decorates it with the name of what it does."""
+    with Progress(name):
+        yield
 
 
-def counted(name: str, items: Iterable[T], total: int) -> Iterable[T]:
-    """The items one after the other, with a bar."""
-    return _counted(name, items, total) if total > 1 else items
-
-
-def _counted(name: str, items: Iterable[T], total: int) -> Iterator[T]:
+def counted(name: str, items: Iterable[T], total: int) -> Iterator[T]:
+    """The items one after the other, with a bar where there are several."""
+    if total < 2:
+        yield from items
+        return
     with Progress(name, total) as work:
         for item in items:
             yield item

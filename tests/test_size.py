@@ -11,14 +11,14 @@ import sie
 
 HOUSE = Path(sie.__file__).parent
 LINES = {
-    "": 1460,
+    "": 1440,
     "answers": 1270,
     "benchmark_set": 10,
     "cracks": 760,
     "wear": 470,
     "cauchy": 1860,
     "certificate": 1390,
-    "cli": 780,
+    "cli": 770,
     "contact": 2370,
     "examples": 10,
     "friction": 9340,

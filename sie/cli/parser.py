@@ -165,7 +165,11 @@ def _of_compare() -> dict[str, Option]:
         "--nodes": ("FILE", nodes, {}),
         "--columns": ("NAMES", columns, {"type": _columns}),
         "--surface": ("Y", "the height of the surface in the file (found)", {"type": _height}),
-        "--body": ("SIDE", "the body that is compared: below or above (below)", {"type": _side}),
+        "--body": (
+            "SIDE",
+            "the body that is compared: below or above (below)",
+            {"choices": BODIES},
+        ),
         "--tol": ("T", tol, {"type": float, "default": MESH_TOL}),
         "--plot": ("FILE", "draw both and their difference (needs Matplotlib)", {}),
         "--json": (
@@ -188,7 +192,7 @@ def _of_boundary() -> dict[str, Option]:
         "--set": ("NAME", "the node set on the boundary", {"required": True}),
         "--kind": ("KIND", "displacement or traction (as nodal forces) (%(default)s)", kinds),
         "--surface": ("Y", "the height of the surface in the mesh (0)", surface),
-        "--body": ("SIDE", body, {"type": _side, "default": "below"}),
+        "--body": ("SIDE", body, {"choices": BODIES, "default": "below"}),
         "--zero": ("X,Y", zero, {"type": _place}),
         "--csv": ("FILE", "write a table, too", {}),
         "--quiet": QUIET,
@@ -226,12 +230,6 @@ def _columns(text: str) -> dict[str, str]:
             f"{text} names no columns: give {', '.join(COLUMNS)}, like x=distance,p=load"
         )
     return columns
-
-
-def _side(text: str) -> str:
-    if text not in BODIES:
-        raise argparse.ArgumentTypeError(f"{text} is not a side: give {' or '.join(BODIES)}")
-    return text
 
 
 def _grid(text: str) -> tuple[int, int]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -92,15 +92,11 @@ def _gathered(n: int) -> Array:
     return np.asarray(np.sin(0.5 * np.pi * np.linspace(0.0, 1.0, max(n, 1) + 1)) ** 2)
 
 
-class Summit(NamedTuple):
-    """A local maximum of the pressure; p is inf at a sharp edge or under a corner."""
+def summits(solution: Any) -> tuple[Array, Array]:
+    """The places of the maxima of the pressure, ascending, the highest where p' = 0, and p there.
 
-    x: float
-    p: float
-
-
-def summits(solution: Any) -> tuple[Summit, ...]:
-    """The local maxima of the pressure, from left to right; the highest ones where p' = 0."""
+    It is inf at a sharp edge or under a corner.
+    """
     x = np.union1d(inside(solution), [solution.centre])
     if len(solution.patches) > 1:
         x = np.union1d(x, solution.pressure.breaks)
@@ -117,15 +113,14 @@ def summits(solution: Any) -> tuple[Summit, ...]:
     apart = np.abs(zeros - x[own]) > SAME_PLACE * solution.half_width
     better = apart & (values >= p[own] * (1.0 - 4.0 * EPS))
     x[own[better]], p[own[better]] = zeros[better], values[better]
-    return tuple(map(Summit, x[top].tolist(), p[top].tolist()))
+    return x[top], p[top]
 
 
 def peak(solution: Any) -> tuple[float, tuple[float, ...]]:
     """(largest pressure, where): at more than one x if the pressure is as large there."""
-    maxima = summits(solution)
-    largest = max(s.p for s in maxima)
-    least = largest * (1.0 - SAME_PEAK)
-    return largest, tuple(s.x for s in maxima if s.p == largest or s.p >= least)
+    x, p = summits(solution)
+    largest = float(p.max())
+    return largest, tuple(x[p >= (1.0 - SAME_PEAK) * largest].tolist())
 
 
 def ceiling(solution: Any) -> float:

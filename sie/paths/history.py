@@ -149,12 +149,16 @@ class History(PathContacts, Sequence[Solution]):
         self._points: dict[int, PathSolution] = {}
         self._energies: list[float] = []
         self._shifts: dict[int, float] = {}
-        self._kind, self.scene_states = PathSolution, list[Solution]()
+        self._kind = PathSolution
         if steps is turning_points and pressed_first(scene, path):
-            self._kind, self.scene_states = SceneSolution, self._solved_by_scenes()
-            self.turning_points = points_of_loads(path)
+            self._kind, self.turning_points = SceneSolution, points_of_loads(path)
+            _ = self.scene_states  # refuses what is not covered
         else:
             self.turning_points = steps(scene, path, self)
+
+    def __getstate__(self) -> dict[str, Any]:
+        """What points share; these, and states that hold functions, are found anew."""
+        return {k: v for k, v in vars(self).items() if k != "scene_states"} | {"_points": {}}
 
     def __len__(self) -> int:
         return len(self.turning_points)
@@ -262,7 +266,8 @@ class History(PathContacts, Sequence[Solution]):
             known.append(lost + (known[-1] if known else 0.0))
         return known[index]
 
-    def _solved_by_scenes(self) -> list[Solution]:
+    @cached_property
+    def scene_states(self) -> list[Solution]:
         """The points as scenes, which share the contact under P; refused if they are not covered.
 
         Dissimilar bodies go from the state of one point to that of the next.
@@ -379,6 +384,6 @@ class SceneSolution(PathSolution):
         super().__init__(history, index)
         self.__dict__.update(history.scene_states[index].__dict__)
 
-    def __getstate__(self) -> dict[str, Any]:
-        """The question alone: the stages hold functions, which no pickle takes."""
-        return {name: vars(self)[name] for name in ("history", "index", "tol", "economy")}
+    def __reduce__(self) -> tuple[Any, ...]:
+        # The state depends on those before it, and holds functions, which no pickle takes
+        return SceneSolution, (self.history, self.index)

@@ -12,7 +12,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, cast, overload
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -53,14 +53,14 @@ class SteadyCycle(Sequence["SteadyState"]):
     def __init__(self, history: History) -> None:
         self.history = history
 
+    def __getstate__(self) -> dict[str, Any]:
+        """The question alone: states hold functions, which no pickle takes."""
+        return {k: vars(self)[k] for k in ("history", "scene", "points", "tol") if k in vars(self)}
+
     def __len__(self) -> int:
         return 2
 
-    @overload
-    def __getitem__(self, index: int) -> SteadyState: ...
-    @overload
-    def __getitem__(self, index: slice) -> Sequence[SteadyState]: ...
-    def __getitem__(self, index: int | slice) -> SteadyState | Sequence[SteadyState]:
+    def __getitem__(self, index: Any) -> Any:
         return self._states[index]
 
     @property

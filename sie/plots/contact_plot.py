@@ -163,7 +163,8 @@ class _View:
     @cached_property
     def cut(self) -> list[float]:
         """The points where the pressure rises above it."""
-        return [s.x for s in summits(self.solution) if s.p > self.shown * (1.0 + 1e-9)]
+        x, p = summits(self.solution)
+        return list(x[p > self.shown * (1.0 + 1e-9)])
 
     @cached_property
     def highest(self) -> float:

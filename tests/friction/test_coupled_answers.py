@@ -183,6 +183,20 @@ SURVIVING = {
 }
 
 
+def test_a_point_of_a_path_survives_a_pickle_with_what_was_before_it():
+    scene = sie.Scene(
+        profile=sie.Parabola(1.0), modulus=1.0, dundurs=0.2, friction=0.5, normal_load=1.0
+    )
+    point = sie.follow(scene, sie.Path([(1.0, 0.3), (1.0, -0.1)]))[1]
+    again = pickle.loads(pickle.dumps(point))
+    assert again.stick == point.stick != scene_alone(scene, -0.1).stick
+    assert again.history[0].stick == point.history[0].stick
+
+
+def scene_alone(scene, Q):
+    return sie.solve(scene).with_(tangential_load=Q)
+
+
 @pytest.mark.parametrize("changes", SURVIVING.values(), ids=SURVIVING)
 def test_a_solution_of_dissimilar_bodies_survives_a_pickle(changes):
     solution = solved(normal_load=1.0, **changes)

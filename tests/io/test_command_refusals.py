@@ -38,7 +38,7 @@ BAD = {
         "tol = inf is no positive number"),
     "a height in words": ("compare scene.toml fem.csv --surface top", "top is not a height"),
     "a height that is none": ("compare scene.toml fem.csv --surface nan", "nan is not a height"),
-    "an unknown body": ("compare scene.toml fem.csv --body left", "give below or above"),
+    "an unknown body": ("compare scene.toml fem.csv --body left", "invalid choice: 'left'"),
     "a file too many": ("compare scene.toml fem.csv third.csv", '"third.csv" is not understood'),
     "unknown suffix of a field": ("solve scene.toml --field f.vti", "use .csv"),
     "a grid of one column": ("solve scene.toml --field f.csv --grid 1x5", "1x5 is not a grid"),
