@@ -37,7 +37,7 @@ Array = NDArray[np.float64]
 LEAPS = 4.0 ** np.arange(-10, -3)  # of a part: so much longer it is after a leap
 JUST_BEYOND = (1e-3, 1e-6)  # of a leap: so far an end is beyond it, at a guess
 RELEASED = 1e-6  # of the largest f p: |q| so close to f p has reached it
-SHORTER = 1.0 / 3.0  # of a part that is not solved
+SHORTER, FEW = 1.0 / 3.0, 4  # of a part that is not solved; after so many the cube of it
 SHORTEST = 1e-9  # of a step: a part
 NEARLY = 0.9999  # of τ: an event before it shortens the part
 ON_MARK = 3e-9  # of the contact: an end that recedes and is so close to a mark is on it
@@ -66,14 +66,15 @@ def strip_part(
     event: Event | None = None
     shorter: Panel | None = None  # one that is solved, before an event that was seen ahead of it
     ahead = np.inf  # from its end to that event
-    for _ in range(AGAIN):
+    for number in range(AGAIN):
         span = Span(state, step, zones, begun, length)
         panel, event, good = _tried(span, guess, last, (event, length < failed))
         if not good and shorter is not None:
             longest = min(APPROACH * ahead, LONGER * shorter.span.length)
             return _ended(shorter, None, longest)
         if panel is None or not good:
-            failed, length, guess = length, SHORTER * length, panel
+            failed, guess = length, panel
+            length *= SHORTER if number < FEW else SHORTER**3
             if length < SHORTEST:
                 break
             continue
