@@ -9,14 +9,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .onset import ROUNDED, End, Motion
 from .state import EXCEEDED
-from .strips import MOMENTS, TAU, Panel, StripEquations
+from .strips import TAU, Panel, StripEquations, at_share, in_time
 
 Array = NDArray[np.float64]
 
@@ -53,23 +52,6 @@ class Event:
     def ahead(self, length: float) -> float:
         """From the end of a part to an arrival; inf to another event."""
         return length * (self.share**2 - 1.0) if self.arrives else np.inf
-
-
-@lru_cache(maxsize=2)
-def _transform(first: int) -> Array:
-    """Coefficients in T_k(2τ - 1) from values at the moments, from `first` on."""
-    values = np.polynomial.chebyshev.chebvander(2.0 * TAU[first:] - 1.0, MOMENTS - first)
-    return np.asarray(np.linalg.inv(values), dtype=np.float64)
-
-
-def in_time(values: Array) -> Array:
-    """The series of values at the moments, with the one at the start or without."""
-    return _transform(MOMENTS + 1 - len(values)) @ values
-
-
-def at_share(series: Array, share: float | Array) -> Array:
-    value = np.polynomial.chebyshev.chebval(2.0 * np.asarray(share) - 1.0, series)
-    return np.asarray(value, dtype=np.float64)
 
 
 def first_event(panel: Panel, last: Event | None, beyond: bool) -> Event | None:

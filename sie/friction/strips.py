@@ -22,7 +22,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -49,12 +49,31 @@ Array = NDArray[np.float64]
 MOMENTS = 12
 TAU = 0.5 * (1.0 - np.cos(np.pi * np.arange(MOMENTS + 1) / MOMENTS))
 STEPS = 25  # of Newton's method
-SETTLED, GOOD = 2e-14, 1e-10  # of the contact: the longest step of an end
+SETTLED, GOOD = 1e-12, 1e-10  # of the contact: the longest step of an end
+SLOW, LONG = 9, 1e-7  # after so many one that is so long, of the contact, finds nothing
 CLOSEST = 0.6  # of the distance to its neighbour: an end moves so far at most in a step
 NEAR = 1e-4  # of the contact: after so short a step the slopes of K are kept
 FAR, ABSURD = 0.1, 1e4  # steps of the contact, and D over f p, that show that it does not converge
 ROUNDED = 1e-4  # of f p: the smallest D of which so much is resolved
+ALIKE = 0.8, 1.02  # of the length of a part: another one from which D is guessed
 DIFFERENCE = 1e-6  # of the distance to its neighbour: the step of a difference
+
+
+@lru_cache(maxsize=2)
+def _transform(first: int) -> Array:
+    """Coefficients in T_k(2τ - 1) from values at the moments, from `first` on."""
+    values = np.polynomial.chebyshev.chebvander(2.0 * TAU[first:] - 1.0, MOMENTS - first)
+    return np.asarray(np.linalg.inv(values), dtype=np.float64)
+
+
+def in_time(values: Array) -> Array:
+    """The series of values at the moments, with the one at the start or without."""
+    return _transform(MOMENTS + 1 - len(values)) @ values
+
+
+def at_share(series: Array, share: float | Array) -> Array:
+    value = np.polynomial.chebyshev.chebval(2.0 * np.asarray(share) - 1.0, series)
+    return np.asarray(value, dtype=np.float64)
 
 
 @dataclass(frozen=True)
@@ -266,13 +285,17 @@ class Span:
 
 @dataclass(frozen=True, eq=False)
 class Panel:
-    """A solved part: places of the ends at its moments, (n, 2N), and c of its strips, (S, n)."""
+    """A part: places of the ends at its moments, (n, 2N), and c of its strips, (S, n).
+
+    slopes   derivatives of K of the advancing ends by the free ones, about
+    """
 
     span: Span
     strips: tuple[Strip, ...]
     places: Array
     series: Array
     rough: bool = False  # as of equations
+    slopes: list[Array] | None = None
 
     @cached_property
     def equations(self) -> list[StripEquations]:
@@ -294,10 +317,7 @@ class Panel:
         return [self.span.rates(i, ends) for i, ends in enumerate(self.places)]
 
     def system(self, slopes: list[Array]) -> tuple[Array, Array]:
-        """Residuals and their derivatives by the places of free ends, then by c.
-
-        slopes: those of K, as of `slopes`
-        """
+        """Residuals and their derivatives by the places of free ends, then by c."""
         span, n = self.span, MOMENTS
         E, free, adv = 2 * len(span.onset.zones), span.free, span.which(Motion.ADVANCES)
         rows, F = E + len(adv), len(free)
@@ -314,8 +334,8 @@ class Panel:
                 matrix[i * rows + E : (i + 1) * rows, own] = slopes[i]
         return right, matrix
 
-    def slopes(self) -> list[Array]:
-        """The derivatives of K of the advancing ends by the free ones, at each moment."""
+    def differences(self) -> list[Array]:
+        """The slopes by differences."""
         adv, free = self.span.which(Motion.ADVANCES), self.span.free
         found = [np.zeros((len(adv), len(free))) for _ in self.places]
         for i, ends in enumerate(self.places if adv else []):
@@ -327,6 +347,15 @@ class Panel:
                 moved = self.span.rates(i, ends + step).K.ravel()[adv]
                 found[i][:, column] = (moved - K) / step[j]
         return found
+
+    def lasting(self, span: Span) -> Panel:
+        """The same for another length, about."""
+        share = span.length / self.span.length
+        series = in_time(np.concatenate(([self.span.start], self.places)))
+        now = guessed(span, at_share(series, share**0.5 * TAU[1:]).T)
+        if ALIKE[0] < share < ALIKE[1]:
+            now = replace(now, strips=self.strips, series=self.series, slopes=self.slopes)
+        return now
 
     def moved(self, step: Array) -> tuple[Panel, float]:
         """The panel after a step of Newton's method, shortened, and the longest move of an end."""
@@ -360,27 +389,29 @@ def _share(now: StripEquations, moves: Array) -> float:
     return share
 
 
-def solved_panel(span: Span, guess: Array) -> Panel:
-    """The part by Newton's method. Raises ContactError where that fails.
-
-    guess: places of the ends at its end, (2N), or at its moments, (n, 2N)
-    """
+def guessed(span: Span, guess: Array) -> Panel:
+    """A part from places of the ends at its end, (2N), or at its moments, (n, 2N); D is 0."""
     places = span.with_edges(np.broadcast_to(guess, (MOMENTS, guess.shape[-1])))
     start, final = span.start.tolist(), places[-1].tolist()
     if guess.ndim == 1:
-        places = span.start + np.outer(TAU[1:] ** 2, places[-1] - span.start)
+        places = span.with_edges(span.start + np.outer(TAU[1:] ** 2, places[-1] - span.start))
     strips = tuple(
         Strip(j, start[j], abs(start[j] - start[j ^ 1]), abs(final[j] - start[j]))
         for j in span.which(Motion.ADVANCES, Motion.GROWS)
     )
-    now = Panel(span, strips, span.with_edges(places), np.zeros((len(strips), MOMENTS)), rough=True)
+    return Panel(span, strips, places, np.zeros((len(strips), MOMENTS)), rough=True)
+
+
+def solved_panel(now: Panel) -> Panel:
+    """The part by Newton's method from a guess. Raises ContactError where that fails."""
+    span, slopes = now.span, now.slopes
     last, width = math.inf, span.before.contact.width
     peak = max(contact.peak for contact in (span.before.contact, span.contacts[-1]))
-    for _ in range(STEPS):
+    for number in range(STEPS):
         if (now.places[:, 1::2] <= now.places[:, ::2]).any():  # a stick zone has vanished
             break
-        if last > NEAR * width:
-            slopes = now.slopes()
+        if slopes is None or NEAR * width < last < math.inf:
+            slopes = now.differences()
         right, matrix = now.system(slopes)
         if not (np.isfinite(matrix).all() and np.isfinite(right).all()):
             break
@@ -391,10 +422,11 @@ def solved_panel(span: Span, guess: Array) -> Panel:
         before, (now, longest) = now.series, now.moved(step)
         change = np.abs(now.series - before).max(initial=0.0)
         size = np.abs(now.series).max(initial=0.0)
-        settled = longest <= SETTLED * width and change <= 1e-11 * size
+        settled = longest <= SETTLED * width and change <= 1e-10 * size
         if settled or (longest <= GOOD * width and longest >= 0.5 * last):
-            return replace(now, rough=False)
-        if size > ABSURD * peak or longest > last > FAR * width:
+            return replace(now, rough=False, slopes=slopes)
+        slow = number >= SLOW and longest > LONG * width
+        if size > ABSURD * peak or longest > last > FAR * width or slow:
             break
         last = longest
     raise ContactError("no places of what sticks anew balance the loads")

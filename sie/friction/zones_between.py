@@ -20,12 +20,11 @@ from sie.numerics.zones import within
 
 from .cells import zones_on_cells
 from .equations import Equations
-from .events import at_share, in_time
 from .finite_step import Part, newton
 from .gained_slip import GainedSlip
 from .onset import onset
 from .state import Zones
-from .strips import TAU
+from .strips import TAU, at_share, in_time
 
 if TYPE_CHECKING:
     from .loading import LoadStep
