@@ -274,7 +274,10 @@ def certificate_of_parts(state: Slip, parts: Sequence[Part], tol: float) -> Shea
     """
     last = parts[-1].state
     contact = last.contact
-    missed = max(change_of_shear(part.before, part.state, part.stuck) for part in parts)
+    # what stuck to just before the end is in no answer where all slides there
+    asked = parts if state.stick else parts[:-1]
+    changes = (change_of_shear(part.before, part.state, part.stuck) for part in asked)
+    missed = max(changes, default=0.0)
     ends = intervals(contact.patches, last.marks, SAME * contact.width)
     rule = GradedRule.graded(ends)
     q, p = last.shear.on(rule), contact.limit.on(rule)
