@@ -165,8 +165,9 @@ class Potential(ABC):
         for (_, b), (a, _) in zip(self.stick, self.stick[1:], strict=False):
             points = np.append(self.sources, self.stick)
             apart = np.abs(points - np.array([[b], [a]]))
-            near = float(apart[apart > 0.0].min()) / (a - b)
-            found.append(Gap(b, a, breaks_for(near) if self.rough else OF_RULES))
+            near = float(apart[apart > 0.0].min())
+            breaks = breaks_for(near / (a - b)) if self.rough and a > b else OF_RULES
+            found.append(Gap(b, a, breaks))
         return found
 
     def root(self, k: int, gap: Gap) -> Complex:
