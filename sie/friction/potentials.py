@@ -86,11 +86,12 @@ class Gap:
         return Rule(ends, lo, hi, from_lo, from_hi, 0.0 * lo), np.cos(angle)
 
     def at(self, apart: Callable[[float], Array]) -> Array:
-        """That of charges at places t, by t - e for the places e of the gap."""
+        """That of charges at places t, by t - e for places e; nan at ends that touch."""
         d, cosine = self.chord, self.chord.cosine(apart(self.centre))
         half = float(d(0.5 * np.diff(self.ends))[0])
-        left, right = (d(apart(float(e))) / (half * cosine) + 0j for e in self.ends)
-        w = 1.0 / (0.5 * (left + right) + np.sqrt(left) * np.sqrt(right))
+        with np.errstate(divide="ignore", invalid="ignore"):
+            left, right = (d(apart(float(e))) / (half * cosine) + 0j for e in self.ends)
+            w = 1.0 / (0.5 * (left + right) + np.sqrt(left) * np.sqrt(right))
         found: Array = -(w * np.polynomial.polynomial.polyval(w, self.series)).real / cosine
         return found
 

@@ -88,7 +88,10 @@ class Rate(Potential):
 
     @cached_property
     def poles(self) -> Array:
-        return np.asarray(np.linalg.solve(self.by_poles, -self.missed(self.A, self.B)))
+        matrix = self.by_poles
+        if not np.isfinite(matrix).all():  # zones touch, as where slip begins between them
+            return np.full(len(matrix), np.nan)
+        return np.asarray(np.linalg.solve(matrix, -self.missed(self.A, self.B)))
 
     @cached_property
     def K(self) -> Array:

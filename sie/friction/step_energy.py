@@ -17,10 +17,9 @@ time is cut too.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass, field
-from functools import lru_cache, partial
+from functools import lru_cache
 from itertools import pairwise
 
 import numpy as np
@@ -41,8 +40,8 @@ from .zones_between import ZonesBetween
 
 Array = NDArray[np.float64]
 
-STUCK = 1e-11  # of the loads: by so much equations may be missed where all sticks
 INTERVALS = 16  # of the rule of Clenshaw and Curtis on a piece of time
+STUCK = 1e-11  # of the loads: by so much equations may be missed where all sticks
 LOOKED = np.array([1e-4, 0.01, 0.05, 0.15, 0.3, 0.5, 0.7, 0.9])  # shares where marks are passed
 CUT = 3e-5  # of a part: so well a time is known at which the integrand has a kink
 APART = 1e-4  # of a part: cuts that are closer are one
@@ -232,42 +231,31 @@ def _cuts(way: Way, shares: list[float]) -> list[float]:
     shares = [share for share in shares if share in way.known]
     for later, sooner in pairwise(shares):
         first, last = way.known[sooner], way.known[later]
-        if len(first.zones.stick) != len(last.zones.stick):
-            continue
-        ends = way.coordinates(first), way.coordinates(last)
-        for j, (a, b) in enumerate(zip(_places(first), _places(last), strict=True)):
-            if (
-                j < len(ends[0])
-                and first.zones.signs != last.zones.signs
-                and ends[0][j] * ends[1][j] < 0.0
-            ):
-                found.append(_root(partial(_coordinate, way, j), way, sooner, later))
-            inside = (way.before.marks - a) * (b - way.before.marks) > near**2
-            for mark in way.before.marks[inside]:
-                found.append(_root(partial(_beyond, j, float(mark)), way, sooner, later))
+        turns = first.zones.signs != last.zones.signs
+        one, other = (_watched(way, now, turns) for now in (first, last))
+        if len(one) == len(other):
+            passed = np.flatnonzero(one * other < -(near**2)).tolist()
+            found += [_root(way, (sooner, later), k, turns) for k in passed]
     return found
 
 
-def _coordinate(way: Way, j: int, now: Equations) -> float:
-    """Coordinate j of the zones."""
-    return float(way.coordinates(now)[j])
+def _watched(way: Way, now: Equations, turns: bool) -> Array:
+    """Ends and edges less the marks; if slip turns the coordinates too, which may change sign."""
+    places = np.append(now.stick, now.after.patches)
+    beyond = (places[:, None] - way.before.marks).ravel()
+    return np.append(beyond, way.coordinates(now) if turns else ())
 
 
-def _beyond(j: int, mark: float, now: Equations) -> float:
-    """How far end j is beyond a mark."""
-    return float(_places(now)[j] - mark)
-
-
-def _places(now: Equations) -> Array:
-    """The ends of stick zones, and the edges."""
-    return np.append(now.stick, now.after.patches)
-
-
-def _root(value: Callable[[Equations], float], way: Way, sooner: float, later: float) -> float:
-    """The share at which a value of the zones changes its sign.
+def _root(way: Way, span: tuple[float, float], k: int, turns: bool) -> float:
+    """The share at which value k of those that are watched changes its sign.
 
     A slip zone that is too short for Newton's method is as good as vanished.
     """
+
+    def value(now: Equations) -> float:
+        return float(_watched(way, now, turns)[k])
+
+    sooner, later = span
     for share in sorted(way.known):
         if sooner < share < later:
             same = (value(way.known[share]) < 0.0) == (value(way.known[sooner]) < 0.0)

@@ -44,18 +44,3 @@ def balanced(cuts: Array) -> Array:
         if not long.any():
             return cuts
         cuts = np.sort(np.concatenate((cuts, 0.5 * (cuts[:-1] + cuts[1:])[long])))
-
-
-ANGLE_LEVELS = 8
-
-
-def graded_angle() -> tuple[Array, Array, Array]:
-    """sin², cos² and d(sin²) at nodes of an angle from 0 to π/2, graded towards both ends.
-
-    They are a rule from 0 to 1 for what is like a root, or singular, at or near both ends.
-    """
-    near = 0.5 * graded(ANGLE_LEVELS)
-    cuts = np.concatenate(([0.0], near, [0.5], 1.0 - near[::-1], [1.0]))
-    angle, weight = (part.ravel() for part in on_panels(0.5 * np.pi * cuts))
-    sine, cosine = np.sin(angle), np.cos(angle)
-    return sine**2, cosine**2, 2.0 * sine * cosine * weight

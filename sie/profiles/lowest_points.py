@@ -149,10 +149,3 @@ def _root(slope: Slope, k: int, lo: float, hi: float) -> float:
     if a < -NEXT < NEXT < b and (H(0.0) == 0.0 or H(-NEXT) <= 0.0 <= H(NEXT)):
         return origin
     return origin + false_position(H, a, b, ends, lambda *_: False)
-
-
-def raised(resolved: Slope, touch: tuple[float, float], x: Array) -> Array:
-    """h(x) minus its lowest value, which it has at the lowest points [z1, z2] given."""
-    z1, z2 = (np.full(x.shape, z) for z in touch)
-    pieces = without_functions(resolved)
-    return pieces.rises(z2, np.maximum(x, z2)) - pieces.rises(np.minimum(x, z1), z1)

@@ -13,7 +13,7 @@ from sie.numerics import chebyshev, graded_panels
 from sie.numerics.cauchy_sums import KernelSums
 from sie.numerics.elliptic import modulus_of_ratio
 from sie.numerics.gauss_jacobi import gauss_jacobi
-from sie.numerics.graded_rule import graded, graded_angle, on_panels
+from sie.numerics.graded_rule import graded, on_panels
 from sie.numerics.interval import Interval, recentred, two_product, two_sum
 
 EPS = np.finfo(float).eps
@@ -105,13 +105,6 @@ def test_a_gauss_rule_is_exact_up_to_twice_its_nodes(n, a, b):
 def test_graded_panels_integrate_what_is_singular_at_an_end(f, exact):
     x, weight = on_panels(np.concatenate(([0.0], graded(40), [1.0])))
     assert float((f(x) * weight).sum()) == pytest.approx(exact, rel=1e-14)
-
-
-def test_a_graded_angle_integrates_roots_at_both_ends():
-    sine, cosine, weight = graded_angle()
-    assert sine + cosine == pytest.approx(np.ones_like(sine), abs=4 * EPS)
-    assert weight @ np.sqrt(sine * cosine) == pytest.approx(np.pi / 8, rel=1e-14)
-    assert weight @ (1.0 / np.sqrt(sine * cosine)) == pytest.approx(np.pi, rel=1e-13)
 
 
 def test_a_function_with_roots_at_marks_is_its_series_and_its_integral():
