@@ -21,7 +21,7 @@ LINES = {
     "cli": 770,
     "contact": 2370,
     "examples": 10,
-    "friction": 9350,
+    "friction": 9290,
     "inverse": 310,
     "io": 4590,
     "live": 1130,

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from functools import cached_property, partial
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -182,30 +182,21 @@ class CoupledContact:
             found.append([Piece(cuts[k], cuts[k + 1], length, f) for f in (p, self.sign * q)])
         return found
 
-    def _pieces(self, row: int) -> list[Piece]:
-        return [pair[row] for pair in self._tables]
-
-    def _row(self, row: int, x: Array) -> Array:
-        values: Array = self.rows(x)[row]
-        return values
-
     @cached_property
     def tractions(self) -> tuple[OnPieces, OnPieces]:
         """p and q with their potentials."""
-        loads = self.loaded.question.P, self.sign * self.loaded.Q
-        p, q = (
-            OnPieces(
-                self.contact,
-                partial(self._row, k),
-                partial(self._pieces, k),
-                loads[k],
-                self.origin,
-                self.marks,
-                self.sharp,
-            )
-            for k in (0, 1)
-        )
-        return p, q
+
+        def traction(k: int, load: float) -> OnPieces:
+            def values(x: Array) -> Array:
+                return self.rows(x)[k]
+
+            def tables() -> list[Piece]:
+                return [pair[k] for pair in self._tables]
+
+            marks, sharp = self.marks, self.sharp
+            return OnPieces(self.contact, values, tables, load, self.origin, marks, sharp)
+
+        return traction(0, self.loaded.question.P), traction(1, self.sign * self.loaded.Q)
 
     # -- slip --------------------------------------------------------------------------------------
 

@@ -30,6 +30,7 @@ Rate = Callable[[Array, Array], Array]  # of the distances from stick and edge, 
 
 NEWTONS, SETTLED = 40, 1e-15  # steps to the place where an end passes x, and parts of s
 NEAREST = 1e-150  # from where a panel begins, a place
+WINDOW = 1.3  # half-widths from the middle
 SAME = 1e-13  # of a half-width: marks that are nearer are one
 
 
@@ -76,6 +77,11 @@ class Frozen:
         """m."""
         panel = self._panel(s)
         return panel.middle + float(panel.moved(np.array(0.0), np.array(s - panel.lo)))
+
+    def window(self, s: float) -> tuple[float, float]:
+        """What no contact under Q leaves, about the place that touched first."""
+        middle = self.middle(s) - self.panels[0].middle
+        return middle - WINDOW * s, middle + WINDOW * s
 
     def load(self, s: float) -> float:
         """P."""

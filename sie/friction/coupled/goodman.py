@@ -68,30 +68,18 @@ class Uncoupled(State):
         return found
 
     @cached_property
-    def _on_nodes(self) -> tuple[Array, float, Array]:
-        """ν times weights on the nodes, ∫p dt, and q on the nodes halfway."""
-        at, t = self.halfway, self.nodes
-        kernel = self.cauchy(at, t)
-        (_, shear, _), (p, q, gamma) = self.rows((at, t), kernel)
-        sources = np.where(self.sticks(t), self.question.beta * p - gamma, q) / self.root(t)
-        sources *= t.weight
-        shear = np.where(self.sticks(at), self.root(at) * (kernel @ sources), shear)
-        return sources, float(p @ t.weight), shear
-
-    @cached_property
-    def shear_halfway(self) -> Array:
-        return self._on_nodes[2]
-
-    @cached_property
     def missed(self) -> Array:
-        question, arm, mass = self.question, self._arm(self.nodes), self._mass(self.nodes)
+        question, t, at = self.question, self.nodes, self.halfway
+        arm, mass, n = self._arm(t), self._mass(t), self.pieces.signs.count(0)
         of_p = np.array([mass.sum(), mass @ arm - question.P]) / question.P
-        n, (sources, carried, _) = self.pieces.signs.count(0), self._on_nodes
-        powers = np.array([sources @ arm**k for k in range(n + 1)]) * self.half_width**n
+        p, q, gamma = self.rows((at, t), self.cauchy(at, t))[1]
+        nu = t.weight * np.where(self.sticks(t), question.beta * p - gamma, q) / self.root(t)
+        moments = np.array([nu @ arm**k for k in range(n + 1)]) * self.half_width**n
         # Q as a part of what p is on the same nodes: next to sliding their errors are one
-        load = question.Q * carried / question.P
-        of_q = np.append(powers[:n], (powers[n] - load) / question.friction) / question.P
-        return np.append(of_p, of_q)
+        moments[n] = (
+            moments[n] - question.Q * float(p @ t.weight) / question.P
+        ) / question.friction
+        return np.append(of_p, moments / question.P)
 
     def rates(self, dQ: float, strain: float) -> tuple[Places, Array]:
         """p stays; q changes in the stick zone, by the gradient of a strip bonded there."""

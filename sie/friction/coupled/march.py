@@ -44,9 +44,9 @@ CLOSE = 1e-12  # of the half-width: kinks so near the place of first contact are
 FIRST = 1e-8  # of the half-width from first contact: where the power of the slope is measured
 WHOLE = 1e-3  # of twice a power, from a whole number
 FALLING = 1e-9  # of the largest P': below it a negative one is not rounding
-LOOKS = 200  # places of a panel at which the middle is looked at
-# Before them, in parts of the panel from first touch on: under low friction it turns back early
-NEAR_START = 10.0 ** np.arange(-12.0, -2.0)
+LOOKS = 200  # places of a panel at which P' is looked at
+# The same for the middle, of the panel: from first touch on it may turn back early
+SPREAD: Array = np.geomspace(1e-12, 1.0, 20000)
 NEGLECT = "set friction = 0, or give dundurs = 0 to neglect β"
 
 
@@ -304,25 +304,13 @@ class March:
 
 def refuse_turning(panel: Panel, ahead: float, before: float, flat: FlatPunch) -> None:
     """Raises ContactError where an end of the stick zone would move back, or P' < 0."""
-    even = ahead * (np.arange(LOOKS) + 1.0) / LOOKS
-    start = ahead * NEAR_START if panel.power else np.zeros(1)
-    places = np.append(start, even)
-    excess, load = np.abs(panel.turn(places)) - flat.c, panel(even)
-    turned = np.flatnonzero(excess >= 0.0)
-    if turned.size:
-        k = int(turned[0])
-        first = float(places[k])
-        if k:
-            ends = float(excess[k - 1]), float(excess[k])
-            first = false_position(
-                lambda d: abs(float(panel.turn(np.array(d)))) - flat.c,
-                float(places[k - 1]),
-                first,
-                ends,
-                never,
-            )
-        turn = float(panel.turn(np.array(first)))
-        raise ContactError(_turning(panel.lo + first, before + panel.load(first), turn, flat.c))
+    places = ahead * SPREAD if panel.power else np.append(0.0, ahead * SPREAD)
+    load = panel(ahead * (np.arange(LOOKS) + 1.0) / LOOKS)
+    turned = np.abs(panel.turn(places)) >= flat.c
+    if turned.any():
+        k = int(np.argmax(turned))
+        last, turn = float(places[max(k - 1, 0)]), float(panel.turn(places[k]))
+        raise ContactError(_turning(panel.lo + last, before + panel.load(last), turn, flat.c))
     if (load < -FALLING * np.abs(load).max()).any():
         raise ContactError(
             "the contact of dissimilar bodies with friction would not grow steadily under P = "
@@ -333,7 +321,7 @@ def refuse_turning(panel: Panel, ahead: float, before: float, flat: FlatPunch) -
 
 def _turning(s: float, P: float, turn: float, c: float) -> str:
     """Why there is no answer beyond the half-width s and the load P."""
-    start = f"from P = {P:.6g} on, at the half-width {s:.6g}," if P > 0.0 else "at once"
+    start = f"from P = {P:.4g} on, at the half-width {s:.4g}," if P > 0.0 else "at once"
     way, less = "right" if turn > 0.0 else "left", "lower the load, " if P > 0.0 else ""
     return (
         f"{start} the middle of the contact moves to the {way} {_below_one(abs(turn))} times as "

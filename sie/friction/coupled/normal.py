@@ -23,7 +23,8 @@ from .flat import FlatPunch, flat_punch, goodman_flat
 from .frozen import Frozen
 from .growth import Panel
 from .march import NEGLECT, March, Touch, first_touch, refuse_turning
-from .pressed import Grown, Pressed, about
+from .pressed import Grown, Pressed
+from .state import HalfSlope
 
 WIDER = 1.0 + 64.0 * EPS  # than the frictionless contact: as far as P' is sought at first
 MORE = 1.1  # where a load asks for more
@@ -32,7 +33,6 @@ MOST_KINKS = 8  # of the profile within the contact: each cuts a state at up to 
 NARROWEST_STICK = 1e-9  # of the contact
 RESOLVED = 3e-12  # of P: what a state may miss
 STEEPEST = 1.5  # β f: exponents at the ends of slip zones are then 0.19 and 0.81
-LOOKS = 64  # places at which a slope is looked at
 
 
 @reported("contact of dissimilar bodies")
@@ -44,32 +44,25 @@ def coupled_contact(scene: Scene, frictionless: Callable[[Scene], Normal]) -> Pr
     punch = goodman_flat if scene.neglects_beta else flat_punch
     flat = punch(abs(scene.beta), scene.friction)
     _refuse_friction(flat, scene)
-    bound = frictionless(_without_friction(scene))
+    P, b, G = scene.normal_load, scene.half_width, 0.5 * scene.Estar
+    plain = Scene(profile=scene.profile, modulus=scene.Estar, normal_load=P, half_width=b)
+    bound = frictionless(plain)
     contact, slope = bound.edges.contact, bound.slope(scene.profile)
-    if _flat(slope, contact):
-        assert scene.normal_load is not None
-        return Pressed(flat, scene.normal_load, scene.friction, contact.r, contact.m)
-    march, s, P = _grown(scene, flat, slope, contact)
-    frozen, events = Frozen(flat, tuple(march.panels)), (march.base, *march.kinks)
-    origin, m = march.panels[0].middle, frozen.middle(s)
-    half = about(origin, slope, 0.5 * scene.Estar, Interval(m - s, m + s))
-    grown = Grown(flat, P, scene.friction, s, origin, frozen, events, half)
-    _refuse_unresolved(grown)
-    return grown
-
-
-def _grown(
-    scene: Scene, flat: FlatPunch, slope: Slope, contact: Interval
-) -> tuple[March, float, float]:
-    """The growth up to the load or the half-width of a scene, and both."""
     touch = first_touch(slope, contact.r)
+    if touch.lo <= contact.x1 and contact.x2 <= touch.hi:
+        assert P is not None
+        return Pressed(flat, P, scene.friction, contact.r, contact.m)
     _refuse_many_kinks(slope, contact, touch)
-    law, P = scene.profile.power_law, scene.normal_load
-    exponent = law.exponent if law is not None else 0.0
-    march = March(flat, slope, 0.5 * scene.Estar, touch, exponent)
+    law = scene.profile.power_law
+    march = March(flat, slope, G, touch, law.exponent if law is not None else 0.0)
     # without β q the contact is that without friction
     s, load = _marched(march, None if flat.approximate else P, contact.r)
-    return march, s, load if P is None else P
+    frozen, events = Frozen(flat, tuple(march.panels)), (march.base, *march.kinks)
+    origin, load = march.panels[0].middle, load if P is None else P
+    H1 = HalfSlope(slope.shifted(-origin) if origin else slope, G, frozen.window(s))
+    grown = Grown(flat, load, scene.friction, s, origin, frozen, events, H1)
+    _refuse_unresolved(grown)
+    return grown
 
 
 def _refuse_friction(flat: FlatPunch, scene: Scene) -> None:
@@ -98,14 +91,6 @@ def _refuse_unresolved(state: Grown) -> None:
             "of P alone, as where it hardly spreads beyond a flat base: raise the load, or "
             f"{NEGLECT}"
         )
-
-
-def _flat(slope: Slope, contact: Interval) -> bool:
-    """Whether h' = 0 in the contact."""
-    if slope.functions:
-        return not slope(np.linspace(*contact[:2], LOOKS + 2)[1:-1]).any()
-    inside = (slope.breaks[1:] > contact.x1) & (slope.breaks[:-1] < contact.x2)
-    return bool(slope.is_zero[inside].all())
 
 
 def _refuse_many_kinks(slope: Slope, contact: Interval, touch: Touch) -> None:
@@ -162,9 +147,3 @@ def _at_corner(march: March) -> str:
         "stick zone between dissimilar bodies moves then is not solved; lower the load, round the "
         f"corner, {NEGLECT}"
     )
-
-
-def _without_friction(scene: Scene) -> Scene:
-    """The scene whose contact bounds the search."""
-    P, b = scene.normal_load, scene.half_width
-    return Scene(profile=scene.profile, modulus=scene.Estar, normal_load=P, half_width=b)

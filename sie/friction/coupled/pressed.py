@@ -29,13 +29,10 @@ from .state import HalfSlope, Question
 from .step import Loaded
 
 if TYPE_CHECKING:
-    from sie.profiles.slope import Slope
-
     from .flat import FlatPunch
 
 Array = NDArray[np.float64]
 
-WINDOW = 1.3  # half-widths from the middle: what no contact under Q leaves
 LIGHTER = 0.9  # of the growth beyond the flat base: what sticks then sticks already
 PARTS: Array = np.linspace(0.0625, 0.9375, 8)  # of a slip zone, at which slip is tested
 ENERGY = 2e-8  # of the energy of pressing, what its sums differ by
@@ -218,9 +215,3 @@ class Grown(Pressed):
                 "the energy of pressing is known to less than 1e-6: smooth the profile"
             )
         return sum(part for part in parts if part)
-
-
-def about(origin: float, slope: Slope, half_modulus: float, contact: Interval) -> HalfSlope:
-    """H1 about an origin, and the window of a contact under Q."""
-    m, r = contact.m - origin, WINDOW * contact.r
-    return HalfSlope(slope.shifted(-origin) if origin else slope, half_modulus, (m - r, m + r))
