@@ -17,7 +17,7 @@ LINES = {
     "cracks": 760,
     "wear": 470,
     "cauchy": 2170,
-    "certificate": 1460,
+    "certificate": 1470,
     "cli": 770,
     "contact": 2390,
     "examples": 10,
