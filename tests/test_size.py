@@ -17,7 +17,7 @@ LINES = {
     "cracks": 760,
     "wear": 470,
     "cauchy": 1860,
-    "certificate": 1390,
+    "certificate": 1400,
     "cli": 770,
     "contact": 2370,
     "examples": 10,

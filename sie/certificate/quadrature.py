@@ -29,8 +29,9 @@ FEW_BREAKS = 40
 # Panels need no grading to an edge, but the residual is wanted near it.
 TOWARDS_EDGE = np.array([0.0625, 0.125, 0.1875])
 # What the last panel of a graded rule leaves is rounding with LEVELS for the logarithm under a
-# corner of the profile, and with fewer levels for the root at the end of a stick zone.
-LEVELS, ROOT_LEVELS = 22, 14
+# corner of the profile, and with fewer levels for the root at the end of a stick zone, and for the
+# x ln|x| under a corner of the slope.
+LEVELS, ROOT_LEVELS, KINK_LEVELS = 22, 14, 9
 # Part of the distance from the next break: a resolution halves its pieces towards a break, and
 # shorter pieces resolve another feature.
 CLOSING_IN = 0.1
@@ -138,20 +139,23 @@ def _panels(contact: Interval, slope: Slope, also: Array, breaks: Array) -> Arra
     if slope.functions and len(breaks) > FEW_BREAKS:
         towards = np.union1d(inner(contact, slope.breaks), also)
     ends = np.concatenate(([0.0], angles(contact, towards), [np.pi]))
-    length, every = np.diff(ends), angles(contact, breaks)
+    length, resolved = np.diff(ends), angles(contact, breaks)
     least = PARTS if len(towards) <= FEW_BREAKS else 1
     parts = np.ceil(length / LONGEST).clip(min=least).astype(int)
     # The number of each part within its piece.
     number = np.arange(parts.sum()) - np.repeat(parts.cumsum() - parts, parts)
     cuts = [ends, np.repeat(ends[:-1], parts) + np.repeat(length / parts, parts) * number]
     cuts += [length[0] * TOWARDS_EDGE, np.pi - length[-1] * TOWARDS_EDGE]
-    cuts += [every[_shorter_than_graded(every, ends)]]
+    cuts += [resolved[_shorter_than_graded(resolved, ends)]]
     levels = _levels(slope, contact, towards, also)[::-1]
     for level in range(1, int(levels.max(initial=0)) + 1):
         at = np.flatnonzero(levels >= level)
         share, cut = GRADING**level, ends[1:-1][at]
         cuts += [cut - share * length[at], cut + share * length[at + 1]]
-    return balanced(np.unique(np.concatenate(cuts)))
+    every = np.unique(np.concatenate(cuts))
+    # Parts and gradings meet in places that are the same but for rounding
+    apart = np.append(True, np.diff(every) > 4.0 * np.spacing(every[1:]))
+    return balanced(every[apart | np.isin(every, ends)])
 
 
 def _shorter_than_graded(cut: Array, ends: Array) -> NDArray[np.bool_]:
@@ -181,7 +185,8 @@ def _levels(slope: Slope, contact: Interval, towards: Array, also: Array) -> NDA
     levels = np.where(np.isin(towards, also), ROOT_LEVELS, 0)
     found = np.ceil(np.log(np.maximum(size.max(axis=1), 1.0)) / -np.log(GRADING))
     known = np.searchsorted(towards, b)
-    levels[known] = np.maximum(levels[known], found.clip(0, LEVELS).astype(int))
+    most = np.where(slope.steps[inside] != 0.0, LEVELS, KINK_LEVELS)
+    levels[known] = np.maximum(levels[known], np.minimum(found, most).astype(int))
     return levels
 
 
