@@ -21,7 +21,7 @@ LINES = {
     "cli": 800,
     "contact": 2390,
     "examples": 10,
-    "friction": 9940,
+    "friction": 9930,
     "inverse": 310,
     "io": 4770,
     "live": 1140,
