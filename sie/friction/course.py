@@ -20,7 +20,7 @@ from .cells import zones_on_cells
 from .equations import Equations
 from .finite_step import Part, balanced, newton, on_earlier_zones, solved
 from .loading import LoadStep
-from .onset import End, Motion, Onset, onset, set_out
+from .onset import End, Motion, Onset, onset
 from .state import EXCEEDED, TURNS, Contact, State, Zones
 from .strip_part import strip_part, with_receding_ends
 
@@ -190,9 +190,7 @@ def _tested(state: State, step: LoadStep, begun: float, shares: Array) -> list[V
 
     Where an end advances at the last one and at the first one, that at the first is enough.
     """
-    last = _continued(
-        state, step, float(shares[-1]), _as_they_set_out(state, step, float(shares[-1] - begun))
-    )
+    last = _continued(state, step, float(shares[-1]), None)
     if last.why:
         for share in shares[[0, len(shares) // 2]].tolist():
             early = _continued(state, step, share, last.equations.zones if last.equations else None)
@@ -216,16 +214,6 @@ def _continued(state: State, step: LoadStep, share: float, guess: Zones | None) 
     if verdict.why and verdict.why != ADVANCES and guess is not None:
         verdict = _verdict(state, step, share, None)
     return verdict
-
-
-def _as_they_set_out(state: State, step: LoadStep, length: float) -> Zones | None:
-    """The zones after a part so short that no cell shows it; None after a longer one."""
-    zones = onset(state, step.rates, step.friction)
-    moved = length * set_out(state, zones, step.rates, step.friction)
-    ends = np.array(zones.stick).ravel() + moved
-    if zones.sticks_anew or not 0.0 < np.abs(moved).max() <= SEEN * state.contact.width:
-        return None
-    return Zones(tuple((float(a), float(b)) for a, b in ends.reshape(-1, 2)), zones.signs.signs)
 
 
 def _verdict(state: State, step: LoadStep, share: float, guess: Zones | None) -> Verdict:
