@@ -41,7 +41,6 @@ from .window import FITTED, MOST_GROWN, Window, window_of
 
 # Tests of a function between the points that resolved it, each with the breaks that the last added.
 LOOKS = 4
-NEAR = 0.25  # of P times the half-width: a contact under so nearly the moment is a first guess
 
 
 def normal_contact(

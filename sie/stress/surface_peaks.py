@@ -62,7 +62,7 @@ def on_surface(tractions: Tractions, measure: Measure, mesh: Mesh, values: Array
         return [
             Maximum(float(v), float(at), 0.0) for v, at in zip(value, x, strict=True) if np.isinf(v)
         ]
-    floor = best - (1.0 - WORTH) * max(abs(best), abs(value).max())
+    floor = best - (1.0 - WORTH) * float(np.abs(value[np.isfinite(value)]).max())
     top = np.flatnonzero((value >= padded[:-2]) & (value >= padded[2:]) & (value >= floor))
     columns = top
     # Between columns a concave top exceeds the middle value by no more than the fall to a neighbour

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 import strategies
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 from scenes import solved
 
@@ -147,7 +147,17 @@ def test_bulk_stress_adds_to_the_tension_and_is_all_there_is_without_friction():
     assert punch(0.3, bulk_stress=0.5).peak_tension().value == pytest.approx(0.5, rel=1e-12)
 
 
+KINKS = sie.Piecewise(  # two columns of the search side by side are -inf
+    (-np.inf, -0.15234375, 0.21875, 0.58203125, 1.45703125, 1.9375, 2.37890625, np.inf),
+    ((0.29217529296875, 2.328125), (-0.0625, 0.0), (-0.0625, 0.0), (-0.0625, 0.0),
+     (-1.2064971923828125, 0.78515625), (-8.782424926757812, 4.6953125),
+     (-0.5677642822265625, 1.2421875)),
+)  # fmt: skip
+ROUGH = KINKS.mirrored() + sie.Power(1.5, 1.0000002302585358).shifted(0.109375)
+
+
 @given(strategies.scenes(sharp=False), st.floats(0.05, 0.6))
+@example(sie.Scene(profile=ROUGH, modulus=1.0, normal_load=1.0), 0.1463934967311738)
 def test_no_point_of_the_surface_has_more_tension(scene, friction):
     solution = sie.solve(scene)
     solution = solution.with_(friction=friction, tangential_load=friction * solution.normal_load)
