@@ -31,7 +31,7 @@ LINES = {
     "paths": 1150,
     "plots": 940,
     "problem": 890,
-    "profiles": 5120,
+    "profiles": 5110,
     "sensitivity": 1230,
     "stress": 2180,
     "sweeps": 700,

@@ -240,12 +240,6 @@ class Sampled(SplineProfile):
         return float(np.sqrt(np.mean((self.heights - self.height(self.points)) ** 2)))
 
     @property
-    def averaged(self) -> float:
-        """Over how many points the spline averages: (λ/Δ³)^(1/4), Δ their mean distance."""
-        x = self.points
-        return float((self.lam * ((len(x) - 1) / np.ptp(x)) ** 3) ** 0.25)
-
-    @property
     def gaps(self) -> tuple[fitting.Gap, ...]:
         """Steps of x much longer than the others, (lo, hi, missing): the spline bridges them."""
         return fitting.gaps(self.points)
