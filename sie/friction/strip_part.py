@@ -29,7 +29,7 @@ from .finite_step import Part
 from .loading import LoadStep
 from .onset import End, Motion, Onset, resting_place, set_out
 from .rates import Rates
-from .state import TURNS, State, overlaps, refuse_inadmissible
+from .state import EXCEEDED, TURNS, State, excess_in_stick, overlaps, refuse_inadmissible
 from .strips import MOMENTS, Panel, Span, at_share, guessed, in_time, solved_panel
 
 Array = NDArray[np.float64]
@@ -330,6 +330,8 @@ def _ended(panel: Panel, event: Event | None, longest: float = 1.0) -> Part:
     opened = event.opened if event is not None else None
     equations = last.equations[-1]
     state = equations.state
+    if excess_in_stick(state) > EXCEEDED:
+        raise ContactError("|q| exceeds f p in stick where a part ends")
     if event is not None and event.arrives:
         state = _stuck_through(state, float(ends[event.j]))
         what_next |= _growing(state, panel.rates[-1])
