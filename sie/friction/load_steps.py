@@ -10,6 +10,7 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from functools import partial
+from itertools import pairwise
 from typing import Any, Protocol, TypeVar
 
 from sie.errors import ContactError
@@ -25,7 +26,7 @@ from .loading import Contacts, Loads, LoadStep, contact_under
 from .memory import LoadMemory, SlippedLayer, in_proportion, simple
 from .onset import Motion, onset
 from .slip_state import Slip
-from .state import State
+from .state import State, alike
 
 Result = TypeVar("Result")
 
@@ -107,7 +108,8 @@ def turning_points(scene: Scene, path: Path, contacts: Followable) -> tuple[Turn
 
     Raises ContactError, with the step, where one is not covered.
     """
-    f, found = scene.friction, []
+    f = scene.friction
+    found: list[TurningPoint] = []
     points = loads_of(path)
     for k, loads in enumerate(points):
         if f == 0.0 and loads.Q != 0.0:
@@ -119,9 +121,19 @@ def turning_points(scene: Scene, path: Path, contacts: Followable) -> tuple[Turn
             named(k, loads, partial(refuse_sliding, f, loads.P, loads.Q))
     state = TurningPoint(points[0]._replace(Q=0.0, sigma=0.0))
     for k, loads in counted("load path", enumerate(points), len(points)):
-        state = named(k, loads, partial(stepped, contacts, state, loads))
+        again = _again(found, loads)
+        state = again or named(k, loads, partial(stepped, contacts, state, loads))
         found.append(state)
     return tuple(found)
+
+
+def _again(found: list[TurningPoint], loads: Loads) -> TurningPoint | None:
+    """The point after an earlier step between the same loads, if q was then what it is now."""
+    for before, after in pairwise(found):
+        same = (before.loads, after.loads) == (found[-1].loads, loads)
+        if same and before.parts and after.parts and alike(before.state, found[-1].state):
+            return after
+    return None
 
 
 def loads_of(path: Path) -> list[Loads]:

@@ -19,6 +19,7 @@ Ends = tuple[tuple[float, float], ...]
 Slips = tuple[tuple[float, float, float], ...]
 
 SAME = 1e-11  # of the contact: marks that are closer are one
+ALIKE = 1e-12  # of f P: shears that differ by less are one
 KNOWN = 1e-10  # of the contact: next to marks q is known from there on
 EXCEEDED = 1e-8  # of the largest f p: by so much |q| may exceed f p
 OPPOSING = 1e-10  # of the largest slip: by so much it may oppose its direction
@@ -118,6 +119,15 @@ def overlaps(first: Ends, second: Ends) -> Ends:
     """The zones that lie in one zone of each of two sets."""
     pairs = ((max(a, c), min(b, d)) for a, b in first for c, d in second)
     return tuple((lo, hi) for lo, hi in pairs if lo < hi)
+
+
+def alike(one: State, other: State) -> bool:
+    """Whether two states of one contact have the same shear."""
+    contact = one.contact
+    marks = np.unique(np.concatenate((one.marks, other.marks)))
+    rule = Rule.graded(intervals(contact.patches, marks, SAME * contact.width), OF_SERIES)
+    apart = float(rule.weight @ np.abs(one.shear.on(rule) - other.shear.on(rule)))
+    return apart <= ALIKE * float(rule.weight @ contact.limit.on(rule))
 
 
 # -- whether a state is the answer -----------------------------------------------------------------

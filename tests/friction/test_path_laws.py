@@ -166,6 +166,20 @@ def test_loads_in_phase_that_close_a_loop_come_back_to_the_state_before_it():
     assert_alike(history[5], history[1])
 
 
+def test_a_cycle_that_has_become_steady_repeats():
+    scene, high, low = body(sie.Parabola(1.0), 0.4), (1.2, 0.2, 0.1), (0.8, -0.1, -0.05)
+    middle = tuple(0.5 * (a + b) for a, b in zip(high, low, strict=True))
+    repeated = sie.follow(scene, sie.Path([high, low] * 4))
+    anew = sie.follow(scene, sie.Path([*[high, low] * 3, high, middle, low]))
+    first, second, last = (repeated[k].shear(inside(repeated[k], 41)) for k in (0, 2, 6))
+    assert np.abs(second - first).max() > 1e-3
+    assert second == pytest.approx(last, abs=0.0)
+    assert_alike(anew[-1], repeated[7])
+    assert repeated.energy(7) - repeated.energy(5) == pytest.approx(
+        anew.energy(8) - anew.energy(5), rel=1e-7
+    )
+
+
 def assert_alike(state, other):
     x = inside(state, 41)
     assert state.check() and other.check()
