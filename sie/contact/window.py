@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from sie.numerics.interval import Interval
-from sie.problem.scene import Scene
 from sie.profiles.slope import Slope
+
+if TYPE_CHECKING:
+    from sie.problem.scene import Scene
 
 # A window is refitted while it is longer than the contact by more than this factor ...
 WINDOW = 1.6

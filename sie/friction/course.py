@@ -20,7 +20,7 @@ from .cells import zones_on_cells
 from .equations import Equations
 from .finite_step import Part, balanced, newton, on_earlier_zones, solved
 from .loading import LoadStep
-from .onset import End, Motion, Onset, onset
+from .onset import End, Motion, Onset, onset, set_out
 from .state import EXCEEDED, TURNS, Contact, State, Zones
 from .strip_part import strip_part, with_receding_ends
 
@@ -30,10 +30,11 @@ ADVANCES, TURNED = "an end of a stick zone advances", "slip turns"
 EXCESS = "|q| exceeds f p in stick"
 STUCK = 1e-11  # of the loads: by so much equations may be missed where all sticks
 SHARES = (np.arange(1, 9) / 8.0) ** 1.5  # of a part at which it is tested
-SCALES = (1.0, 1e-2, 1e-4)  # of all of them, one after the other where they fail
+SCALES = (1.0, 1e-2, 1e-3, 1e-4, 4e-6)  # of all of them, one after the other where they fail
 SEEN = 1e-2  # of the contact: ends that move less are not seen well on cells
 STOPS = -1e-7  # of the largest K: an end that recedes so little goes on
-MOST_PARTS, MOST_MOMENTS = 40, 900  # of a step, the latter times the stick zones: some 15 seconds
+MOST_PARTS, SHORT, MOST_SHORT = 30, 1e-4, 5  # of a step; of them so short ones of it
+MOST_MOMENTS = 400  # of a step at which states are asked for: some 20 seconds
 FINE = 1e-2  # of a part: so well it is known where it ends, if by no event
 STILL, STOPPED = 1e-13, 1e-8  # of the largest K
 
@@ -45,13 +46,12 @@ def course(before: State, step: LoadStep) -> tuple[Part, ...]:
     while done < 1.0:
         with np.errstate(all="ignore"):  # what that leaves is not admissible
             part = _next_part(state, step, done, parts[-1] if parts else None)
-        if parts:
-            part = replace(part, state=part.state.smoothed(parts[-1].smooth))
         parts.append(part)
         state, done = part.state, part.until
-        tried = len(step.known) * max(len(state.stick), 1)
-        if done < 1.0 and (tried > MOST_MOMENTS or len(parts) == MOST_PARTS):
-            raise _lost(done, f"{len(parts)} parts, {len(step.known)} moments")
+        short = sum(part.until - part.begun < SHORT for part in parts)
+        tried = len(step.known) > MOST_MOMENTS and done < 1.0
+        if len(parts) > MOST_PARTS or short > MOST_SHORT or tried:
+            raise _lost(done, f"{len(parts)} parts, {short} of them short")
     return tuple(parts)
 
 
@@ -64,14 +64,23 @@ def _next_part(state: State, step: LoadStep, begun: float, last: Part | None) ->
     zones = onset(state, step.rates, step.friction, known)
     if opened:
         zones = zones.split(*opened)
-    zones = with_receding_ends(state, step, begun, zones, last)
-    problems, first = [], begun == 0.0 and not zones.sticks_anew
-    for finite in (first, not first):
+    receding = with_receding_ends(state, step, begun, zones, last)
+    likely = receding if len(zones.zones) > len(state.stick) > 0 else zones
+    left_behind = [  # slip that begins at an edge may be left behind by it
+        zones.moved(j, replace(end, motion=Motion.ADVANCES))
+        for j, end in enumerate(zones.ends)
+        if end.motion is Motion.RECEDES and end.place in np.ravel(state.contact.patches)
+    ]
+    finite_first = begun == 0.0 and not likely.sticks_anew
+    tried = [None, likely] if finite_first else [likely, None]  # None: a finite step
+    others = [now for now in (zones, receding) if now != likely]
+    problems = []
+    for now in [*tried, *others, *left_behind]:
         try:
-            if finite:
-                return _without_what_slipped(finite_part(state, step, begun), zones)
-            if zones.sticks_anew:
-                return strip_part(state, step, begun, zones, last)
+            if now is None:
+                return _without_what_slipped(finite_part(state, step, begun), likely)
+            if now.sticks_anew:
+                return strip_part(state, step, begun, now, last)
         except ContactError as problem:
             problems.append(str(problem))
     raise _lost(begun, "; ".join(problems))
@@ -190,7 +199,9 @@ def _tested(state: State, step: LoadStep, begun: float, shares: Array) -> list[V
 
     Where an end advances at the last one and at the first one, that at the first is enough.
     """
-    last = _continued(state, step, float(shares[-1]), None)
+    last = _continued(
+        state, step, float(shares[-1]), _as_they_set_out(state, step, float(shares[-1] - begun))
+    )
     if last.why:
         for share in shares[[0, len(shares) // 2]].tolist():
             early = _continued(state, step, share, last.equations.zones if last.equations else None)
@@ -214,6 +225,16 @@ def _continued(state: State, step: LoadStep, share: float, guess: Zones | None) 
     if verdict.why and verdict.why != ADVANCES and guess is not None:
         verdict = _verdict(state, step, share, None)
     return verdict
+
+
+def _as_they_set_out(state: State, step: LoadStep, length: float) -> Zones | None:
+    """The zones after a part so short that no cell shows it; None after a longer one."""
+    zones = onset(state, step.rates, step.friction)
+    moved = length * set_out(state, zones, step.rates, step.friction)
+    ends = np.array(zones.stick).ravel() + moved
+    if zones.sticks_anew or not 0.0 < np.abs(moved).max() <= SEEN * state.contact.width:
+        return None
+    return Zones(tuple((float(a), float(b)) for a, b in ends.reshape(-1, 2)), zones.signs.signs)
 
 
 def _verdict(state: State, step: LoadStep, share: float, guess: Zones | None) -> Verdict:

@@ -177,13 +177,12 @@ class Equations(Potential):
 
     @cached_property
     def state(self) -> State:
-        """The state that solved equations leave; slip no longer than `SAME` is none."""
+        """The state that solved equations leave."""
         before, after = self.before, self.after
         same = SAME * after.width
-        slip = tuple(zone for zone in self.slip if zone[1] - zone[0] > same)
         marks = np.unique(np.concatenate((before.marks, after.limit.marks, self.begins)))
         parts, values = [], []
-        for lo, hi, s in slip:
+        for lo, hi, s in self.slip:
             parts.append(Pieces.places(intervals([(lo, hi)], after.limit.marks, same)))
             values.append(s * after.limit.on(parts[-1]))
         for k, zone in enumerate(self.zones.stick):
@@ -195,5 +194,4 @@ class Equations(Potential):
             values.append(np.minimum(np.maximum(q, -limit), limit))
         ends = np.concatenate([part.ends for part in parts])
         order, series = np.argsort(ends[:, 0]), Pieces.of_values(ends, np.concatenate(values))
-        stick = left_over(after.patches, tuple(zone[:2] for zone in slip), after.period)
-        return State(after, stick, slip, Pieces(ends[order], series[order]))
+        return State(after, self.zones.stick, self.slip, Pieces(ends[order], series[order]))

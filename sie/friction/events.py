@@ -22,7 +22,6 @@ Array = NDArray[np.float64]
 FINE = np.linspace(0.02, 1.0, 197)  # shares of τ at which events are looked for
 BEYOND = 1.75  # times τ: so far ahead an arrival is seen
 ARRIVED = 1e-7  # of the contact: room that is none
-RIPPLE = 2.0  # times the last coefficients: so far a series is off where it is not resolved
 AGAIN_SINCE = 0.7  # of τ: before it an event at the end of a part is not looked for again
 OPENS = 0.3  # of τ: before it slip that begins inside stick is too short for its K
 AT_THE_END = 1e-9  # of a part: an event so close to its end is there
@@ -69,11 +68,11 @@ def first_event(panel: Panel, last: Event | None, beyond: bool) -> Event | None:
 
 
 def _root(series: Array, upto: float = 1.0, since: float = 0.0) -> float | None:
-    """The first τ, or one soon after 1, where a series is below zero by more than its tail."""
+    """The first τ, or one soon after 1, at which a series is below zero."""
     shares = np.append(FINE, np.arange(1.0005, max(upto, 1.002), 5e-4))
     shares = shares[shares >= since]
     values = at_share(series, shares)
-    negative = np.flatnonzero(values < -RIPPLE * np.abs(series[-3:]).max())
+    negative = np.flatnonzero(values < 0.0)
     if not negative.size:
         return None
     positive = np.flatnonzero(values[: negative[0]] >= 0.0)

@@ -53,7 +53,6 @@ class Part:
     known          what ends of stick zones do next, by their places, where an event decided it
     opened         place and direction of slip that begins in stick
     longest        the next part may be so long, of the step
-    smooth         ends of stick zones that go on as if it did not end
     """
 
     equations: Equations
@@ -64,7 +63,6 @@ class Part:
     known: Mapping[float, End] = field(default_factory=dict)
     opened: tuple[float, float] | None = None
     longest: float = 1.0
-    smooth: tuple[float, ...] = ()
 
     @property
     def before(self) -> State:

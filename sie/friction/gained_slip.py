@@ -12,7 +12,6 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,10 +21,7 @@ from sie.numerics.graded_panels import OF_SERIES, Pieces, Rule
 from sie.numerics.zones import united
 
 from .potentials import Potential
-from .state import SAME, Contact, intervals
-
-if TYPE_CHECKING:
-    from .finite_step import Part
+from .state import SAME, Contact, Ends, State, intervals
 
 Array = NDArray[np.float64]
 
@@ -123,24 +119,18 @@ class GainedSlip:
         return total
 
 
-def drag(part: Part) -> float:
+def drag(before: State, after: State, stuck: Ends) -> float:
     """π E*/2 times the shift of the indenter, but for a multiple of ΔQ that is always the same.
 
-    It is -∫Δq ln|x_s - t| dt + π Δτ x_s, x_s a place that stuck all along.
+    It is -∫Δq ln|x_s - t| dt + π Δτ x_s, x_s in the longest of the zones that stuck all along.
     """
-    before, after = part.before, part.state
     old, new = before.contact, after.contact
-    x_s = _stuck_all_along(part)
+    if not stuck:
+        raise ContactError("no point stuck all along: how far slip shifts is not covered")
+    lo, hi = max(stuck, key=lambda zone: zone[1] - zone[0])
+    x_s = 0.5 * (lo + hi)
     marks = np.unique(np.concatenate((before.marks, after.marks, [x_s])))
     rule = Rule.graded(intervals(united((*old.patches, *new.patches)), marks, SAME * new.width))
     change = rule.weight * (after.shear.on(rule) - before.shear.on(rule))
     log = np.log(np.abs(rule.apart_from(x_s)))
     return float(-(change @ log) + math.pi * (new.tau - old.tau) * x_s)
-
-
-def _stuck_all_along(part: Part) -> float:
-    """The middle of the longest zone that stuck all along."""
-    if not part.stuck:
-        raise ContactError("no point stuck all along: how far slip shifts is not covered")
-    lo, hi = max(part.stuck, key=lambda zone: zone[1] - zone[0])
-    return 0.5 * (lo + hi)

@@ -243,5 +243,5 @@ def _shift_of_parts(history: Followable, point: TurningPoint) -> float:
         rates = step.rates
         moved = 0.5 * math.pi * rates.tau * (x1 + x2) - rates.Q * math.log(0.25 * (x2 - x1))
         stuck_shift += float(w) * moved
-    whole = sum(drag(part) for part in point.parts)
+    whole = sum(drag(part.before, part.state, part.stuck) for part in point.parts)
     return (whole - stuck_shift) / (0.5 * math.pi * history.scene.Estar)

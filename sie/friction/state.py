@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
@@ -88,20 +88,6 @@ class State:
         """The state before anything was sheared: all sticks."""
         ends = intervals(contact.patches, contact.limit.marks, SAME * contact.width)
         return cls(contact, contact.patches, (), Pieces.fitted(ends, lambda rule: 0.0 * rule.lo))
-
-    def smoothed(self, places: Iterable[float]) -> State:
-        """The same without marks at places inside stick zones, next to which q is smooth."""
-        ends, series, room = self.shear.ends, self.shear.series, SAME * self.contact.width
-        for x in places:
-            k = int(np.abs(ends[:-1, 1] - x).argmin()) if len(ends) > 1 else 0
-            apart = np.abs([ends[k, 1] - x, ends[min(k + 1, len(ends) - 1), 0] - x])
-            if apart.max() <= room and any(lo + room < x < hi - room for lo, hi in self.stick):
-                whole = Pieces.fitted(
-                    np.array([[ends[k, 0], ends[k + 1, 1]]]), lambda rule: self.shear(rule.x)
-                )
-                ends = np.concatenate((ends[:k], whole.ends, ends[k + 2 :]))
-                series = np.concatenate((series[:k], whole.series, series[k + 2 :]))
-        return replace(self, shear=Pieces(ends, series))
 
 
 def intervals(zones: Iterable[tuple[float, float]], marks: Array, same: float) -> Array:

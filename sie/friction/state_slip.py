@@ -133,7 +133,8 @@ class TwoSignedSlip(StateSlip):
     def shift(self) -> float:
         contact, step = self.contact, self.step
         stuck = math.pi * step.tau * contact.m - step.Q * math.log(0.5 * contact.r)
-        return (drag(self.part) - stuck) / (0.5 * math.pi * step.scene.Estar)
+        dragged = drag(self.part.before, self.part.state, self.part.stuck)
+        return (dragged - stuck) / (0.5 * math.pi * step.scene.Estar)
 
 
 def two_signed(step: Step) -> TwoSignedSlip:

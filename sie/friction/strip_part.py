@@ -17,34 +17,27 @@ from sie.errors import ContactError
 from sie.numerics.zones import left_over
 
 from .cells import zones_on_cells
-from .events import (
-    AT_THE_END,
-    UNRESOLVED,
-    Event,
-    first_event,
-    is_there,
-    margin_at,
-)
+from .events import AT_THE_END, UNRESOLVED, Event, first_event, is_there, margin_at
 from .finite_step import Part
 from .loading import LoadStep
 from .onset import End, Motion, Onset, resting_place, set_out
 from .rates import Rates
 from .state import EXCEEDED, TURNS, State, excess_in_stick, overlaps, refuse_inadmissible
-from .strips import MOMENTS, Panel, Span, at_share, guessed, in_time, solved_panel
+from .strips import MOMENTS, Panel, Span, at_share, in_time, solved_panel
 
 Array = NDArray[np.float64]
 
 LEAPS = 4.0 ** np.arange(-10, -3)  # of a part: so much longer it is after a leap
 JUST_BEYOND = (1e-3, 1e-6)  # of a leap: so far an end is beyond it, at a guess
 RELEASED = 1e-6  # of the largest f p: |q| so close to f p has reached it
-SHORTER, FEW = 1.0 / 3.0, 4  # of a part that is not solved; after so many the cube of it
+SHORTER = 1.0 / 3.0  # of a part that is not solved
 SHORTEST = 1e-9  # of a step: a part
 NEARLY = 0.9999  # of τ: an event before it shortens the part
 ON_MARK = 3e-9  # of the contact: an end that recedes and is so close to a mark is on it
 SOON = 1e-5  # of a step: in a part so short an advancing end meets nothing
 SMALL = 1e-2  # of the room: an end advances so far, at a guess
 APPROACH = 0.8  # of what is left to an event that a part cannot end at
-LONGER = 2.0  # times a part, where a longer one was not solved: the next
+LONGER = 5.0  # times a part, where a longer one was not solved: the next
 LEAP = 10.0  # times as far as the event is seen: so far the length of a part is corrected
 BEFORE_IT = 0.95  # of the way to a mark: so far the next part goes
 AGAIN = 16  # times a part is solved to end at its event
@@ -61,20 +54,20 @@ def strip_part(
     last: the part before, which says how long this one may be, and by which ends are guessed first
     """
     rest, most = 1.0 - begun, last.longest if last else 1.0
-    length, failed, guess = rest if rest < most + SHORTEST else most, 2.0, None
+    length, failed, guess = min(rest, most), 2.0, None
     aims: list[tuple[float, float, tuple[int, float | None]]] = []
     event: Event | None = None
     shorter: Panel | None = None  # one that is solved, before an event that was seen ahead of it
     ahead = np.inf  # from its end to that event
-    for number in range(AGAIN):
+    for _ in range(AGAIN):
         span = Span(state, step, zones, begun, length)
         panel, event, good = _tried(span, guess, last, (event, length < failed))
         if not good and shorter is not None:
             longest = min(APPROACH * ahead, LONGER * shorter.span.length)
             return _ended(shorter, None, longest)
         if panel is None or not good:
-            failed, guess = length, panel
-            length *= SHORTER if number < FEW else SHORTER**3
+            failed, length = length, SHORTER * length
+            guess = None if panel is None else _places(panel, SHORTER**0.5)
             if length < SHORTEST:
                 break
             continue
@@ -89,10 +82,11 @@ def strip_part(
         if event.share > 1.0:
             shorter, ahead = panel, event.ahead(length)
         aims.append((length, length * event.share**2, (event.j, event.place)))
-        length, guess = min(_aimed(aims, shorter.span.length if shorter else 0.0), rest), panel
+        before, length = length, min(_aimed(aims, shorter.span.length if shorter else 0.0), rest)
         if shorter is not None and length >= NEARLY * failed:  # that was tried
             longest = min(APPROACH * ahead, LONGER * shorter.span.length)
             return past_leap(shorter, event, rest) or _ended(shorter, None, longest)
+        guess = _places(panel, (length / before) ** 0.5)
     raise ContactError("what sticks anew is not found in a part however short")
 
 
@@ -117,7 +111,7 @@ def with_receding_ends(
 
 
 def _tried(
-    span: Span, guess: Panel | None, last: Part | None, sought: tuple[Event | None, bool]
+    span: Span, guess: Array | None, last: Part | None, sought: tuple[Event | None, bool]
 ) -> tuple[Panel | None, Event | None, bool]:
     """A part of a length, its first event, and whether it is good up to that or to its end."""
     panel = None
@@ -155,15 +149,15 @@ def _aimed(aims: list[tuple[float, float, tuple[int, float | None]]], known: flo
 # -- guesses and interpolation -------------------------------------------------------------------
 
 
-def _solved(span: Span, guess: Panel | None, earlier: Panel | None) -> Panel:
-    """The part from another length; else by the speeds that ends have had, then by cells."""
+def _solved(span: Span, guess: Array | None, earlier: Panel | None) -> Panel:
+    """The part from a guess; without one by the speeds that ends have had, then by cells."""
     if guess is not None:
-        return solved_panel(guess.lasting(span))
+        return solved_panel(span, guess)
     if earlier is not None:
         with suppress(ContactError):
-            return solved_panel(guessed(span, _ahead(earlier, span)))
+            return solved_panel(span, _ahead(earlier, span))
     opened = span.onset.opened
-    return solved_panel(guessed(span, _guess(span) if opened is None else _opened(span, opened)))
+    return solved_panel(span, _guess(span) if opened is None else _opened(span, opened))
 
 
 def _ahead(panel: Panel, span: Span) -> Array:
@@ -185,8 +179,7 @@ def _opened(span: Span, k: int) -> Array:
     Where nothing slips there |q| exceeds f p, next to a mark in an excess m - κ |x - x0|. Slip with
     both ends bounded then has the length 2 m/κ.
     """
-    whole = replace(span, onset=span.onset.without(k))
-    panel = solved_panel(guessed(whole, _guess(whole)))
+    panel = solved_panel(whole := replace(span, onset=span.onset.without(k)), _guess(whole))
     start, sense = span.start[k], span.onset.ends[k].sense
     opening = np.full((MOMENTS, 2), start)
     for i, now in enumerate(panel.equations):
@@ -239,6 +232,11 @@ def _receded(span: Span) -> Array:
     return final
 
 
+def _places(panel: Panel, share: float) -> Array:
+    """The places of the ends at a share of τ."""
+    return at_share(in_time(np.concatenate(([panel.span.start], panel.places))), share)
+
+
 # -- an end that leaps ---------------------------------------------------------------------------
 
 
@@ -269,7 +267,7 @@ def past_leap(panel: Panel, event: Event | None, longest: float) -> Part | None:
         guess = panel.places.copy()
         guess[-1, leaps] = place + beyond * (place - last[leaps])
         try:
-            found = solved_panel(guessed(replace(span, length=length), guess))
+            found = solved_panel(replace(span, length=length), guess)
             if _has_leapt(found, place):
                 state = found.equations[-1].state
                 refuse_inadmissible(span.before, state, overlaps(span.before.stick, state.stick))
@@ -336,11 +334,7 @@ def _ended(panel: Panel, event: Event | None, longest: float = 1.0) -> Part:
         state = _stuck_through(state, float(ends[event.j]))
         what_next |= _growing(state, panel.rates[-1])
     until = span.begun + span.length
-    until = 1.0 if until > 1.0 - SHORTEST else until
-    goes_on = () if event else ends[span.which(Motion.ADVANCES, Motion.GROWS)].tolist()
-    return Part(
-        equations, state, span.begun, until, panel, what_next, opened, longest, tuple(goes_on)
-    )
+    return Part(equations, state, span.begun, until, panel, what_next, opened, longest)
 
 
 def _growing(state: State, rates: Rates) -> dict[float, End]:

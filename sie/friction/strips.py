@@ -49,13 +49,11 @@ Array = NDArray[np.float64]
 MOMENTS = 12
 TAU = 0.5 * (1.0 - np.cos(np.pi * np.arange(MOMENTS + 1) / MOMENTS))
 STEPS = 25  # of Newton's method
-SETTLED, GOOD = 1e-12, 1e-10  # of the contact: the longest step of an end
-SLOW, LONG = 9, 1e-7  # after so many one that is so long, of the contact, finds nothing
+SETTLED, GOOD = 2e-14, 1e-10  # of the contact: the longest step of an end
 CLOSEST = 0.6  # of the distance to its neighbour: an end moves so far at most in a step
 NEAR = 1e-4  # of the contact: after so short a step the slopes of K are kept
 FAR, ABSURD = 0.1, 1e4  # steps of the contact, and D over f p, that show that it does not converge
 ROUNDED = 1e-4  # of f p: the smallest D of which so much is resolved
-ALIKE = 0.8, 1.02  # of the length of a part: another one from which D is guessed
 DIFFERENCE = 1e-6  # of the distance to its neighbour: the step of a difference
 
 
@@ -285,17 +283,13 @@ class Span:
 
 @dataclass(frozen=True, eq=False)
 class Panel:
-    """A part: places of the ends at its moments, (n, 2N), and c of its strips, (S, n).
-
-    slopes   derivatives of K of the advancing ends by the free ones, about
-    """
+    """A solved part: places of the ends at its moments, (n, 2N), and c of its strips, (S, n)."""
 
     span: Span
     strips: tuple[Strip, ...]
     places: Array
     series: Array
     rough: bool = False  # as of equations
-    slopes: list[Array] | None = None
 
     @cached_property
     def equations(self) -> list[StripEquations]:
@@ -317,7 +311,10 @@ class Panel:
         return [self.span.rates(i, ends) for i, ends in enumerate(self.places)]
 
     def system(self, slopes: list[Array]) -> tuple[Array, Array]:
-        """Residuals and their derivatives by the places of free ends, then by c."""
+        """Residuals and their derivatives by the places of free ends, then by c.
+
+        slopes: those of K, as of `slopes`
+        """
         span, n = self.span, MOMENTS
         E, free, adv = 2 * len(span.onset.zones), span.free, span.which(Motion.ADVANCES)
         rows, F = E + len(adv), len(free)
@@ -334,8 +331,8 @@ class Panel:
                 matrix[i * rows + E : (i + 1) * rows, own] = slopes[i]
         return right, matrix
 
-    def differences(self) -> list[Array]:
-        """The slopes by differences."""
+    def slopes(self) -> list[Array]:
+        """The derivatives of K of the advancing ends by the free ones, at each moment."""
         adv, free = self.span.which(Motion.ADVANCES), self.span.free
         found = [np.zeros((len(adv), len(free))) for _ in self.places]
         for i, ends in enumerate(self.places if adv else []):
@@ -347,15 +344,6 @@ class Panel:
                 moved = self.span.rates(i, ends + step).K.ravel()[adv]
                 found[i][:, column] = (moved - K) / step[j]
         return found
-
-    def lasting(self, span: Span) -> Panel:
-        """The same for another length, about."""
-        share = span.length / self.span.length
-        series = in_time(np.concatenate(([self.span.start], self.places)))
-        now = guessed(span, at_share(series, share**0.5 * TAU[1:]).T)
-        if ALIKE[0] < share < ALIKE[1]:
-            now = replace(now, strips=self.strips, series=self.series, slopes=self.slopes)
-        return now
 
     def moved(self, step: Array) -> tuple[Panel, float]:
         """The panel after a step of Newton's method, shortened, and the longest move of an end."""
@@ -389,29 +377,27 @@ def _share(now: StripEquations, moves: Array) -> float:
     return share
 
 
-def guessed(span: Span, guess: Array) -> Panel:
-    """A part from places of the ends at its end, (2N), or at its moments, (n, 2N); D is 0."""
+def solved_panel(span: Span, guess: Array) -> Panel:
+    """The part by Newton's method. Raises ContactError where that fails.
+
+    guess: places of the ends at its end, (2N), or at its moments, (n, 2N)
+    """
     places = span.with_edges(np.broadcast_to(guess, (MOMENTS, guess.shape[-1])))
     start, final = span.start.tolist(), places[-1].tolist()
     if guess.ndim == 1:
-        places = span.with_edges(span.start + np.outer(TAU[1:] ** 2, places[-1] - span.start))
+        places = span.start + np.outer(TAU[1:] ** 2, places[-1] - span.start)
     strips = tuple(
         Strip(j, start[j], abs(start[j] - start[j ^ 1]), abs(final[j] - start[j]))
         for j in span.which(Motion.ADVANCES, Motion.GROWS)
     )
-    return Panel(span, strips, places, np.zeros((len(strips), MOMENTS)), rough=True)
-
-
-def solved_panel(now: Panel) -> Panel:
-    """The part by Newton's method from a guess. Raises ContactError where that fails."""
-    span, slopes = now.span, now.slopes
+    now = Panel(span, strips, span.with_edges(places), np.zeros((len(strips), MOMENTS)), rough=True)
     last, width = math.inf, span.before.contact.width
     peak = max(contact.peak for contact in (span.before.contact, span.contacts[-1]))
-    for number in range(STEPS):
+    for _ in range(STEPS):
         if (now.places[:, 1::2] <= now.places[:, ::2]).any():  # a stick zone has vanished
             break
-        if slopes is None or NEAR * width < last < math.inf:
-            slopes = now.differences()
+        if last > NEAR * width:
+            slopes = now.slopes()
         right, matrix = now.system(slopes)
         if not (np.isfinite(matrix).all() and np.isfinite(right).all()):
             break
@@ -422,11 +408,10 @@ def solved_panel(now: Panel) -> Panel:
         before, (now, longest) = now.series, now.moved(step)
         change = np.abs(now.series - before).max(initial=0.0)
         size = np.abs(now.series).max(initial=0.0)
-        settled = longest <= SETTLED * width and change <= 1e-10 * size
+        settled = longest <= SETTLED * width and change <= 1e-11 * size
         if settled or (longest <= GOOD * width and longest >= 0.5 * last):
-            return replace(now, rough=False, slopes=slopes)
-        slow = number >= SLOW and longest > LONG * width
-        if size > ABSURD * peak or longest > last > FAR * width or slow:
+            return replace(now, rough=False)
+        if size > ABSURD * peak or longest > last > FAR * width:
             break
         last = longest
     raise ContactError("no places of what sticks anew balance the loads")
