@@ -21,7 +21,7 @@ LINES = {
     "cli": 770,
     "contact": 2380,
     "examples": 10,
-    "friction": 9280,
+    "friction": 9290,
     "inverse": 310,
     "io": 4590,
     "live": 1130,

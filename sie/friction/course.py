@@ -21,6 +21,7 @@ from .equations import Equations
 from .finite_step import Part, balanced, newton, on_earlier_zones, solved
 from .loading import LoadStep
 from .onset import End, Motion, Onset, onset, set_out
+from .rates import Rates
 from .state import EXCEEDED, TURNS, Contact, State, Zones
 from .strip_part import strip_part, with_receding_ends
 
@@ -270,7 +271,7 @@ def _verdict(state: State, step: LoadStep, share: float, guess: Zones | None) ->
 
 def _judged(found: Equations, step: LoadStep, share: float) -> Verdict:
     """The verdict on zones by the rates."""
-    rates = found.rates(step.rates, step.friction)
+    rates = Rates.where(found, step.rates, step.friction)
     margins = rates.signed_K.ravel() / max(np.abs(rates.K).max(), 1e-300)
     why = ""
     if not (margins >= STOPS).all():

@@ -22,7 +22,6 @@ from sie.numerics.graded_panels import OF_SERIES, Pieces, Rule, gauss_shares
 from sie.numerics.zones import left_over, united
 
 from .potentials import Potential
-from .rates import LoadRates, Rates
 from .state import KNOWN, SAME, Contact, Ends, State, Zones, intervals
 
 Array = NDArray[np.float64]
@@ -87,13 +86,6 @@ class Equations(Potential):
         if len(beside) != len(self.zones.signs):
             raise ContactError("a stick zone reaches an edge of the contact")
         return tuple((*zone, s) for zone, s in zip(beside, self.zones.signs, strict=True))
-
-    def rates(self, loads: LoadRates, friction: float) -> Rates:
-        """The rates where these are solved."""
-        patches, period = self.after.patches, self.after.period
-        return Rates.solved(
-            patches, self.zones.stick, self.slip, loads, friction=friction, period=period
-        )
 
     @property
     def begins(self) -> Array:

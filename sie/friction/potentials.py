@@ -24,7 +24,9 @@ from __future__ import annotations
 import math
 from abc import ABC, abstractmethod
 from collections.abc import Callable
+from dataclasses import dataclass
 from functools import cached_property, partial
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -272,3 +274,92 @@ class Potential(ABC):
         root = self._root(k, places)
         found: Array = root * self.psi(k, places, self.known(places, sense) / root)
         return found
+
+
+@dataclass(eq=False)
+class GainedSlip:
+    """(E*/2) Δg from a place that stuck all along, or the rate of g, of a potential.
+
+    (E*/2) dΔg/dx = Re F - B beside the stick zones, and D on strips. Beside a stick zone it is
+    fitted on panels and integrated from the end of the zone: an end that receded stuck all along,
+    one that gained a strip slipped by the integral of D before.
+    """
+
+    potential: Potential
+
+    def at(self, x: Array) -> Array:
+        total = np.zeros(x.shape)
+        for lo, hi, pieces in [*self.beside, *self.strips]:
+            inside = (x >= lo) & (x <= hi)
+            total[inside] = pieces(x[inside])
+        return total
+
+    @property
+    def slipped(self) -> list[tuple[float, float, float, Pieces]]:
+        """Δg and the direction of slip where the surface slips, or did before it stuck.
+
+        A strip behind an edge that grows and sticks never slipped.
+        """
+        slip = self.potential.slip
+        senses = {e: s for lo, hi, s in slip for e in (lo, hi)}
+        found = [(lo, hi, senses[lo], pieces) for lo, hi, pieces in self.beside]
+        for lo, hi, pieces in self.strips:
+            sense = senses.get(lo) or senses.get(hi)
+            if sense:
+                found.append((lo, hi, sense, pieces))
+        return found
+
+    @cached_property
+    def at_ends(self) -> dict[float, float]:
+        """Δg at the ends of the stick zones."""
+        found = dict.fromkeys(self.potential.stick.ravel().tolist(), 0.0)
+        for lo, hi, pieces in self.strips:
+            for e in (lo, hi):
+                if e in found:
+                    found[e] = float(pieces(np.array([e]))[0])
+        return found
+
+    @cached_property
+    def strips(self) -> list[tuple[float, float, Pieces]]:
+        """The integral of D over each strip, from its beginning."""
+        return self.potential.slipped_strips
+
+    @cached_property
+    def beside(self) -> list[tuple[float, float, Pieces]]:
+        """Δg on each slip zone."""
+        now, found = self.potential, []
+        for lo, hi, s in now.slip:
+            ends = now.rule.ends
+            ends = ends[(ends[:, 0] >= lo) & (ends[:, 1] <= hi)]
+            if not ends.size:  # as short as marks are known
+                continue
+            places = Pieces.places(ends)
+            whole = Pieces.integral(places, now.strain(places, s))
+            if lo in self.at_ends:
+                start = self.at_ends[lo]
+            elif hi in self.at_ends:
+                start = self.at_ends[hi] - whole.last
+            else:
+                start = self._across_gap(lo, hi, whole.last)
+            whole.series[..., 0] += start
+            found.append((lo, hi, whole))
+        return found
+
+    def _across_gap(self, lo: float, hi: float, across: float) -> float:
+        """Δg at the left edge of a patch that slides as a whole, from the nearest stick zone."""
+        ends = self.potential.stick.ravel()
+        if (ends < lo).any():
+            e = float(ends[ends < lo].max())
+            return self.at_ends[e] + self._gained(e, lo)
+        e = float(ends.min())
+        return self.at_ends[e] - self._gained(hi, e) - across
+
+    def _gained(self, lo: float, hi: float) -> float:
+        """What Δg gains between places outside the stick zones."""
+        now, total = self.potential, 0.0
+        inside = now.sources[(now.sources[:, 0] >= lo) & (now.sources[:, 1] <= hi)]
+        for a, b in pairwise(np.unique(np.append(inside, (lo, hi))).tolist()):
+            places = Pieces.places(np.array([[a, b]]))
+            sense = next((s for x1, x2, s in now.slip if x1 <= a and b <= x2), 0.0)
+            total += Pieces.integral(places, now.strain(places, sense)).last
+        return total

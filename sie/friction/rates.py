@@ -12,6 +12,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,8 +21,10 @@ from sie.inheritance import override
 from sie.numerics.chord import Chord
 from sie.numerics.graded_panels import Rule
 
-from .gained_slip import GainedSlip
-from .potentials import Potential, Slips
+from .potentials import GainedSlip, Potential, Slips
+
+if TYPE_CHECKING:
+    from .equations import Equations
 
 Array = NDArray[np.float64]
 Zones = Sequence[tuple[float, float]]
@@ -155,6 +158,12 @@ class Rates:
 
         shear = Rate(stick, period, loads.Q, loads.tau, tuple(slip), limit, edges, len(edges) == 1)
         return cls(edges, friction, pressure, shear)
+
+    @classmethod
+    def where(cls, now: Equations, loads: LoadRates, friction: float) -> Rates:
+        """The rates where equations are solved."""
+        patches, stick, period = now.after.patches, now.zones.stick, now.after.period
+        return cls.solved(patches, stick, now.slip, loads, friction=friction, period=period)
 
     @property
     def K(self) -> Array:

@@ -30,8 +30,9 @@ from sie.traction.combination import superposed
 
 from .cells import zones_on_cells
 from .finite_step import Part, newton
-from .gained_slip import GainedSlip, drag
+from .gained_slip import drag, paired
 from .loading import limit_on
+from .potentials import GainedSlip
 from .slip_state import Slip, Step
 from .state import SAME, Contact, State, Zones, intervals, refuse_inadmissible
 
@@ -127,7 +128,7 @@ class TwoSignedSlip(StateSlip):
     @property
     def energy(self) -> float:
         now = self.part.state.contact
-        return self._gained.paired(now.limit.on, now) * 2.0 / self.step.scene.Estar
+        return paired(self._gained, now.limit.on, now) * 2.0 / self.step.scene.Estar
 
     @property
     def shift(self) -> float:

@@ -31,8 +31,9 @@ from sie.numerics.root_finding import false_position
 
 from .equations import Equations
 from .finite_step import Part, balanced
-from .gained_slip import GainedSlip
+from .gained_slip import paired
 from .loading import LoadStep
+from .potentials import GainedSlip
 from .rates import Rates
 from .state import State, Zones
 from .strips import TAU, Panel
@@ -65,7 +66,7 @@ def work(part: Part, step: LoadStep) -> float:
             "energy lost is not covered; ask for the state alone, or change Q at constant P"
         )
     contact = part.state.contact
-    whole, error = GainedSlip(part.equations).paired(contact.limit.on, contact), 0.0
+    whole, error = paired(GainedSlip(part.equations), contact.limit.on, contact), 0.0
     if not step.constant:
         if part.panel is not None:
             moved, error = _of_panel(part.panel)
@@ -112,7 +113,7 @@ def _sticking(state: State) -> list[bool]:
 
 def _by_pressure(now: Equations, rates: Rates) -> float:
     """∫ f dp/dt s Δg dx."""
-    return rates.friction * GainedSlip(now).paired(rates.pressure.density, now.after)
+    return rates.friction * paired(GainedSlip(now), rates.pressure.density, now.after)
 
 
 @lru_cache(maxsize=2)
@@ -208,7 +209,9 @@ class Way(ZonesBetween):
                 return between, doubt
         if share not in self.values:
             now = self.known[share]
-            self.values[share] = _by_pressure(now, now.rates(self.step.rates, self.step.friction))
+            self.values[share] = _by_pressure(
+                now, Rates.where(now, self.step.rates, self.step.friction)
+            )
         return self.values[share], 0.0
 
     def _between(self, share: float) -> tuple[float, float, tuple[float, float]]:

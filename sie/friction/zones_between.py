@@ -21,8 +21,9 @@ from sie.numerics.zones import within
 from .cells import zones_on_cells
 from .equations import Equations
 from .finite_step import Part, newton
-from .gained_slip import GainedSlip
 from .onset import onset
+from .potentials import GainedSlip
+from .rates import Rates
 from .state import Zones
 from .strips import TAU, at_share, in_time
 
@@ -86,7 +87,7 @@ class ZonesBetween:
         """The equations from a guess, if they are solved and nothing in it sticks or turns."""
         try:
             found = newton(self.before, after, guess)
-            rates = found.rates(self.step.rates, self.step.friction)
+            rates = Rates.where(found, self.step.rates, self.step.friction)
         except ContactError:
             return None
         margins = rates.signed_K[np.isfinite(rates.signed_K)]
