@@ -28,7 +28,7 @@ if TYPE_CHECKING:  # what a stage needs is imported when it is computed
     from sie.friction.coupled.answer import CoupledContact
     from sie.friction.coupled.traction import OnPieces
     from sie.friction.full_stick import Component
-    from sie.friction.slip_state import Slip, Touching
+    from sie.friction.slip import Slip, Touching
     from sie.patches.answer import SeveralPatches
     from sie.patches.full import FullContact
     from sie.patches.result import PatchCertificate
@@ -204,7 +204,7 @@ class Sheared(Frictionless):
         or no zones of stick and slip meet all conditions.
         """
         from sie.friction.partial_slip import slip
-        from sie.friction.slip_state import Step
+        from sie.friction.slip import Step
 
         under = self._under if self._several is None else in_patches
         return slip(Step(self.scene, self.touching, *loads, self.economy, under), one_sign)

@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from sie.friction.slip_state import Slip
+from sie.friction.slip import Slip
 from sie.friction.state import SAME, change_of_shear, excess_in_stick, intervals, opposing_slip
 from sie.numerics.chord import Chord, Points
 from sie.numerics.graded_panels import Rule as GradedRule

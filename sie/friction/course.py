@@ -7,8 +7,10 @@ alone. An end that recedes no longer, and slip that turns, end a part.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import dataclass, replace
+from itertools import chain
 
 import numpy as np
 from numpy.typing import NDArray
@@ -65,18 +67,12 @@ def _next_part(state: State, step: LoadStep, begun: float, last: Part | None) ->
     zones = onset(state, step.rates, step.friction, known)
     if opened:
         zones = zones.split(*opened)
-    receding = with_receding_ends(state, step, begun, zones, last)
-    likely = receding if len(zones.zones) > len(state.stick) > 0 else zones
-    left_behind = [  # slip that begins at an edge may be left behind by it
-        zones.moved(j, replace(end, motion=Motion.ADVANCES))
-        for j, end in enumerate(zones.ends)
-        if end.motion is Motion.RECEDES and end.place in np.ravel(state.contact.patches)
-    ]
+    candidates = _candidates(state, step, begun, zones, last)
+    likely = next(candidates)
     finite_first = begun == 0.0 and not likely.sticks_anew
-    tried = [None, likely] if finite_first else [likely, None]  # None: a finite step
-    others = [now for now in (zones, receding) if now != likely]
+    first = [None, likely] if finite_first else [likely, None]  # None: a finite step
     problems = []
-    for now in [*tried, *others, *left_behind]:
+    for now in chain(first, candidates):
         try:
             if now is None:
                 return _without_what_slipped(finite_part(state, step, begun), likely)
@@ -85,6 +81,27 @@ def _next_part(state: State, step: LoadStep, begun: float, last: Part | None) ->
         except ContactError as problem:
             problems.append(str(problem))
     raise _lost(begun, "; ".join(problems))
+
+
+def _candidates(
+    state: State, step: LoadStep, begun: float, zones: Onset, last: Part | None
+) -> Iterator[Onset]:
+    """The zones of a part, the likely ones first.
+
+    Ends that leap to where K = 0 may recede at once, as they mostly do where a stick zone is new;
+    slip that begins at an edge may be left behind by it.
+    """
+    new = len(zones.zones) > len(state.stick) > 0
+    if not new:
+        yield zones
+    receding = with_receding_ends(state, step, begun, zones, last)
+    if new or receding != zones:
+        yield receding
+    if new and receding != zones:
+        yield zones
+    for j, end in enumerate(zones.ends):
+        if end.motion is Motion.RECEDES and end.place in np.ravel(state.contact.patches):
+            yield zones.moved(j, replace(end, motion=Motion.ADVANCES))
 
 
 def _without_what_slipped(part: Part, zones: Onset) -> Part:

@@ -13,9 +13,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from .loading import TAU, at_share, in_time
 from .onset import ROUNDED, End, Motion
 from .state import EXCEEDED
-from .strips import TAU, Panel, StripEquations, at_share, in_time
+from .strips import Panel, StripEquations
 
 Array = NDArray[np.float64]
 

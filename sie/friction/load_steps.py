@@ -25,7 +25,7 @@ from .finite_step import Part
 from .loading import Contacts, Loads, LoadStep, contact_under
 from .memory import LoadMemory, SlippedLayer, in_proportion, simple
 from .onset import Motion, onset
-from .slip_state import Slip
+from .slip import Slip
 from .state import State, alike
 
 Result = TypeVar("Result")
@@ -121,13 +121,13 @@ def turning_points(scene: Scene, path: Path, contacts: Followable) -> tuple[Turn
             named(k, loads, partial(refuse_sliding, f, loads.P, loads.Q))
     state = TurningPoint(points[0]._replace(Q=0.0, sigma=0.0))
     for k, loads in counted("load path", enumerate(points), len(points)):
-        again = _again(found, loads)
-        state = again or named(k, loads, partial(stepped, contacts, state, loads))
+        repeated = _repeated(found, loads)
+        state = repeated or named(k, loads, partial(stepped, contacts, state, loads))
         found.append(state)
     return tuple(found)
 
 
-def _again(found: list[TurningPoint], loads: Loads) -> TurningPoint | None:
+def _repeated(found: list[TurningPoint], loads: Loads) -> TurningPoint | None:
     """The point after an earlier step between the same loads, if q was then what it is now."""
     for before, after in pairwise(found):
         same = (before.loads, after.loads) == (found[-1].loads, loads)

@@ -1,12 +1,17 @@
-"""The loads of a path, the contact under them, and a step from one point to the next."""
+"""The loads of a path, the contact under them, and a step from one point to the next.
+
+The moments of a part of a step are t0 + T τ², τ the nodes of Clenshaw and Curtis on [0, 1], and
+what is known at them is a Chebyshev series in τ: a part begins like a series in sqrt(t).
+"""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 import numpy as np
+from numpy.typing import NDArray
 
 from sie.numerics.graded_panels import Pieces
 
@@ -17,9 +22,30 @@ if TYPE_CHECKING:
     from sie.problem.scene import Scene
     from sie.traction.base import Density
 
+Array = NDArray[np.float64]
 
+MOMENTS = 12
+TAU = 0.5 * (1.0 - np.cos(np.pi * np.arange(MOMENTS + 1) / MOMENTS))
 FEW = 8  # breaks in contact: of more, of a trace, each one is faint
 FIRST = 1e-14  # of a step from nothing: after that the bodies touch
+
+
+@lru_cache(maxsize=2)
+def _transform(first: int) -> Array:
+    """Coefficients in T_k(2τ - 1) from values at the moments, from `first` on."""
+    values = np.polynomial.chebyshev.chebvander(2.0 * TAU[first:] - 1.0, MOMENTS - first)
+    return np.asarray(np.linalg.inv(values), dtype=np.float64)
+
+
+def in_time(values: Array) -> Array:
+    """The series of values at the moments, with the one at the start or without."""
+    return _transform(MOMENTS + 1 - len(values)) @ values
+
+
+def at_share(series: Array, share: float | Array) -> Array:
+    """The value of a series at shares τ."""
+    value = np.polynomial.chebyshev.chebval(2.0 * np.asarray(share) - 1.0, series)
+    return np.asarray(value, dtype=np.float64)
 
 
 class Loads(NamedTuple):

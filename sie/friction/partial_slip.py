@@ -19,7 +19,7 @@ p̂ and for the slip, and one rigid shift of all patches is for q what one appro
 where the patches of p̂ lie within those of p and p̂ <= 2p there, as they do on one patch with
 π r |τ| <= |Q|, r its half-width, and without τ. In incipient sliding, |Q| = f P, p̂ = 0 and the gap
 is that of the profile as it touches first. Where slip has two directions the state is one finite
-step of the engine (`state_slip`).
+step of the engine (`slip_of_state`).
 
 Along the step dq is the pressure of a tilted flat punch on the stick zones. If that has the sign of
 slip on the patches of p it does so on all that lie within (sweeping a positive charge inwards
@@ -52,8 +52,8 @@ from sie.problem.coverage import refuse_sliding, remaining
 from sie.traction.combination import ZERO, superposed
 
 from .rates import Rate
-from .slip_state import NoSlip, Slip, Step, Touching
-from .state_slip import two_signed
+from .slip import NoSlip, Slip, Step, Touching
+from .slip_of_state import two_signed
 
 if TYPE_CHECKING:
     from sie.problem.scene import Scene

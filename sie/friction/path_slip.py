@@ -20,12 +20,12 @@ from sie.numerics.zones import left_over, within
 from sie.traction.base import Density
 from sie.traction.combination import ZERO, superposed
 
-from .gained_slip import drag
+from .equations import scaled_shift
 from .load_steps import Followable, TurningPoint
 from .loading import Loads, contact_under
-from .slip_state import Slip
+from .slip import Slip
+from .slip_of_state import StateSlip
 from .state import SAME, State, intervals
-from .state_slip import StateSlip
 from .step_energy import work
 from .zones_between import slip
 
@@ -243,5 +243,5 @@ def _shift_of_parts(history: Followable, point: TurningPoint) -> float:
         rates = step.rates
         moved = 0.5 * math.pi * rates.tau * (x1 + x2) - rates.Q * math.log(0.25 * (x2 - x1))
         stuck_shift += float(w) * moved
-    whole = sum(drag(part.before, part.state, part.stuck) for part in point.parts)
+    whole = sum(scaled_shift(part.before, part.state, part.stuck) for part in point.parts)
     return (whole - stuck_shift) / (0.5 * math.pi * history.scene.Estar)

@@ -32,20 +32,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from sie.errors import ContactError
 from sie.numerics import chebyshev
 from sie.numerics.chord import Chord
-from sie.numerics.graded_panels import (
-    OF_RULES,
-    Pieces,
-    Rule,
-    breaks_for,
-    principal_value,
-)
+from sie.numerics.graded_panels import OF_RULES, Pieces, Rule, breaks_for, principal_value
+from sie.numerics.zones import Slips
 
 Array = NDArray[np.float64]
-Slips = tuple[tuple[float, float, float], ...]
 
-NODES, MOST_NODES = 48, 6144
+NODES, MOST_NODES = 48, 6144  # of the series over a gap, doubled until it has settled
 SETTLED, TAIL = 1e-13, 6  # of the largest coefficient: the last ones of a series that has settled
 NEGLIGIBLE = 1e-17  # of the same: left out
 
@@ -66,8 +61,13 @@ class Gap:
             places, cosine = self._places(0.5 * (1.0 + u), 0.5 * (1.0 - u))
             c = chebyshev.transform(root(places) * cosine / np.sqrt((1.0 + u) * (1.0 - u)))
             size = np.abs(c)
-            if size[-TAIL:].max() <= SETTLED * size.max() or n >= MOST_NODES:
+            if size[-TAIL:].max() <= SETTLED * size.max() or np.isnan(size).any():
                 break
+            if n == MOST_NODES:
+                raise ContactError(
+                    f"the gap [{ends[0]:g}, {ends[1]:g}] is too long for the zones beside it: "
+                    f"{MOST_NODES} terms do not settle its series"
+                )
             n *= 2
         c = np.append(c[: chebyshev.chopped_length(c, NEGLIGIBLE * size.max())], (0.0, 0.0))
         self.series = 0.5 * (c[:-2] - c[2:])
@@ -277,7 +277,7 @@ class Potential(ABC):
 
 
 @dataclass(eq=False)
-class GainedSlip:
+class RelativeSlip:
     """(E*/2) Δg from a place that stuck all along, or the rate of g, of a potential.
 
     (E*/2) dΔg/dx = Re F - B beside the stick zones, and D on strips. Beside a stick zone it is

@@ -9,7 +9,7 @@ end.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
@@ -20,14 +20,14 @@ from numpy.typing import NDArray
 from sie.inheritance import override
 from sie.numerics.chord import Chord
 from sie.numerics.graded_panels import Rule
+from sie.numerics.zones import Slips, Zones
 
-from .potentials import GainedSlip, Potential, Slips
+from .potentials import Potential, RelativeSlip
 
 if TYPE_CHECKING:
     from .equations import Equations
 
 Array = NDArray[np.float64]
-Zones = Sequence[tuple[float, float]]
 # angles in a slip zone where its direction is tested
 TESTED = np.sin(0.5 * np.pi * np.linspace(0.0, 1.0, 26)[1:-1]) ** 2
 
@@ -189,7 +189,7 @@ class Rates:
     @cached_property
     def slips(self) -> Array:
         """The rates of slip in the direction of each slip zone, at TESTED, (zones, places)."""
-        slips = GainedSlip(self.shear)
+        slips = RelativeSlip(self.shear)
         rates = [s * slips.at(lo + (hi - lo) * TESTED) for lo, hi, s in self.shear.slip]
         return np.array(rates).reshape(-1, len(TESTED))
 

@@ -12,11 +12,10 @@ from numpy.typing import NDArray
 from sie.errors import ContactError
 from sie.numerics.chord import Chord
 from sie.numerics.graded_panels import OF_SERIES, Pieces, Rule
-from sie.numerics.zones import united
+from sie.numerics.zones import Slips, united
 
 Array = NDArray[np.float64]
 Ends = tuple[tuple[float, float], ...]
-Slips = tuple[tuple[float, float, float], ...]
 
 SAME = 1e-11  # of the contact: marks that are closer are one
 ALIKE = 1e-12  # of f P: shears that differ by less are one

@@ -27,16 +27,16 @@ from numpy.polynomial.chebyshev import chebvander
 from numpy.typing import NDArray
 
 from sie.errors import ContactError
+from sie.numerics.clenshaw_curtis import clenshaw_curtis
 from sie.numerics.root_finding import false_position
 
-from .equations import Equations
+from .equations import Equations, slip_work
 from .finite_step import Part, balanced
-from .gained_slip import paired
-from .loading import LoadStep
-from .potentials import GainedSlip
+from .loading import TAU, LoadStep
+from .potentials import RelativeSlip
 from .rates import Rates
 from .state import State, Zones
-from .strips import TAU, Panel
+from .strips import Panel
 from .zones_between import ZonesBetween
 
 Array = NDArray[np.float64]
@@ -66,7 +66,7 @@ def work(part: Part, step: LoadStep) -> float:
             "energy lost is not covered; ask for the state alone, or change Q at constant P"
         )
     contact = part.state.contact
-    whole, error = paired(GainedSlip(part.equations), contact.limit.on, contact), 0.0
+    whole, error = slip_work(RelativeSlip(part.equations), contact.limit.on, contact), 0.0
     if not step.constant:
         if part.panel is not None:
             moved, error = _of_panel(part.panel)
@@ -100,7 +100,7 @@ def _turned(part: Part, step: LoadStep) -> float:
         on_the_way = [way.equations(float(share)) for share in shares[::-1]]
     except ContactError:
         return np.inf
-    slips = [GainedSlip(now).at(x) for now in (part.equations, *on_the_way)]
+    slips = [RelativeSlip(now).at(x) for now in (part.equations, *on_the_way)]
     to_and_fro = np.abs(np.diff([*slips, 0.0 * x], axis=0)).sum(axis=0)
     more = contact.limit(x) * (to_and_fro - np.abs(slips[0]))
     return float(more.mean() * sum(hi - lo for lo, hi in contact.patches))
@@ -113,17 +113,14 @@ def _sticking(state: State) -> list[bool]:
 
 def _by_pressure(now: Equations, rates: Rates) -> float:
     """∫ f dp/dt s Δg dx."""
-    return rates.friction * paired(GainedSlip(now), rates.pressure.density, now.after)
+    return rates.friction * slip_work(RelativeSlip(now), rates.pressure.density, now.after)
 
 
 @lru_cache(maxsize=2)
-def _clenshaw_curtis(n: int) -> tuple[Array, Array, Array]:
-    """Nodes from 0 to 1, weights of ∫, and the matrix of Chebyshev coefficients."""
-    nodes = 0.5 * (1.0 - np.cos(np.pi * np.arange(n + 1) / n))
-    k = np.arange(n + 1)
-    of_polynomials = np.where(k % 2, 0.0, 1.0 / (1.0 - np.where(k % 2, 0.0, k) ** 2))
-    transform = np.asarray(np.linalg.inv(chebvander(2.0 * nodes - 1.0, n)), dtype=np.float64)
-    return nodes, np.asarray(of_polynomials @ transform), transform
+def _last_coefficients(n: int) -> Array:
+    """The matrix of the last three Chebyshev coefficients of values at the nodes, (3, n + 1)."""
+    values = chebvander(2.0 * clenshaw_curtis(n)[0] - 1.0, n)
+    return np.asarray(np.linalg.inv(values), dtype=np.float64)[-3:]
 
 
 def _integral(values: Array) -> tuple[float, float]:
@@ -132,9 +129,8 @@ def _integral(values: Array) -> tuple[float, float]:
     A term T_n adds 1/n² to the integral, about.
     """
     n = len(values) - 1
-    _, weights, transform = _clenshaw_curtis(n)
-    tail = np.abs(transform[-3:] @ values).max()
-    return float(weights @ values), float(tail) / n**2
+    tail = np.abs(_last_coefficients(n) @ values).max()
+    return float(clenshaw_curtis(n)[1] @ values), float(tail) / n**2
 
 
 def _of_panel(panel: Panel) -> tuple[float, float]:
@@ -176,7 +172,7 @@ class Way(ZonesBetween):
 
     def integral(self, a: float, b: float) -> tuple[float, float]:
         """∫ dt ∫ f dp/dt s Δg dx between two shares, and its error."""
-        v = _clenshaw_curtis(INTERVALS)[0][1:-1]
+        v = clenshaw_curtis(INTERVALS)[0][1:-1]
         turn, pace = np.sin(0.5 * np.pi * v) ** 2, 0.5 * np.pi * np.sin(np.pi * v)
         values, doubt = np.zeros(INTERVALS + 1), 0.0
         for i in range(INTERVALS - 2, -1, -1):

@@ -19,11 +19,11 @@ from sie.numerics.zones import left_over
 from .cells import zones_on_cells
 from .events import AT_THE_END, UNRESOLVED, Event, first_event, is_there, margin_at
 from .finite_step import Part
-from .loading import LoadStep
+from .loading import MOMENTS, LoadStep, at_share, in_time
 from .onset import End, Motion, Onset, resting_place, set_out
 from .rates import Rates
 from .state import EXCEEDED, TURNS, State, excess_in_stick, overlaps, refuse_inadmissible
-from .strips import MOMENTS, Panel, Span, at_share, in_time, solved_panel
+from .strips import Panel, Span, solved_panel
 
 Array = NDArray[np.float64]
 

@@ -13,16 +13,15 @@ come. At each moment of a part every end then has one unknown:
 
 w is about sqrt(|x - x0'|), x0' the other end of the stick zone as the part begins.
 
-The moments are t_i = t0 + T τ_i², τ_i = (1 - cos(π i/n))/2, i = 1...n: a part begins like a series
-in sqrt(t). Moving an end adds a charge to F as in a finite step, and D enters linearly, so that all
-derivatives but those of K are exact.
+The moments t_i, i = 1...n, are those of `loading`. Moving an end adds a charge to F as in a finite
+step, and D enters linearly, so that all derivatives but those of K are exact.
 """
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from functools import cached_property, lru_cache
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -34,6 +33,7 @@ from sie.numerics import chebyshev
 from sie.numerics.graded_panels import Pieces
 
 from .equations import Equations
+from .loading import MOMENTS, TAU
 from .onset import Motion, Onset
 from .state import Zones
 
@@ -46,8 +46,6 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-MOMENTS = 12
-TAU = 0.5 * (1.0 - np.cos(np.pi * np.arange(MOMENTS + 1) / MOMENTS))
 STEPS = 25  # of Newton's method
 SETTLED, GOOD = 2e-14, 1e-10  # of the contact: the longest step of an end
 CLOSEST = 0.6  # of the distance to its neighbour: an end moves so far at most in a step
@@ -55,23 +53,6 @@ NEAR = 1e-4  # of the contact: after so short a step the slopes of K are kept
 FAR, ABSURD = 0.1, 1e4  # steps of the contact, and D over f p, that show that it does not converge
 ROUNDED = 1e-4  # of f p: the smallest D of which so much is resolved
 DIFFERENCE = 1e-6  # of the distance to its neighbour: the step of a difference
-
-
-@lru_cache(maxsize=2)
-def _transform(first: int) -> Array:
-    """Coefficients in T_k(2τ - 1) from values at the moments, from `first` on."""
-    values = np.polynomial.chebyshev.chebvander(2.0 * TAU[first:] - 1.0, MOMENTS - first)
-    return np.asarray(np.linalg.inv(values), dtype=np.float64)
-
-
-def in_time(values: Array) -> Array:
-    """The series of values at the moments, with the one at the start or without."""
-    return _transform(MOMENTS + 1 - len(values)) @ values
-
-
-def at_share(series: Array, share: float | Array) -> Array:
-    value = np.polynomial.chebyshev.chebval(2.0 * np.asarray(share) - 1.0, series)
-    return np.asarray(value, dtype=np.float64)
 
 
 @dataclass(frozen=True)

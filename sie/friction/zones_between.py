@@ -21,15 +21,17 @@ from sie.numerics.zones import within
 from .cells import zones_on_cells
 from .equations import Equations
 from .finite_step import Part, newton
+from .loading import TAU, at_share, in_time
 from .onset import onset
-from .potentials import GainedSlip
+from .potentials import RelativeSlip
 from .rates import Rates
 from .state import Zones
-from .strips import TAU, at_share, in_time
 
 if TYPE_CHECKING:
+    from sie.numerics.zones import Slips
+
     from .loading import LoadStep
-    from .state import Contact, Ends, Slips, State
+    from .state import Contact, Ends, State
 
 Array = NDArray[np.float64]
 
@@ -163,7 +165,7 @@ def _zones_at(
 
 def slip(part: Part, step: LoadStep, x: Array) -> Array:
     """The slip at places (1-d); at one that came into contact in the part, since then."""
-    found = GainedSlip(part.equations).at(x)
+    found = RelativeSlip(part.equations).at(x)
     old, new = (part.before.contact.patches, part.state.contact.patches)
     touches, touched = within(x, new), within(x, old)
     gained = touches & ~touched
@@ -192,7 +194,7 @@ def _slip_at_touch(part: Part, step: LoadStep, x: Array) -> Array:
             if outward and gained.any():
                 edges = [equations.after.patches[k][side] for equations in moments]
                 slips = [
-                    GainedSlip(equations).at(np.array([e]))[0]
+                    RelativeSlip(equations).at(np.array([e]))[0]
                     for equations, e in zip(moments, edges)
                 ]
                 tau = _time_at(in_time(np.array([was[side], *edges])), x[gained], side == 1)

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 Zones = Sequence[tuple[float, float]]
+Slips = tuple[tuple[float, float, float], ...]  # (lo, hi, direction of slip)
 
 
 def united(zones: Zones) -> tuple[tuple[float, float], ...]:

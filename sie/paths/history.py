@@ -58,7 +58,7 @@ from .path_contacts import PathContacts
 if TYPE_CHECKING:
     from sie.certificate.result import ShearCertificate
     from sie.contact.known_contact import Normal
-    from sie.friction.slip_state import Slip
+    from sie.friction.slip import Slip
     from sie.patches.answer import SeveralPatches
     from sie.patches.result import PatchCertificate
     from sie.problem.scene import Scene

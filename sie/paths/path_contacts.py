@@ -24,7 +24,7 @@ from sie.patches.full import FullContact
 from sie.problem.load_path import Path, unsheared
 
 if TYPE_CHECKING:
-    from sie.friction.slip_state import Slip
+    from sie.friction.slip import Slip
     from sie.friction.state import State
     from sie.patches.answer import SeveralPatches
     from sie.problem.scene import Scene

@@ -20,7 +20,7 @@ from numpy.typing import ArrayLike, NDArray
 from sie.friction.load_steps import TurningPoint
 from sie.friction.loading import Loads
 from sie.friction.path_slip import CourseSlip, step_slip
-from sie.friction.slip_state import Slip
+from sie.friction.slip import Slip
 from sie.numerics.zones import within
 from sie.solution import Solution
 from sie.stress.fretting import Cycle

@@ -16,10 +16,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie.errors import ContactError
+from sie.numerics.clenshaw_curtis import integral
 from sie.numerics.graded_panels import Pieces as Series
 from sie.numerics.graded_panels import Rule
 from sie.numerics.interval import Interval
-from sie.numerics.nested_rule import integral
 
 from .fields import Fields
 from .frozen import Frozen

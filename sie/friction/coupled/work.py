@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie.errors import ContactError
-from sie.numerics.nested_rule import integral
+from sie.numerics.clenshaw_curtis import integral
 
 from .search import ROUGHLY, Zones, passing, settled, zones_of
 from .step import Loaded, guess, slip_along

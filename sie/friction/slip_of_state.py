@@ -29,11 +29,11 @@ from sie.numerics.root_finding import false_position
 from sie.traction.combination import superposed
 
 from .cells import zones_on_cells
+from .equations import scaled_shift, slip_work
 from .finite_step import Part, newton
-from .gained_slip import drag, paired
 from .loading import limit_on
-from .potentials import GainedSlip
-from .slip_state import Slip, Step
+from .potentials import RelativeSlip
+from .slip import Slip, Step
 from .state import SAME, Contact, State, Zones, intervals, refuse_inadmissible
 
 if TYPE_CHECKING:
@@ -119,8 +119,8 @@ class TwoSignedSlip(StateSlip):
         )
 
     @cached_property
-    def _gained(self) -> GainedSlip:
-        return GainedSlip(self.part.equations)
+    def _gained(self) -> RelativeSlip:
+        return RelativeSlip(self.part.equations)
 
     def slip(self, x: Array) -> Array:
         return self._gained.at(x) * (2.0 / self.step.scene.Estar)
@@ -128,14 +128,14 @@ class TwoSignedSlip(StateSlip):
     @property
     def energy(self) -> float:
         now = self.part.state.contact
-        return paired(self._gained, now.limit.on, now) * 2.0 / self.step.scene.Estar
+        return slip_work(self._gained, now.limit.on, now) * 2.0 / self.step.scene.Estar
 
     @property
     def shift(self) -> float:
         contact, step = self.contact, self.step
         stuck = math.pi * step.tau * contact.m - step.Q * math.log(0.5 * contact.r)
-        dragged = drag(self.part.before, self.part.state, self.part.stuck)
-        return (dragged - stuck) / (0.5 * math.pi * step.scene.Estar)
+        shifted = scaled_shift(self.part.before, self.part.state, self.part.stuck)
+        return (shifted - stuck) / (0.5 * math.pi * step.scene.Estar)
 
 
 def two_signed(step: Step) -> TwoSignedSlip:

@@ -1,9 +1,10 @@
-"""The rule of Clenshaw and Curtis, whose nodes are doubled until two sums agree."""
+"""The rule of Clenshaw and Curtis; an integral whose nodes are doubled until two sums agree."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,7 +24,7 @@ def integral(
     values: dict[float, float] = {}
     sums: list[float] = []
     for n in INTERVALS:
-        v, weight = _clenshaw_curtis(n)
+        v, weight = clenshaw_curtis(n)
         places = (first + (last - first) * v**2 * (3.0 - 2.0 * v)).tolist()[1:-1]
         values |= {x: function(x) for x in places if x not in values}
         mean = (6.0 * weight * v * (1.0 - v))[1:-1] @ [values[x] for x in places]
@@ -40,8 +41,9 @@ def _error(sums: list[float]) -> float:
     return last * min(1.0, last / before) if before else last
 
 
-def _clenshaw_curtis(n: int) -> tuple[Array, Array]:
-    """Nodes and weights on (0, 1), with n intervals."""
+@lru_cache(maxsize=16)
+def clenshaw_curtis(n: int) -> tuple[Array, Array]:
+    """Nodes and weights on [0, 1], with n intervals."""
     k = np.arange(n + 1)
     angle, m = math.pi * k / n, np.arange(1, n // 2 + 1)
     factor = np.where(m == n // 2, 1.0, 2.0) / (4.0 * m**2 - 1.0)
